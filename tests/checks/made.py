@@ -1,4 +1,4 @@
-"""Made facts: short ways to write down what a check could have seen."""
+"""Builders for the facts that a check could have observed."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ KeyboardInterrupt"""
 
 
 def lines(text: str, stream: str = "stderr", at: float = START) -> tuple[OutputLine, ...]:
-    """The lines of `text`, written at once."""
+    """The lines of `text` as output, all written at time `at`."""
     return tuple(OutputLine(stream, line, at) for line in text.splitlines())
 
 
@@ -41,7 +41,7 @@ def sample(topic: str, data: Any, at: float) -> Sample:
 
 
 def samples(topic: str, hz: float, *, count: int = 10, data: Any = "Hello") -> tuple[Sample, ...]:
-    """`count` messages that came at a steady rate."""
+    """`count` messages at a steady rate."""
     return tuple(sample(topic, data, START + 1 + i / hz) for i in range(count))
 
 
@@ -58,7 +58,7 @@ def graph(
     publishers: Mapping[str, str] | None = None,
     services: Mapping[str, str] | None = None,
 ) -> Graph:
-    """A graph: topics and services to their types."""
+    """A graph in which `publishers` and `services` map names to types."""
     return Graph(
         nodes=tuple(nodes),
         publishers=tuple(publisher(*each) for each in (publishers or {}).items()),
@@ -67,7 +67,7 @@ def graph(
 
 
 UP = graph()
-"""A node is up, and offers nothing."""
+"""A node is up and offers nothing."""
 
 
 def exited(code: int | None = 0, *, signal: int | None = None, after_s: float = 1.0) -> Exit:
@@ -83,7 +83,7 @@ def trace(
     exit: Exit | None = None,
     **more: Any,
 ) -> Trace:
-    """A start of node.py with what was seen of it; without arguments, a node that runs and says nothing."""
+    """A run of node.py and what was observed of it; without arguments, a node that runs and writes nothing."""
     by_topic: dict[str, tuple[Sample, ...]] = {}
     for each in messages:
         by_topic[each.topic] = (*by_topic.get(each.topic, ()), each)
@@ -104,9 +104,9 @@ NO_NODE = trace(graph=Graph())
 CRASHED = trace(graph=Graph(), err=CRASH, exit=exited(1))
 
 
-def ending(code: int | None = 0, *, signal: int | None = None, err: str = "", still_there: bool = False) -> Ending:
+def ending(code: int | None = 0, *, signal: int | None = None, err: str = "", still_running: bool = False) -> Ending:
     """How the process ended after Ctrl+C."""
-    return Ending(None if still_there else exited(code, signal=signal, after_s=3.0), 0.14, 5.0, lines(err))
+    return Ending(None if still_running else exited(code, signal=signal, after_s=3.0), 0.14, 5.0, lines(err))
 
 
 def parameter(name: str, type_name: str, value: Any, **more: Any) -> Parameter:
@@ -124,7 +124,7 @@ def refused(values: Mapping[str, Any], reason: str = "the rate must be > 0") -> 
 
 
 def called(service: str, a: int, b: int, result: int | None) -> CallAnswer:
-    """A call; `result` None: no answer."""
+    """A service call; a `result` of None means that it was not answered."""
     response = None if result is None else {"sum": result}
     took_s = 5.0 if result is None else 0.01
     return CallAnswer(service, {"a": a, "b": b}, response, START, START + took_s)
@@ -147,7 +147,7 @@ def assert_undecided(verdict: Verdict) -> None:
 
 
 def assert_failed(verdict: Verdict | None, cause: str, *words: str) -> None:
-    """It failed for this cause (by its name), said all that a diagnosis needs, and these words among it."""
+    """Fail unless the verdict failed with the cause of this name, is complete, and contains these words."""
     assert verdict is not None
     assert verdict.status is Status.FAILED, verdict
     assert verdict.cause.partition(":")[0] == cause, verdict

@@ -1,4 +1,4 @@
-"""I1.1: made starts, values, rates and names, and what must be said of each."""
+"""I1.1: verdicts on fabricated starts, values, rates and names."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def plain_start(seen: Trace, **more: Any) -> PlainStart:
 
 @pytest.mark.parametrize("parameters", [None, ()])
 @pytest.mark.parametrize("seen", [trace(*MESSAGES, graph=PUBLISHING), trace(MESSAGES[0], graph=UP)])
-def test_publishes(seen: Trace, parameters: Any) -> None:
+def test_publishes_passes(seen: Trace, parameters: Any) -> None:
     assert_passed(judge_publishes(plain_start(seen, parameters=parameters)))
 
 
@@ -81,12 +81,12 @@ def test_publishes(seen: Trace, parameters: Any) -> None:
         (trace(graph=UP), (), "no publisher"),
     ],
 )
-def test_publishes_not(seen: Trace, parameters: Any, cause: str) -> None:
+def test_publishes_fails(seen: Trace, parameters: Any, cause: str) -> None:
     assert_failed(judge_publishes(plain_start(seen, parameters=parameters)), cause)
 
 
 @given(st.lists(st.lists(st.floats(20, 30), min_size=1).map(tuple), min_size=1).map(tuple))
-def test_range(runs: tuple[tuple[float, ...], ...]) -> None:
+def test_range_passes(runs: tuple[tuple[float, ...], ...]) -> None:
     assert_passed(judge_range(CollectedValues(runs), CollectedValues(())))
 
 
@@ -95,7 +95,7 @@ def test_range(runs: tuple[tuple[float, ...], ...]) -> None:
     st.floats().filter(lambda value: not 20 <= value <= 30),
     st.lists(st.floats(20, 30), max_size=5),
 )
-def test_one_value_outside_is_outside(before: list[float], outside: float, after: list[float]) -> None:
+def test_one_value_outside_the_range_fails(before: list[float], outside: float, after: list[float]) -> None:
     verdict = judge_range(CollectedValues(((25.0,), (*before, outside, *after))), CollectedValues(()))
     assert verdict.cause.startswith(("out of range", "an int in a float field"))
     assert not verdict.passed
@@ -113,73 +113,73 @@ def test_one_value_outside_is_outside(before: list[float], outside: float, after
         ((), "no messages", "no values"),
     ],
 )
-def test_range_not(values: tuple[float, ...], cause: str, word: str) -> None:
+def test_range_fails(values: tuple[float, ...], cause: str, word: str) -> None:
     assert_failed(judge_range(CollectedValues((values, ())), CollectedValues(())), cause, word)
 
 
 @given(st.lists(st.floats(), max_size=9).map(tuple))
-def test_a_range_that_fails_so_far_fails(values: tuple[float, ...]) -> None:
+def test_a_range_that_fails_so_far_fails_in_the_end(values: tuple[float, ...]) -> None:
     so_far = judge_range_so_far(CollectedValues((values,)))
     whole = judge_range(CollectedValues((values, (25.0,))), CollectedValues(()))
     assert so_far is None or so_far.passed or not values or not whole.passed
 
 
-def test_of_two_values_it_is_not_told_that_all_are_in_fahrenheit() -> None:
+def test_two_values_are_too_few_to_diagnose_fahrenheit() -> None:
     assert judge_range_so_far(CollectedValues(((70.0, 75.0),))) is None
     assert_failed(judge_range_so_far(CollectedValues(((70.0, 75.0, 80.0),))), "out of range", "Fahrenheit")
     assert_failed(judge_range_so_far(CollectedValues(((35.0,),))), "out of range", "1 of 1 values outside")
 
 
-def test_the_values_of_other_starts_count_too() -> None:
+def test_values_of_other_starts_count_too() -> None:
     verdict = judge_range(CollectedValues(((25.0,), (24.0,))), CollectedValues(((21.0, 19.5),)))
     assert_failed(verdict, "out of range", "1 of 4 values outside, such as 19.5")
 
 
-def drawn(count: int = 24) -> tuple[float, ...]:
-    chance = random.Random(count)
-    return tuple(chance.uniform(20, 30) for _ in range(count))
+def draw_values(count: int = 24) -> tuple[float, ...]:
+    rng = random.Random(count)
+    return tuple(rng.uniform(20, 30) for _ in range(count))
 
 
 @pytest.mark.parametrize(
     "runs",
     [
-        (drawn(), drawn(8)),
-        (drawn(8), ()),
-        ((), drawn(3)),
-        (drawn(8), drawn(8)),
-        (drawn(3) + (25.0,) * 21, drawn()),
+        (draw_values(), draw_values(8)),
+        (draw_values(8), ()),
+        ((), draw_values(3)),
+        (draw_values(8), draw_values(8)),
+        (draw_values(3) + (25.0,) * 21, draw_values()),
         ((25.0, 26.0, 24.0) + (25.0,) * 21,) * 2,
     ],
 )
-def test_random(runs: tuple[tuple[float, ...], ...]) -> None:
+def test_random_passes(runs: tuple[tuple[float, ...], ...]) -> None:
     assert_passed(judge_random(CollectedValues(runs)))
 
 
 @pytest.mark.parametrize(
     ("runs", "cause"),
     [
-        ((drawn(), (25.0,) * 24), "constant value"),
-        (((25.0,) * 24, drawn()), "constant value"),
-        ((tuple(20 + i / 4 for i in range(24)), drawn()), "ramp"),
-        ((tuple(20.0 + i % 7 for i in range(24)), drawn()), "short cycle"),
+        ((draw_values(), (25.0,) * 24), "constant value"),
+        (((25.0,) * 24, draw_values()), "constant value"),
+        ((tuple(20 + i / 4 for i in range(24)), draw_values()), "ramp"),
+        ((tuple(20.0 + i % 7 for i in range(24)), draw_values()), "short cycle"),
         ((tuple(20.0 + i % 10 for i in range(10)),) * 2, "ramp"),
-        ((drawn(5) * 5, drawn(5) * 5), "short cycle"),
-        ((drawn(3) + (25.0,) * 21,) * 2, "constant value"),
-        ((drawn(2), drawn(1)), "no messages"),
+        ((draw_values(5) * 5, draw_values(5) * 5), "short cycle"),
+        ((draw_values(3) + (25.0,) * 21,) * 2, "constant value"),
+        ((draw_values(2), draw_values(1)), "no messages"),
         (((), ()), "no messages"),
     ],
 )
-def test_random_not(runs: tuple[tuple[float, ...], ...], cause: str) -> None:
+def test_random_fails(runs: tuple[tuple[float, ...], ...], cause: str) -> None:
     assert_failed(judge_random(CollectedValues(runs)), cause)
 
 
-def test_a_start_at_a_higher_rate_may_show_the_rule_behind_few_values() -> None:
-    few = (drawn(9)[:3], drawn(9)[:3])
+def test_more_values_from_a_faster_start_reveal_a_pattern() -> None:
+    few = (draw_values(9)[:3], draw_values(9)[:3])
     assert_passed(judge_random(CollectedValues(few)))
     assert_failed(judge_random(CollectedValues(few, regular=(21.5,) * 24)), "constant value")
 
 
-def test_echo() -> None:
+def test_echo_passes() -> None:
     assert_passed(judge_echo(plain_start(trace(*MESSAGES), echo=echo(TYPE))))
 
 
@@ -193,15 +193,14 @@ def test_echo() -> None:
         (None, "no messages"),
     ],
 )
-def test_echo_not(shown: Echo | None, cause: str) -> None:
+def test_echo_fails(shown: Echo | None, cause: str) -> None:
     assert_failed(judge_echo(plain_start(trace(*MESSAGES), echo=shown)), cause)
 
 
-def test_a_node_that_an_exception_has_ended_is_told_so_and_not_to_publish_from_a_timer() -> None:
-    crashed = CRASHED
-    assert_failed(judge_random(CollectedValues((drawn(1), ()), crashed)), "unhandled exception")
-    assert_failed(judge_echo(plain_start(crashed, echo=echo(shown=False))), "unhandled exception")
-    assert_failed(judge_echo(plain_start(crashed, echo=None)), "unhandled exception")
+def test_a_crash_is_the_cause_rather_than_a_missing_timer() -> None:
+    assert_failed(judge_random(CollectedValues((draw_values(1), ()), CRASHED)), "unhandled exception")
+    assert_failed(judge_echo(plain_start(CRASHED, echo=echo(shown=False))), "unhandled exception")
+    assert_failed(judge_echo(plain_start(CRASHED, echo=None)), "unhandled exception")
 
 
 RATE = parameter("publish_rate", "double", 1.0)
@@ -220,24 +219,24 @@ def rates(*probes: RateProbe, declared: tuple[Parameter, ...] | None = (RATE,)) 
 
 
 @given(st.lists(st.floats(0.81, 1.19), min_size=3, max_size=3))
-def test_any_rate_within_a_fifth_is_right(factors: list[float]) -> None:
+def test_rates_within_20_percent_pass(factors: list[float]) -> None:
     found = [probe(hz, hz * factor) for hz, factor in zip(RATES_HZ, factors, strict=True)]
     assert_passed(judge_rate(rates(*found)))
 
 
 @given(st.sampled_from(range(3)), st.floats(0.01, 0.79) | st.floats(1.21, 100))
-def test_any_other_rate_is_wrong(which: int, factor: float) -> None:
+def test_one_rate_off_by_more_than_20_percent_fails(which: int, factor: float) -> None:
     found = [probe(hz, hz * (factor if i == which else 1)) for i, hz in enumerate(RATES_HZ)]
     assert not judge_rate(rates(*found)).passed
 
 
 @given(st.sampled_from(["s", "ms"]), st.permutations(RATES_HZ))
-def test_a_period_is_as_good_as_a_rate(unit: str, hz: list[float]) -> None:
+def test_a_period_parameter_passes_like_a_rate(unit: str, hz: list[float]) -> None:
     right = [probe(UNITS[unit](each), each, "period", unit) for each in hz]
     assert_passed(judge_rate(rates(*right, declared=(parameter("period", "double", 1.0),))))
 
 
-def test_of_several_parameters_one_is_enough() -> None:
+def test_one_working_parameter_of_several_is_enough() -> None:
     right = [probe(hz, hz, "tick") for hz in RATES_HZ]
     wrong = [probe(hz, 1.0, "noise") for hz in RATES_HZ]
     assert_passed(judge_rate(rates(*wrong, *right)))
@@ -263,7 +262,7 @@ BOTH = (parameter("period", "double", 1.0), RATE)
         (rates(probe(2, 2)), "wrong rate", "one rate"),
     ],
 )
-def test_rate_not(found: RateProbes, cause: str, word: str) -> None:
+def test_rate_fails(found: RateProbes, cause: str, word: str) -> None:
     assert_failed(judge_rate(found), cause, word)
 
 
@@ -286,7 +285,7 @@ def test_the_nearest_parameter_is_the_one_explained() -> None:
         ("speed", ("Hz", "s", "ms")),
     ],
 )
-def test_how_a_name_is_read(name: str, read_as: tuple[str, ...]) -> None:
+def test_units_suggested_by_a_parameter_name(name: str, read_as: tuple[str, ...]) -> None:
     assert units(name) == read_as
 
 
@@ -310,7 +309,7 @@ def name_probe(found: str = "", seen: Trace | None = None, name: str = "sensor_n
         names(name_probe(f"[INFO] [node]: {TOKEN}"), declared=None),
     ],
 )
-def test_name(found: NameProbes) -> None:
+def test_name_passes(found: NameProbes) -> None:
     assert_passed(judge_name(found))
 
 
@@ -327,7 +326,7 @@ def test_name(found: NameProbes) -> None:
         (names(name_probe(seen=NO_NODE)), "no node"),
     ],
 )
-def test_name_not(found: NameProbes, cause: str) -> None:
+def test_name_fails(found: NameProbes, cause: str) -> None:
     assert_failed(judge_name(found), cause)
 
 
@@ -339,6 +338,6 @@ def test_shutdown() -> None:
     assert_failed(judge_shutdown(plain_start(CRASHED, ending=None)), "unhandled exception")
 
 
-def test_a_first_message_is_shown_as_echo_shows_it() -> None:
+def test_the_first_message_is_shown_in_the_format_of_ros2_topic_echo() -> None:
     verdict = judge_publishes(plain_start(trace(sample(TOPIC, 21.25, 1001.0))))
     assert verdict.evidence == ("data: 21.25",)

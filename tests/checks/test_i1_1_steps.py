@@ -1,4 +1,4 @@
-"""I1.1: the next step in the words of the learner's own file."""
+"""I1.1: the next step, in terms of the learner's own file."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Sensor(Node):
 
 
 def changed(*pairs: tuple[str, str]) -> Trace:
-    """The node with something of it written otherwise."""
+    """The node with each of these texts replaced."""
     code = NODE
     for old, new in pairs:
         assert old in code
@@ -40,8 +40,8 @@ def changed(*pairs: tuple[str, str]) -> Trace:
     return Trace("node.py", sources={"node.py": code})
 
 
-def after(step: str, trace: Trace) -> str:
-    """The file after the step, done word for word."""
+def follow_step(step: str, trace: Trace) -> str:
+    """The file after following the step to the letter."""
     return apply_step(step, trace.sources)["node.py"]
 
 
@@ -58,16 +58,16 @@ def after(step: str, trace: Trace) -> str:
         (changed(("random.uniform(", "int("), ("import random\n", "from random import random\n")), "= uniform(20.0"),
     ],
 )
-def test_drawn(trace: Trace, line: str) -> None:
-    assert line in after(steps.draw_values(trace), trace)
+def test_the_step_draws_random_values(trace: Trace, line: str) -> None:
+    assert line in follow_step(steps.draw_values(trace), trace)
 
 
-def test_a_generator_that_is_seeded_each_time_is_left_alone() -> None:
+def test_seeding_in_every_callback_is_removed() -> None:
     trace = changed(("        msg =", "        random.seed(1)\n        msg ="))
-    assert after(steps.draw_values(trace), trace) == NODE
+    assert follow_step(steps.draw_values(trace), trace) == NODE
 
 
-def test_where_the_value_is_drawn_already_the_whole_callback_is_told() -> None:
+def test_a_value_that_is_already_random_gets_the_whole_callback_rewritten() -> None:
     trace = changed(
         ("        self.publisher.p", "        msg.data = random.uniform(20.0, 30.0)\n        self.publisher.p")
     )
@@ -105,11 +105,11 @@ def test_an_int_becomes_a_float() -> None:
         ),
     ],
 )
-def test_why_the_rate_is_another(trace: Trace, cause: str, line: str) -> None:
+def test_causes_of_a_wrong_rate(trace: Trace, cause: str, line: str) -> None:
     found = steps.diagnose_rate(trace, "publish_rate", 8.0)
     assert found is not None
     assert found.name == cause
-    assert line in after(found.hint, trace)
+    assert line in follow_step(found.hint, trace)
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_why_the_rate_is_another(trace: Trace, cause: str, line: str) -> None:
         ("ms", "self.get_parameter('period').value / 1000.0"),
     ],
 )
-def test_paced(unit: str, code: str) -> None:
+def test_the_step_sets_the_timer_period(unit: str, code: str) -> None:
     assert (
         steps.set_timer_period(changed(), "period", unit)
         == f"line 13 becomes: self.timer = self.create_timer({code}, self.tick)"
@@ -139,22 +139,22 @@ def test_paced(unit: str, code: str) -> None:
         ),
     ],
 )
-def test_name_logged(trace: Trace, cause: str, line: str) -> None:
+def test_the_step_logs_the_name(trace: Trace, cause: str, line: str) -> None:
     found = steps.diagnose_name(trace, "sensor_name")
     assert found.name == cause
-    assert line in after(found.hint, trace)
+    assert line in follow_step(found.hint, trace)
 
 
-def test_what_is_not_declared_is_declared_and_used() -> None:
-    rate = after(steps.declare_rate(changed(), "hz"), changed())
+def test_an_undeclared_parameter_is_declared_and_used() -> None:
+    rate = follow_step(steps.declare_rate(changed(), "hz"), changed())
     assert "self.declare_parameter('hz', 1.0)\n" in rate
     assert "create_timer(1.0 / self.get_parameter('hz').value, self.tick)" in rate
-    name = after(steps.declare_name(changed(), "name"), changed())
+    name = follow_step(steps.declare_name(changed(), "name"), changed())
     assert "self.declare_parameter('name', 'sensor')\n" in name
     assert "info(str(self.get_parameter('name').value))" in name
 
 
-def test_without_a_source_the_plain_words_are_left() -> None:
+def test_without_a_source_there_are_only_generic_steps() -> None:
     assert steps.diagnose_rate(changed(), "publish_rate", 8.0) is None
     assert "random.uniform(20.0, 30.0)" in steps.draw_values(None)
     assert steps.add_publisher(Trace("node.py")) == ""

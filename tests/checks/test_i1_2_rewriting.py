@@ -1,4 +1,4 @@
-"""I1.2: the step that rewrites a callback, done word for word, in files of many shapes."""
+"""I1.2: following the step that rewrites the callback, in files of many shapes."""
 
 from __future__ import annotations
 
@@ -70,8 +70,8 @@ TIMER = (
 )
 
 
-def rewritten(code: str) -> str:
-    """The file after the step; the same step is not told again."""
+def rewrite(code: str) -> str:
+    """The file after following the step, which must not be suggested again."""
     step = rewriting.rewrite_callback(trace(sources={"node.py": code}))
     assert step is not None
     fixed = apply_step(step, {"node.py": code})["node.py"]
@@ -128,28 +128,28 @@ def rewritten(code: str) -> str:
         ),
     ],
 )
-def test_the_callback_is_written_again(code: str, lines: list[str]) -> None:
-    fixed = rewritten(code).splitlines()
+def test_the_callback_is_rewritten(code: str, lines: list[str]) -> None:
+    fixed = rewrite(code).splitlines()
     assert [line for line in lines if line not in fixed] == []
 
 
-def test_a_function_of_the_module_names_what_is_global() -> None:
-    told = trace(
+def test_a_module_level_callback_declares_its_globals() -> None:
+    run = trace(
         sources={"node.py": GLOBAL.replace("    global count\n", "    global count\n    log = rclpy.logging\n")}
     )
-    assert rewriting.rewrite_callback(told) is not None
-    fixed = rewritten(GLOBAL.replace("    count += 1", "    count += 1\n    log.info('a message')"))
+    assert rewriting.rewrite_callback(run) is not None
+    fixed = rewrite(GLOBAL.replace("    count += 1", "    count += 1\n    log.info('a message')"))
     assert "    global count, first_message, last_message, start_time, last_number\n" in fixed
     assert "\nfirst_message = ''\n" in fixed
     assert "    log.info(f'{count} messages, {rate:.2f} per second')\n" in fixed
 
 
-def test_a_timer_that_logs_is_taken_out() -> None:
-    fixed = rewritten(TIMER)
+def test_a_timer_that_logs_is_removed() -> None:
+    fixed = rewrite(TIMER)
     assert "create_timer" not in fixed
     assert "def tick" not in fixed
 
 
 @pytest.mark.parametrize("code", ["", "def f(:", "class Stats(Node):\n    pass\n"])
-def test_where_there_is_no_subscription_nothing_is_told(code: str) -> None:
+def test_without_a_subscription_there_is_no_step(code: str) -> None:
     assert rewriting.rewrite_callback(trace(sources={"node.py": code})) is None

@@ -1,4 +1,4 @@
-"""I1.2: causes and next steps in the words of the learner's own file."""
+"""I1.2: causes and next steps, in terms of the learner's own file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 from checks.i1_2 import gap_steps, steps
 from checks.i1_2.judges import judge_slow_summary
 from tests.checks.made import assert_failed, trace
-from tests.checks.test_i1_2 import Counter, Log, jump, steady
+from tests.checks.test_i1_2 import FakeStats, Log, jump, steady
 from tests.repairs import apply_step
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
@@ -33,19 +33,19 @@ class Stats(Node):
 
 
 def started(*pairs: tuple[str, str], code: str = NODE) -> Trace:
-    """A start of the node with something of it written otherwise."""
+    """A run of the node with each of these texts replaced."""
     for old, new in pairs:
         assert old in code
         code = code.replace(old, new)
     return trace(sources={"node.py": code})
 
 
-def followed(told: Trace, step: str) -> str:
-    """The file after the step, done word for word."""
-    return apply_step(step, told.sources)["node.py"]
+def follow_step(run: Trace, step: str) -> str:
+    """The file after following the step to the letter."""
+    return apply_step(step, run.sources)["node.py"]
 
 
-def test_of_a_node_without_a_fault_nothing_is_said() -> None:
+def test_a_correct_node_gets_no_cause() -> None:
     assert gap_steps.diagnose_alarm(started()) is None
     assert gap_steps.diagnose_no_messages(started()) is None
     assert gap_steps.diagnose_alarm(started(code="def f(:")) is None
@@ -64,9 +64,9 @@ def test_of_a_node_without_a_fault_nothing_is_said() -> None:
         ("int(msg.data.split(' ')[-1][0])", "reads 1 out of “Hello World: 107”"),
     ],
 )
-def test_a_number_that_is_taken_from_the_wrong_place(reads: str, what: str) -> None:
-    for seen in (gap_steps.diagnose_alarm, gap_steps.diagnose_no_messages):
-        cause = seen(started(("int(msg.data.split(':')[1])", reads)))
+def test_a_number_parsed_from_the_wrong_place(reads: str, what: str) -> None:
+    for diagnose in (gap_steps.diagnose_alarm, gap_steps.diagnose_no_messages):
+        cause = diagnose(started(("int(msg.data.split(':')[1])", reads)))
         assert cause is not None
         assert (cause.name, cause.text) == ("number misread", f"line 10: {reads} {cause.text.partition(reads)[2][1:]}")
         assert what in cause.text
@@ -84,11 +84,11 @@ def test_a_number_that_is_taken_from_the_wrong_place(reads: str, what: str) -> N
         "self.number_of(msg)",
     ],
 )
-def test_a_number_that_is_read_well_or_in_a_way_that_is_not_known(reads: str) -> None:
+def test_a_number_parsed_correctly_or_in_an_unknown_way_is_not_blamed(reads: str) -> None:
     assert gap_steps.diagnose_alarm(started(("int(msg.data.split(':')[1])", reads))) is None
 
 
-def test_a_number_is_followed_through_a_variable_and_into_a_helper() -> None:
+def test_number_parsing_is_traced_through_variables_and_helpers() -> None:
     apart = ("number = int(msg.data.split(':')[1])", "parts = msg.data.split()\n        number = int(parts[1])")
     cause = gap_steps.diagnose_no_messages(started(apart))
     assert cause is not None
@@ -103,12 +103,12 @@ COMPARES = "self.last_number is not None and number > self.last_number + 1"
 
 
 @pytest.mark.parametrize("test", ["number != self.total_count", "number > self.total_count - 1"])
-def test_a_number_that_is_compared_with_the_count(test: str) -> None:
-    told = started((COMPARES, test))
-    cause = gap_steps.diagnose_alarm(told)
+def test_a_number_compared_with_the_count(test: str) -> None:
+    run = started((COMPARES, test))
+    cause = gap_steps.diagnose_alarm(run)
     assert cause is not None
     assert cause.name == "number compared with the count"
-    fixed = followed(told, cause.hint)
+    fixed = follow_step(run, cause.hint)
     assert "if self.number_before is not None and number > self.number_before + 1:" in fixed
     assert fixed.endswith("self.number_before = number\n")
     assert "self.number_before = None\n        self.create_subscription(" in fixed
@@ -152,7 +152,7 @@ def test_a_number_that_is_compared_with_the_count(test: str) -> None:
         ),
     ],
 )
-def test_a_last_number_that_does_not_follow(pairs: list[tuple[str, str]], text: str, step: str) -> None:
+def test_a_last_number_that_is_not_updated(pairs: list[tuple[str, str]], text: str, step: str) -> None:
     cause = gap_steps.diagnose_alarm(started(*pairs))
     assert cause is not None
     assert cause.name == "false alarm"
@@ -160,41 +160,41 @@ def test_a_last_number_that_does_not_follow(pairs: list[tuple[str, str]], text: 
     assert cause.hint == step
 
 
-def test_a_last_number_that_is_replaced_before_it_is_compared() -> None:
+def test_a_last_number_overwritten_before_the_comparison() -> None:
     early = "        number = int(msg.data.split(':')[1])\n"
-    told = started(("        self.last_number = number\n", ""), (early, f"{early}        self.last_number = number\n"))
-    cause = gap_steps.diagnose_no_messages(told)
+    run = started(("        self.last_number = number\n", ""), (early, f"{early}        self.last_number = number\n"))
+    cause = gap_steps.diagnose_no_messages(run)
     assert cause is not None
     assert "line 11: self.last_number = number comes before line 12" in cause.text
-    assert COMPARES.replace("last_number", "number_before") in followed(told, cause.hint)
+    assert COMPARES.replace("last_number", "number_before") in follow_step(run, cause.hint)
 
 
-def test_a_comparison_that_is_about_lower_numbers_only() -> None:
-    told = started(("number > self.last_number + 1", "number < self.last_number"))
-    cause = gap_steps.diagnose_no_messages(told)
+def test_a_comparison_that_only_detects_lower_numbers() -> None:
+    run = started(("number > self.last_number + 1", "number < self.last_number"))
+    cause = gap_steps.diagnose_no_messages(run)
     assert cause is not None
     assert "line 11: number < self.last_number only detects lower numbers" in cause.text
-    assert COMPARES.replace("last_number", "number_before") in followed(told, cause.hint)
+    assert COMPARES.replace("last_number", "number_before") in follow_step(run, cause.hint)
 
 
-def test_an_alarm_that_was_false_is_taken_out() -> None:
-    told = started((COMPARES, "number % 4 == 0"))
-    fixed = followed(told, steps.compare_numbers(told, ["3 messages are missing"]) or "")
+def test_a_false_alarm_is_removed() -> None:
+    run = started((COMPARES, "number % 4 == 0"))
+    fixed = follow_step(run, steps.compare_numbers(run, ["3 messages are missing"]) or "")
     assert "if number % 4 == 0:\n            pass\n" in fixed
     assert fixed.count("warning(") == 1
 
 
-def test_a_first_message_that_is_forgotten_with_each_summary_is_told_with_its_line() -> None:
-    class Forgets(Counter):
+def test_the_line_that_forgets_the_first_message_is_named() -> None:
+    class ForgetsTheFirst(FakeStats):
         def summary(self) -> Iterator[Log]:
             yield from super().summary()
             self.first = ""
 
     source = NODE + "        self.first = None\n"
-    seen = steady(Forgets())
+    seen = steady(ForgetsTheFirst())
     for text, step in ((source, "remove line 14: self.first = None"), ("", "only while it is None, and never again")):
-        told = replace(seen, trace=replace(seen.trace, sources={"node.py": text}))
-        assert_failed(judge_slow_summary(told, jump(Counter())), "first message overwritten", step)
+        run = replace(seen, trace=replace(seen.trace, sources={"node.py": text}))
+        assert_failed(judge_slow_summary(run, jump(FakeStats())), "first message overwritten", step)
 
 
 SUMS_UP = (
@@ -231,16 +231,16 @@ SUMS_UP = (
         ),
     ],
 )
-def test_a_rate_is_computed_where_the_summary_takes_it_from(pairs: list[tuple[str, str]], lines: list[str]) -> None:
-    told = started(*pairs, code=SUMS_UP)
-    fixed = followed(told, steps.measure_rate(told, ["10 messages, 296.00 msg/s"], ["296.00"]) or "").splitlines()
+def test_the_rate_is_computed_where_the_summary_reads_it(pairs: list[tuple[str, str]], lines: list[str]) -> None:
+    run = started(*pairs, code=SUMS_UP)
+    fixed = follow_step(run, steps.measure_rate(run, ["10 messages, 296.00 msg/s"], ["296.00"]) or "").splitlines()
     assert [line for line in lines if line not in fixed] == []
     assert "        self.total_count += 1" in fixed
 
 
-def test_a_restart_is_told_where_the_statistics_are_set_back() -> None:
-    told = started(code=NODE + "        if number < self.last_number:\n            self.total_count = 0\n")
-    fixed = followed(told, steps.announce_restart(told) or "")
+def test_a_restart_is_announced_where_the_statistics_are_reset() -> None:
+    run = started(code=NODE + "        if number < self.last_number:\n            self.total_count = 0\n")
+    fixed = follow_step(run, steps.announce_restart(run) or "")
     assert "if number < self.last_number:\n            self.get_logger().warning('the publisher was restarted" in fixed
 
 
@@ -265,5 +265,5 @@ ALARM = "            self.get_logger"
         ("no subscription", ("msg.data", "msg"), "as it was"),
     ],
 )
-def test_a_node_that_ends_itself_or_is_not_subscribed(name: str, pair: tuple[str, str], step: str) -> None:
+def test_steps_for_a_node_that_exits_or_is_not_subscribed(name: str, pair: tuple[str, str], step: str) -> None:
     assert step in steps.keep_node_up(started(pair), Cause(name, "why", "as it was")).hint

@@ -1,4 +1,4 @@
-"""I1.3: made answers of a calculator and made runs of its client, and what must be said of each."""
+"""I1.3: verdicts on fabricated answers of a calculator and fabricated runs of its client."""
 
 from __future__ import annotations
 
@@ -49,11 +49,11 @@ EXECUTING = frame("await_or_execute", "/venv/rclpy/executors.py")
 IN_CALL = (frame("wait", "/usr/lib/python3.12/threading.py"), frame("call", "/venv/rclpy/client.py"), frame("divide"))
 
 
-def right(service: str, a: int = 6, b: int = 3) -> CallAnswer:
+def right_answer(service: str, a: int = 6, b: int = 3) -> CallAnswer:
     return called(service, a, b, right_result(service, a, b))
 
 
-ANSWERS = tuple(right(service) for service in SIGNS)
+ANSWERS = tuple(right_answer(service) for service in SIGNS)
 
 
 def services(**types: str) -> Graph:
@@ -61,12 +61,12 @@ def services(**types: str) -> Graph:
 
 
 def without(service: str, more: Graph) -> Graph:
-    """The three other services, and those of `more`."""
+    """The services other than `service`, and those of `more`."""
     kept = tuple(each for each in ALL.servers if each.name != service)
     return Graph(ALL.nodes, servers=(*kept, *more.servers))
 
 
-def test_services() -> None:
+def test_services_pass() -> None:
     assert_passed(judge_services(ServiceCalls(SERVING, ANSWERS)))
     assert_passed(judge_services(ServiceCalls(trace(graph=ALL, err="[INFO] ready"), ANSWERS, spins=False)))
 
@@ -114,7 +114,7 @@ def test_services() -> None:
         (ServiceCalls(SERVING, ANSWERS[:3]), "service missing", "/divide"),
     ],
 )
-def test_services_not(seen: ServiceCalls, cause: str, word: str) -> None:
+def test_services_fail(seen: ServiceCalls, cause: str, word: str) -> None:
     assert_failed(judge_services(seen), cause, word)
 
 
@@ -143,17 +143,17 @@ def test_services_not(seen: ServiceCalls, cause: str, word: str) -> None:
         ),
     ],
 )
-def test_a_service_of_another_name_is_told_the_line(text: str, offered: str, step: str) -> None:
-    there = trace(graph=without("/divide", services(**{offered: TYPE})), sources={"node.py": text})
+def test_the_step_for_a_wrong_service_name_gives_the_line(text: str, offered: str, step: str) -> None:
+    run = trace(graph=without("/divide", services(**{offered: TYPE})), sources={"node.py": text})
     assert_failed(
-        judge_services(ServiceCalls(there, ANSWERS[:3])),
+        judge_services(ServiceCalls(run, ANSWERS[:3])),
         "wrong service name",
         f"/{offered.replace('__', '/')} instead of",
         step,
     )
 
 
-def test_a_service_of_another_type_is_missing() -> None:
+def test_a_service_of_the_wrong_type_is_missing() -> None:
     assert missing_services(ALL.servers) == []
     assert missing_services(services(add=TYPE, subtract="a/srv/B").servers) == ["/subtract", "/multiply", "/divide"]
 
@@ -161,16 +161,18 @@ def test_a_service_of_another_type_is_missing() -> None:
 operands = st.tuples(st.sampled_from(list(SIGNS)), st.integers(-1000, 1000), st.integers(-20, 20).filter(bool)).map(
     lambda each: (each[0], each[1] * each[2] if each[0] == "/divide" else each[1], each[2])
 )
-one_of_each = st.tuples(*(operands.map(lambda each, s=service: right(s, each[2] * 7, each[2])) for service in SIGNS))  # type: ignore[misc]
+one_of_each = st.tuples(
+    *(operands.map(lambda each, s=service: right_answer(s, each[2] * 7, each[2])) for service in SIGNS)  # type: ignore[misc]
+)
 
 
-@given(one_of_each, st.lists(operands.map(lambda each: right(*each))))
-def test_right_results(each: tuple[CallAnswer, ...], more: list[CallAnswer]) -> None:
+@given(one_of_each, st.lists(operands.map(lambda each: right_answer(*each))))
+def test_right_results_pass(each: tuple[CallAnswer, ...], more: list[CallAnswer]) -> None:
     assert_passed(judge_operations(ServiceCalls(SERVING, (*each, *more))))
 
 
-@given(operands, st.integers(), st.lists(operands.map(lambda each: right(*each)), max_size=5))
-def test_any_wrong_result_is_wrong(asked: tuple[str, int, int], result: int, before: list[CallAnswer]) -> None:
+@given(operands, st.integers(), st.lists(operands.map(lambda each: right_answer(*each)), max_size=5))
+def test_any_wrong_result_fails(asked: tuple[str, int, int], result: int, before: list[CallAnswer]) -> None:
     service, a, b = asked
     if result != right_result(service, a, b):
         verdict = judge_operations(ServiceCalls(SERVING, (*ANSWERS, *before, called(service, a, b, result))))
@@ -195,7 +197,7 @@ def test_any_wrong_result_is_wrong(asked: tuple[str, int, int], result: int, bef
         (called("/add", 20, 3, None), "no answer", "no answer in 5 s"),
     ],
 )
-def test_why_a_result_is_wrong(wrong: CallAnswer, cause: str, word: str) -> None:
+def test_causes_of_a_wrong_result(wrong: CallAnswer, cause: str, word: str) -> None:
     assert_failed(judge_operations(ServiceCalls(SERVING, (*ANSWERS, wrong))), cause, word)
 
 
@@ -212,12 +214,12 @@ def test_an_exception_in_a_callback_is_named() -> None:
         ServiceCalls(CRASHED, ()),
     ],
 )
-def test_operations_cannot_be_judged_where_a_service_is_missing(seen: ServiceCalls) -> None:
+def test_operations_are_skipped_if_a_service_is_missing(seen: ServiceCalls) -> None:
     assert judge_operations(seen).status is Status.SKIPPED
 
 
 @pytest.mark.parametrize("answers", [(), ANSWERS[:3]])
-def test_what_was_not_asked_is_not_right(answers: tuple[CallAnswer, ...]) -> None:
+def test_operations_fail_if_a_service_was_not_called(answers: tuple[CallAnswer, ...]) -> None:
     assert_failed(judge_operations(ServiceCalls(SERVING, answers)), "service missing", "/divide")
 
 
@@ -227,15 +229,15 @@ INCOMING = "Incoming request: a={} b={}"
 ORDINARY = (log("calculator ready"), log(INCOMING.format(84, 7)), log("84 / 7 = 12"))
 
 
-def then(*results: int | None) -> tuple[CallAnswer, ...]:
-    """What is answered after a division by zero, until one is not."""
+def after_zero(*results: int | None) -> tuple[CallAnswer, ...]:
+    """The answers to the calls after a division by zero."""
     return tuple(called("/divide", a, b, result) for (a, b), result in zip(AFTER_ZERO, results, strict=False))
 
 
 def division(
     *said: LogRecord,
     by_zero: int | None = 0,
-    after: tuple[CallAnswer, ...] = then(6, 0, 0, 7),
+    after: tuple[CallAnswer, ...] = after_zero(6, 0, 0, 7),
     seen: Trace = SERVING,
     before: int | None = 12,
 ) -> Division:
@@ -379,7 +381,7 @@ def test_an_error_is_understood_in_many_languages(text: str) -> None:
 
 
 @pytest.mark.parametrize("level", [30, 40, 50])
-def test_a_warning_needs_no_words(level: int) -> None:
+def test_a_warning_needs_no_particular_words(level: int) -> None:
     assert_passed(judge_division(division(log("b = 0", level))))
 
 
@@ -389,12 +391,12 @@ def test_an_ordinary_message_is_not_an_error(text: str) -> None:
 
 
 @given(st.sampled_from(ERRORS), st.sampled_from([10, 20, 30, 40]), st.integers(), st.integers())
-def test_what_a_good_call_brings_too_is_not_a_complaint(text: str, level: int, usual: int, now: int) -> None:
+def test_what_is_also_logged_for_a_valid_call_is_not_a_complaint(text: str, level: int, usual: int, now: int) -> None:
     assert find_complaints([log(f"{text} {usual}", level)], [log(f"{text} {now}", level)]) == []
 
 
 @given(st.sampled_from(ERRORS), st.lists(st.sampled_from(ORDINARY)))
-def test_an_error_is_one_among_whatever_else_is_said(text: str, around: list[LogRecord]) -> None:
+def test_an_error_is_found_among_other_messages(text: str, around: list[LogRecord]) -> None:
     assert find_complaints(ORDINARY, [*around, log(text), *around]) == [log(text)]
 
 
@@ -409,32 +411,44 @@ def test_an_error_is_one_among_whatever_else_is_said(text: str, around: list[Log
         (division(), "no error message", "nothing that the node logs"),
         (division(before=588), "no error message", "84 ÷ 7 is answered 588"),
         (division(seen=trace(graph=ALL, out="error: division by zero")), "printed, not logged", "error: division"),
-        (division(log("division by zero", 40), after=then(None)), "no answer", "after a division by zero"),
-        (division(log("division by zero", 40), after=then(6, None)), "no answer", "-9 ÷ 0"),
-        (division(log("division by zero", 40), after=then(6, 0, None)), "no answer", "0 ÷ 0"),
-        (division(log("division by zero", 40), after=then(6, 0, 0, None)), "no answer", "35 ÷ 5"),
-        (division(log("division by zero", 40), after=then(0, 0, 0, 7)), "wrong result", "18 ÷ 3 was answered 0"),
-        (division(log("division by zero", 40), after=then(6, 0, 0, 0)), "wrong result", "35 ÷ 5 was answered 0"),
         (
-            division(log("division by zero", 40), after=then(None), seen=trace(exit=exited(0, after_s=9.0))),
+            division(log("division by zero", 40), after=after_zero(None)),
+            "no answer",
+            "after a division by zero",
+        ),
+        (division(log("division by zero", 40), after=after_zero(6, None)), "no answer", "-9 ÷ 0"),
+        (division(log("division by zero", 40), after=after_zero(6, 0, None)), "no answer", "0 ÷ 0"),
+        (division(log("division by zero", 40), after=after_zero(6, 0, 0, None)), "no answer", "35 ÷ 5"),
+        (
+            division(log("division by zero", 40), after=after_zero(0, 0, 0, 7)),
+            "wrong result",
+            "18 ÷ 3 was answered 0",
+        ),
+        (
+            division(log("division by zero", 40), after=after_zero(6, 0, 0, 0)),
+            "wrong result",
+            "35 ÷ 5 was answered 0",
+        ),
+        (
+            division(log("division by zero", 40), after=after_zero(None), seen=trace(exit=exited(0, after_s=9.0))),
             "exit at once",
             "18 ÷ 3",
         ),
-        (division(after=then(None), seen=trace(exit=exited(0, after_s=9.0))), "exit at once", "18 ÷ 3"),
+        (division(after=after_zero(None), seen=trace(exit=exited(0, after_s=9.0))), "exit at once", "18 ÷ 3"),
         (division(seen=trace(exit=exited(0, after_s=9.0))), "no error message", ""),
     ],
 )
-def test_division_not(seen: Division, cause: str, word: str) -> None:
+def test_division_fails(seen: Division, cause: str, word: str) -> None:
     assert_failed(judge_division(seen), cause, word)
 
 
 @pytest.mark.parametrize("results", [(6, 0, 0, 7), (6, -1, 99, 7)])
-def test_any_answer_to_a_division_by_zero_will_do(results: tuple[int, ...]) -> None:
-    assert_passed(judge_division(division(log("division by zero", 40), after=then(*results))))
+def test_any_answer_to_a_division_by_zero_passes(results: tuple[int, ...]) -> None:
+    assert_passed(judge_division(division(log("division by zero", 40), after=after_zero(*results))))
 
 
-def test_a_node_that_always_divides_wrongly_is_not_judged_for_that_here() -> None:
-    assert_passed(judge_division(division(log("division by zero", 40), before=13, after=then(7, 0, 0, 8))))
+def test_wrong_division_in_general_is_not_judged_here() -> None:
+    assert_passed(judge_division(division(log("division by zero", 40), before=13, after=after_zero(7, 0, 0, 8))))
 
 
 def test_operands() -> None:
@@ -460,32 +474,32 @@ def demonstration(
 
 
 @pytest.mark.parametrize("served", [SERVED, SERVED * 3, tuple(reversed(SERVED))])
-def test_client(served: tuple[ServedRequest, ...]) -> None:
+def test_client_passes(served: tuple[ServedRequest, ...]) -> None:
     assert_passed(judge_client(demonstration(served)))
 
 
 @pytest.mark.parametrize(
-    ("served", "code", "cpu_wait_s", "again"),
+    ("served", "code", "cpu_wait_s", "retried"),
     [
         ((), 1, 0.1, False),
-        ((), 1, 0.2, True),  # it may have looked for the servers before the machine let us bring them up
+        ((), 1, 0.2, True),  # it may have looked for the servers before the busy machine let us start them
         (SERVED[:1], 1, 0.2, False),
-        ((), None, 0.2, False),  # it has had its 15 s
+        ((), None, 0.2, False),  # it had its full 15 s
         ((), None, 2.5, True),
     ],
 )
-def test_a_client_is_tried_again_where_the_machine_may_be_why_it_called_nothing(
-    served: tuple[ServedRequest, ...], code: int | None, cpu_wait_s: float, again: bool
+def test_a_client_is_retried_if_the_machine_may_be_why_it_called_nothing(
+    served: tuple[ServedRequest, ...], code: int | None, cpu_wait_s: float, retried: bool
 ) -> None:
-    assert replace(demonstration(served, code), cpu_wait_s=cpu_wait_s).slowed is again
+    assert replace(demonstration(served, code), cpu_wait_s=cpu_wait_s).slowed is retried
 
 
-def test_a_client_that_cannot_be_connected_is_not_tried_again() -> None:
+def test_a_client_that_can_never_connect_is_not_retried() -> None:
     unconnected = (ServiceEndpoint("/add", "example_interfaces/srv/AddTwoInts", "/client", "best_effort"),)
     assert not replace(demonstration((), 1), cpu_wait_s=2.5, clients=unconnected).slowed
 
 
-def test_a_client_that_waits_for_nothing_is_not_said_to_have_been_watched_to_the_end() -> None:
+def test_an_idle_client_is_reported_with_the_time_that_it_was_watched() -> None:
     hanging = demonstration(SERVED[:1], None)
     assert "still running after 15 s" in judge_client(hanging).observed
     assert (
@@ -508,7 +522,7 @@ def test_a_client_that_waits_for_nothing_is_not_said_to_have_been_watched_to_the
         (demonstration(SERVED, code=None), "did not end", "by itself"),
     ],
 )
-def test_client_not(seen: ClientRun, cause: str, word: str) -> None:
+def test_client_fails(seen: ClientRun, cause: str, word: str) -> None:
     assert_failed(judge_client(seen), cause, word)
 
 
@@ -539,14 +553,14 @@ def asking(text: str, served: tuple[ServedRequest, ...] = (), code: int | None =
         asking(ASKS, code=None, stuck=(*IN_CALL, *SPINNING)),
     ],
 )
-def test_a_client_that_does_not_wait_is_told_so(seen: ClientRun) -> None:
+def test_a_client_that_does_not_wait_for_its_service(seen: ClientRun) -> None:
     assert_failed(
         judge_client(seen), "service not waited for", "write above line 4", "client.wait_for_service(timeout_sec="
     )
 
 
 @pytest.mark.parametrize("text", ["client.wait_for_service()", "self.cli.service_is_ready()"])
-def test_a_client_that_asks_for_its_service_is_not_told_to(text: str) -> None:
+def test_a_client_that_waits_for_its_service_is_not_told_to_wait(text: str) -> None:
     for seen in (asking(ASKS + text, SERVED[:1]), asking(ASKS + text, SERVED[:1], None, stuck=SPINNING)):
         assert "not waited" not in judge_client(seen).cause
 
@@ -564,7 +578,7 @@ def wrongly_named(text: str, *clients: ServiceEndpoint, code: int | None = None)
 
 
 @pytest.mark.parametrize("code", [None, 0, 1])
-def test_a_client_that_asks_for_a_service_that_nobody_offers_is_told_both_names(code: int | None) -> None:
+def test_a_wrong_service_name_in_the_client_is_reported_with_the_right_one(code: int | None) -> None:
     seen = wrongly_named(NAMED, ServiceEndpoint("/div", TYPE, "/client"), code=code)
     assert_failed(
         judge_client(seen),
@@ -613,13 +627,13 @@ def test_the_step_names_the_line_with_the_wrong_service(text: str, name: str, st
     assert_failed(judge_client(wrongly_named(text, ServiceEndpoint(name, TYPE, "/client"))), "wrong service name", step)
 
 
-def test_a_client_for_parameters_is_not_a_wrong_name() -> None:
+def test_a_client_of_a_parameter_service_is_not_a_wrong_name() -> None:
     more = ServiceEndpoint("/server/get_parameters", "rcl_interfaces/srv/GetParameters", "/client")
     assert_failed(judge_client(wrongly_named(NAMED, more)), "did not end")
     assert_passed(judge_client(replace(demonstration(), clients=(*MADE, ServiceEndpoint("/power", TYPE, "/client")))))
 
 
-def test_a_client_with_another_type_is_told_both_types() -> None:
+def test_a_wrong_service_type_in_the_client_is_reported_with_the_right_one() -> None:
     text = "\nclient = node.create_client(Trigger, 'divide')\nclient.call_async(Trigger.Request())"
     seen = wrongly_named(text, ServiceEndpoint("/divide", "std_srvs/srv/Trigger", "/client"))
     assert_failed(
@@ -638,13 +652,13 @@ def run(self):
 """
 
 
-def test_a_node_that_calls_a_coroutine_without_await_is_told_so() -> None:
+def test_a_coroutine_that_is_not_awaited() -> None:
     warning = "/ws/client.py:27: RuntimeWarning: coroutine 'CalculatorClient.call' was never awaited"
     seen = asking(WAITS, err=warning)
     assert_failed(judge_client(seen), "coroutine not awaited", "call is an async def")
 
 
-def test_a_node_that_returns_from_the_loop_is_told_so() -> None:
+def test_a_return_within_the_loop() -> None:
     assert_failed(
         judge_client(asking(LOOP, SERVED[:1])),
         "return in the loop",
@@ -656,7 +670,7 @@ def test_a_node_that_returns_from_the_loop_is_told_so() -> None:
     assert_failed(judge_client(asking(LOOP, SERVED[:3])), "not called")
 
 
-def test_a_node_that_spins_after_the_last_call_is_told_to_take_that_out() -> None:
+def test_a_spin_after_the_last_call_is_to_be_removed() -> None:
     spins = (frame("spin", "/venv/rclpy/__init__.py"), frame("main", line=7, code="rclpy.spin(node)"))
     text = WAITS + "rclpy.spin_until_future_complete(node, future)\nrclpy.spin(node)\n"
     assert_failed(
@@ -682,16 +696,16 @@ class Calculator(Node):
 BY_ZERO = CRASH.replace("AttributeError: 'Sensor' object has no attribute 'nothing'", "ZeroDivisionError: by zero")
 
 
-def test_a_division_that_nothing_guards_is_told_what_to_write_above_it() -> None:
+def test_the_step_for_an_unguarded_division_is_a_guard() -> None:
     crashed = trace(graph=ALL, err=BY_ZERO, exit=exited(1), sources={"node.py": DIVIDES})
-    seen = Division(crashed, right("/divide", 84, 7), called("/divide", 10, 0, None))
+    seen = Division(crashed, right_answer("/divide", 84, 7), called("/divide", 10, 0, None))
     guard = "write above line 13, with the same indentation:\n    if req.b == 0:\n        self.get_logger().error("
     assert_failed(judge_division(seen), "unhandled exception", guard, "resp.sum = 0\n        return resp")
 
 
 def test_a_server_that_refuses_negative_operands() -> None:
     def refuse(service: str, a: int, b: int) -> CallAnswer:
-        return called(service, a, b, 0) if min(a, b) < 0 else right(service, a, b)
+        return called(service, a, b, 0) if min(a, b) < 0 else right_answer(service, a, b)
 
     asked = [("/add", 6, 3), ("/add", -40, 4), ("/add", 50, -5), ("/add", 7, 7)]
     seen = ServiceCalls(SERVING, tuple(refuse(*each) for each in asked))
@@ -699,15 +713,15 @@ def test_a_server_that_refuses_negative_operands() -> None:
 
 
 def test_one_wrong_result_is_not_a_refusal_of_negative_operands() -> None:
-    asked = (right("/divide", 6, 3), right("/divide", -1, -1), called("/divide", 0, -1, 1))
+    asked = (right_answer("/divide", 6, 3), right_answer("/divide", -1, -1), called("/divide", 0, -1, 1))
     assert_failed(judge_operations(ServiceCalls(SERVING, (*ANSWERS, *asked))), "wrong result", "1 instead of 0")
 
 
-def test_a_node_that_crashes_of_itself_is_told_of_that() -> None:
+def test_an_unrelated_crash_is_reported_as_such() -> None:
     assert_failed(judge_client(asking(ASKS, code=1, err=CRASH)), "unhandled exception", "line 12")
 
 
-def test_a_node_that_gives_up_before_there_is_a_server_is_told_so() -> None:
+def test_a_client_that_gives_up_before_the_server_is_up() -> None:
     assert_failed(judge_client(asking(WAITS, code=1)), "waits too short a time", "timeout_sec=10.0")
     assert_failed(judge_client(asking(WAITS, code=1, err=NO_ANSWER)), "waits too short a time")
     assert_failed(judge_client(asking(WAITS, code=1, err=CRASH)), "unhandled exception")
@@ -718,7 +732,7 @@ def test_a_node_that_gives_up_before_there_is_a_server_is_told_so() -> None:
 def test_shutdown() -> None:
     assert_passed(judge_shutdown(ServiceCalls(SERVING, ANSWERS, ending=ending(0))))
     assert_passed(judge_shutdown(ServiceCalls(SERVING, ANSWERS, ending=ending(130))))
-    assert_failed(judge_shutdown(ServiceCalls(SERVING, ANSWERS, ending=ending(still_there=True))), "SIGINT ignored")
+    assert_failed(judge_shutdown(ServiceCalls(SERVING, ANSWERS, ending=ending(still_running=True))), "SIGINT ignored")
     assert_failed(judge_shutdown(ServiceCalls(CRASHED, ())), "unhandled exception")
 
 
@@ -737,16 +751,16 @@ rclpy.spin(node)
         ("import rclpy\n\nrclpy.spin(node)", "remove line 3: rclpy.spin(node)"),
     ],
 )
-def test_a_spin_that_brings_the_answers_is_not_simply_left_out(text: str, step: str) -> None:
+def test_a_spin_that_delivers_the_answers_is_not_simply_removed(text: str, step: str) -> None:
     own = frame("main", line=3, code="rclpy.spin(node)")
     verdict = judge_client(demonstration(SERVED, code=None, stuck=(own,), sources={"node.py": text}))
     assert_failed(verdict, "did not end")
     assert step in verdict.hint
 
 
-def test_a_server_that_sleeps_where_it_should_spin_is_told_to_spin() -> None:
+def test_a_server_that_sleeps_instead_of_spinning_is_told_to_spin() -> None:
     text = "import time\nimport rclpy\nrclpy.init()\nnode = rclpy.create_node('c')\nwhile True:\n    time.sleep(0.2)\n"
-    there = trace(graph=ALL, sources={"node.py": text})
+    run = trace(graph=ALL, sources={"node.py": text})
     sleeping = (frame("<module>", line=6, code="time.sleep(0.2)"),)
-    verdict = judge_services(ServiceCalls(there, (called("/add", 6, 3, None),), spins=False, stuck=sleeping))
+    verdict = judge_services(ServiceCalls(run, (called("/add", 6, 3, None),), spins=False, stuck=sleeping))
     assert_failed(verdict, "no spin", "rclpy.spin(node)")

@@ -1,4 +1,4 @@
-"""I1.3: edits of the client's code by which each request is waited for, and its answer."""
+"""I1.3: edits of the client's code that make it wait for each service and each answer."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from rclpy.node import Node
 """
 
 
-def followed(text: str, step: Callable[[Code], str | None]) -> str | None:
-    """The file after the step, without its head."""
-    told = step(Code(HEAD + text, "node.py"))
-    return None if told is None else apply_step(told, {"node.py": HEAD + text})["node.py"].removeprefix(HEAD)
+def follow_step(text: str, find_step: Callable[[Code], str | None]) -> str | None:
+    """The file after following the step, without HEAD; None if there is no step."""
+    step = find_step(Code(HEAD + text, "node.py"))
+    return None if step is None else apply_step(step, {"node.py": HEAD + text})["node.py"].removeprefix(HEAD)
 
 
-def answered(code: Code) -> str | None:
+def wait_for_answers_step(code: Code) -> str | None:
     return client_requests.wait_for_answers(code, trace(sources={code.file: code.text}))
 
 
@@ -82,8 +82,8 @@ class Client(Node):
         ),
     ],
 )
-def test_an_answer_is_waited_for(asks: str, answers: str) -> None:
-    assert followed(ASK.format(asks), answered) == ASK.format(answers)
+def test_the_client_waits_for_the_answer(asks: str, answers: str) -> None:
+    assert follow_step(ASK.format(asks), wait_for_answers_step) == ASK.format(answers)
 
 
 @pytest.mark.parametrize(
@@ -95,8 +95,8 @@ def test_an_answer_is_waited_for(asks: str, answers: str) -> None:
         "client.call_async(request).add_done_callback(self.got)",
     ],
 )
-def test_an_answer_that_is_waited_for_already_is_left_alone(asks: str) -> None:
-    assert followed(ASK.format(asks), answered) is None
+def test_a_client_that_already_waits_for_the_answer_is_left_alone(asks: str) -> None:
+    assert follow_step(ASK.format(asks), wait_for_answers_step) is None
 
 
 TIMER = """\
@@ -117,7 +117,7 @@ class Client(Node):
 
 
 def test_a_timer_awaits_its_answers() -> None:
-    after = followed(TIMER, answered)
+    after = follow_step(TIMER, wait_for_answers_step)
     assert after is not None
     assert "from rclpy.callback_groups import ReentrantCallbackGroup" in after
     assert "self.create_client(AddTwoInts, n, callback_group=ReentrantCallbackGroup())" in after
@@ -141,22 +141,22 @@ def test_a_timer_awaits_its_answers() -> None:
         ),
     ],
 )
-def test_a_service_is_waited_for_above_its_request(asks: str, waits: str) -> None:
-    assert followed(ASK.format(asks), client_requests.wait_for_services) == ASK.format(waits)
+def test_the_wait_for_a_service_goes_above_the_request(asks: str, waits: str) -> None:
+    assert follow_step(ASK.format(asks), client_requests.wait_for_services) == ASK.format(waits)
 
 
-def test_a_service_is_waited_for_where_its_client_is_made_if_there_is_no_other_place() -> None:
+def test_the_wait_for_a_service_goes_around_create_client_if_there_is_no_other_place() -> None:
     text = "node = rclpy.create_node('c')\nasked = [node.create_client(T, n).call_async(R) for n in NAMES]\n"
-    after = followed(text, client_requests.wait_for_services)
+    after = follow_step(text, client_requests.wait_for_services)
     assert after is not None
     assert "asked = [waited(node.create_client(T, n)).call_async(R) for n in NAMES]" in after
     assert "def waited(client):\n    client.wait_for_service(timeout_sec=10.0)\n    return client" in after
 
 
-def test_a_wait_is_made_long_enough() -> None:
+def test_a_short_wait_is_lengthened() -> None:
     text = "if not client.wait_for_service(0.5) or not other.service_is_ready(): pass\n"
     long = "wait_for_service(timeout_sec=10.0)"
-    assert followed(text, client_requests.lengthen_waits) == f"if not client.{long} or not other.{long}: pass\n"
+    assert follow_step(text, client_requests.lengthen_waits) == f"if not client.{long} or not other.{long}: pass\n"
 
 
 ASYNC = """\
@@ -166,8 +166,8 @@ class Client(Node):
 """
 
 
-def test_a_coroutine_that_nobody_runs_becomes_a_function() -> None:
-    after = followed(ASYNC, lambda code: client_requests.make_synchronous(code, "ask"))
+def test_a_coroutine_that_is_never_run_becomes_a_function() -> None:
+    after = follow_step(ASYNC, lambda code: client_requests.make_synchronous(code, "ask"))
     assert after == textwrap.dedent("""\
         class Client(Node):
             def ask(self, client):
@@ -185,8 +185,8 @@ def test_a_coroutine_that_nobody_runs_becomes_a_function() -> None:
         ("NAMES = ('add', 'modulo')\n", None),
     ],
 )
-def test_what_is_not_called_comes_into_the_list(text: str, after: str | None) -> None:
-    assert followed(text, lambda code: steps.add_to_list(code, ["/multiply"])) == after
+def test_a_service_that_is_not_called_is_added_to_the_list(text: str, after: str | None) -> None:
+    assert follow_step(text, lambda code: steps.add_to_list(code, ["/multiply"])) == after
 
 
 @pytest.mark.parametrize(
@@ -202,8 +202,8 @@ def test_what_is_not_called_comes_into_the_list(text: str, after: str | None) ->
         ("sys.exit(0)\n", None),
     ],
 )
-def test_a_program_that_did_all_its_work_ends_with_0(text: str, after: str | None) -> None:
-    assert followed(text, steps.end_with_zero) == after
+def test_a_program_that_did_all_its_work_exits_with_0(text: str, after: str | None) -> None:
+    assert follow_step(text, steps.end_with_zero) == after
 
 
 WAITS = """\
@@ -219,9 +219,9 @@ CALLBACK = "    future.add_done_callback(lambda _: answered.set())\n"
 WAIT = "    answered.wait()\n"
 
 
-def _ending_the_wait(text: str) -> str | None:
+def set_event_step(text: str) -> str | None:
     line = (HEAD + text).splitlines().index(WAIT.rstrip()) + 1
-    return followed(text, lambda code: client_requests.set_event(code, line))
+    return follow_step(text, lambda code: client_requests.set_event(code, line))
 
 
 @pytest.mark.parametrize(
@@ -234,9 +234,9 @@ def _ending_the_wait(text: str) -> str | None:
 )
 def test_an_event_that_nothing_sets_is_set_by_the_answer(spins: str, before: str, within: str, instead: str) -> None:
     text = WAITS.format(spins=spins, before=before, within=within, wait=WAIT)
-    assert _ending_the_wait(text) == WAITS.format(spins=spins, before=before, within=within, wait=instead)
+    assert set_event_step(text) == WAITS.format(spins=spins, before=before, within=within, wait=instead)
 
 
 @pytest.mark.parametrize("sets", ["answered.set()\n", "node.on_answer = answered.set\n"])
 def test_an_event_that_something_sets_is_left_alone(sets: str) -> None:
-    assert _ending_the_wait(WAITS.format(spins=SPINS, before=MADE + sets, within="", wait=WAIT)) is None
+    assert set_event_step(WAITS.format(spins=SPINS, before=MADE + sets, within="", wait=WAIT)) is None

@@ -1,4 +1,4 @@
-"""I1.3: where a server that answers a division by zero without a word is told to log it."""
+"""I1.3: where a server that answers a division by zero silently should log the error."""
 
 from __future__ import annotations
 
@@ -77,25 +77,25 @@ def method(*body: str) -> str:
         ("x = 1", None),
     ],
 )
-def test_the_line_to_write(text: str, step: str | None) -> None:
+def test_where_the_error_is_logged(text: str, step: str | None) -> None:
     assert log_division_by_zero(trace(sources={"node.py": text + MAIN})) == step
 
 
-def test_a_lambda_gets_a_function_of_its_own() -> None:
+def test_a_lambda_becomes_a_method() -> None:
     text = HEAD + LAMBDA + MAIN
     step = guard_division(trace(sources={"node.py": text}))
     assert step is not None
     becomes = "line 5 becomes: self.create_service(AddTwoInts, 'divide', self.divide_callback)"
     assert step.endswith(becomes)
-    followed = ast.unparse(ast.parse(apply_step(step, {"node.py": text})["node.py"]))
-    assert "def divide_callback(self, request, response):" in followed
-    assert LOG in followed
+    after = ast.unparse(ast.parse(apply_step(step, {"node.py": text})["node.py"]))
+    assert "def divide_callback(self, request, response):" in after
+    assert LOG in after
 
 
 GUARD = f"if req.b == 0:\n            {LOG}\n            resp.sum = 0\n            return resp"
 
 
-def test_a_division_is_guarded_once_and_then_written_as_a_whole() -> None:
+def test_a_division_is_guarded_first_and_its_callback_rewritten_next() -> None:
     text = (
         HEAD
         + "        self.create_service(AddTwoInts, 'divide', self.divide)\n\n"

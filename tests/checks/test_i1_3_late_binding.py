@@ -1,4 +1,4 @@
-"""I1.3: services that compute what another one should, and the line that is named for it."""
+"""I1.3: services that compute the result of another one, and the line that is to blame."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ for name in OPERATIONS:
 LISTED = "[self.create_service(AddTwoInts, n, lambda q, p: self.do(OPS[n], q, p)) for n in OPS]"
 
 
-def seen(text: str, computes: str = "/multiply") -> ServiceCalls:
-    """Four services of a server with this source that all compute the same."""
+def calls_of(text: str, computes: str = "/multiply") -> ServiceCalls:
+    """The calls of a server with this source, whose four services all compute the same."""
     answers = [called(name, a, b, right_result(computes, a, b)) for name in SIGNS for a, b in ((20, 4), (-21, 7))]
     return ServiceCalls(
         trace(graph=graph(services=dict.fromkeys(SIGNS, TYPE)), sources={"node.py": text}), tuple(answers)
@@ -46,8 +46,8 @@ def seen(text: str, computes: str = "/multiply") -> ServiceCalls:
         (LISTED, "looks n up", "lambda q, p, n=n: self.do(OPS[n], q, p)) for n in OPS]"),
     ],
 )
-def test_a_function_made_in_a_loop_is_told_to_bind_the_loops_variables(text: str, line: str, step: str) -> None:
-    assert_failed(judge_operations(seen(text)), "late binding", line, "in node.py, ", step, "what /multiply should")
+def test_a_function_made_in_a_loop_must_bind_the_loop_variables(text: str, line: str, step: str) -> None:
+    assert_failed(judge_operations(calls_of(text)), "late binding", line, "in node.py, ", step, "what /multiply should")
 
 
 @pytest.mark.parametrize(
@@ -60,8 +60,8 @@ def test_a_function_made_in_a_loop_is_told_to_bind_the_loops_variables(text: str
         "",
     ],
 )
-def test_a_node_that_binds_them_is_not_told_so(text: str) -> None:
-    verdict = judge_operations(seen(text))
+def test_bound_loop_variables_are_not_blamed(text: str) -> None:
+    verdict = judge_operations(calls_of(text))
     assert verdict.status is Status.FAILED
     assert "late binding" not in verdict.cause
 
@@ -98,13 +98,13 @@ class Calculator(Node):
         ("/divide", "in node.py, line 19 becomes: resp.sum = req.a // req.b"),
     ],
 )
-def test_the_line_that_computes_something_else(service: str, step: str) -> None:
+def test_the_line_that_computes_the_wrong_result(service: str, step: str) -> None:
     assert compute_results(trace(sources={"node.py": SERVER}), [service]) == step
 
 
-def test_the_line_is_the_next_step() -> None:
+def test_the_next_step_corrects_that_line() -> None:
     assert_failed(
-        judge_operations(seen(SERVER, "/subtract")),
+        judge_operations(calls_of(SERVER, "/subtract")),
         "wrong result",
         "what /subtract would",
         "becomes: resp.sum = req.a +",

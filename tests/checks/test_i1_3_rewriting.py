@@ -1,4 +1,4 @@
-"""I1.3: the last resort: a whole program in the learner's names, where no smaller step is left."""
+"""I1.3: the last resort, if no smaller step is left: a whole program in the learner's own names."""
 
 from __future__ import annotations
 
@@ -42,31 +42,31 @@ main()
 '''
 
 
-def seen(text: str) -> Trace:
+def run_of(text: str) -> Trace:
     return trace(sources={"node.py": text})
 
 
-def followed(text: str, step: str | None) -> str:
+def follow_step(text: str, step: str | None) -> str:
     assert step is not None
     return apply_step(step, {"node.py": text})["node.py"]
 
 
-def test_a_server_as_a_whole_keeps_the_learners_names() -> None:
-    after = followed(SERVER, rewriting.rewrite_server(seen(SERVER)))
+def test_a_rewritten_server_keeps_the_learners_names() -> None:
+    after = follow_step(SERVER, rewriting.rewrite_server(run_of(SERVER)))
     ast.parse(after)
     assert after.startswith('#!/usr/bin/env python3\n"""A calculator."""\nimport rclpy\n')
     assert "class Calc(Node):\n    def __init__(self):\n        super().__init__('calc')\n" in after
     assert "def add(self, req, res):\n        res.sum = req.a + req.b\n        return res\n" in after
     assert "Thread" not in after
-    assert rewriting.rewrite_server(seen(after)) is None
+    assert rewriting.rewrite_server(run_of(after)) is None
 
 
 @pytest.mark.parametrize("text", ["def main(:\n", "import rclpy\nrclpy.spin(None)\n", "pass\n"])
-def test_it_needs_no_file_that_python_can_read(text: str) -> None:
-    after = followed(text, rewriting.rewrite_server(seen(text)))
+def test_rewriting_needs_no_parsable_file(text: str) -> None:
+    after = follow_step(text, rewriting.rewrite_server(run_of(text)))
     assert after.count("self.create_service(") == 4
     assert after.count("rclpy.init()") == 1
-    after = followed(text, rewriting.rewrite_client(Code(text, "node.py")))
+    after = follow_step(text, rewriting.rewrite_client(Code(text, "node.py")))
     assert "rclpy.spin_until_future_complete(node, future)" in after
     assert rewriting.rewrite_client(Code(after, "node.py")) is None
 
@@ -83,16 +83,16 @@ class Calc(Node):
 """
 
 
-def test_what_was_written_already_is_not_written_again() -> None:
-    after = followed(LOOP, services.compute_results(seen(LOOP), list(SIGNS)))
+def test_code_that_was_already_added_is_not_added_again() -> None:
+    after = follow_step(LOOP, services.compute_results(run_of(LOOP), list(SIGNS)))
     assert "def calculate(self, name, request, response):" in after
-    assert services.compute_results(seen(after), list(SIGNS)) is None
+    assert services.compute_results(run_of(after), list(SIGNS)) is None
 
 
-def test_no_step_of_a_server_is_in_words_only() -> None:
+def test_the_step_for_an_empty_server_can_be_applied() -> None:
     text = "import rclpy\n\nrclpy.init()\n"
-    verdict = judge_services(ServiceCalls(seen(text), ()))
-    after = followed(text, verdict.hint)
+    verdict = judge_services(ServiceCalls(run_of(text), ()))
+    after = follow_step(text, verdict.hint)
     assert after.count("create_service(") == 4
 
 
@@ -104,8 +104,8 @@ def test_no_step_of_a_server_is_in_words_only() -> None:
         "async def run():\n    await Client().ask()\n\n\nif __name__ == '__main__':\n    asyncio.run(run())\n",
     ],
 )
-def test_a_client_as_a_whole_calls_all_four(text: str) -> None:
-    after = followed(text, rewriting.rewrite_client(Code(text, "node.py")))
+def test_a_rewritten_client_calls_all_four_services(text: str) -> None:
+    after = follow_step(text, rewriting.rewrite_client(Code(text, "node.py")))
     assert "for name in ('add', 'subtract', 'multiply', 'divide'):" in after
     assert "rclpy.spin_until_future_complete(node, future)" in after
     assert after.count("rclpy.init()") == 1

@@ -1,4 +1,4 @@
-"""I1.3: edits of the server's code by which a service is offered, under its name, and answers."""
+"""I1.3: edits of the server's code by which a service is offered under the right name, and answers."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ class Calculator(Node):
 """
 
 
-def followed(text: str, step: Callable[[Trace], str | None]) -> str | None:
-    """The file after the step, without its head."""
-    told = step(trace(sources={"node.py": HEAD + text}))
-    return None if told is None else apply_step(told, {"node.py": HEAD + text})["node.py"].removeprefix(HEAD)
+def follow_step(text: str, find_step: Callable[[Trace], str | None]) -> str | None:
+    """The file after following the step, without HEAD; None if there is no step."""
+    step = find_step(trace(sources={"node.py": HEAD + text}))
+    return None if step is None else apply_step(step, {"node.py": HEAD + text})["node.py"].removeprefix(HEAD)
 
 
 def body(*lines: str) -> str:
@@ -70,7 +70,7 @@ def body(*lines: str) -> str:
     ],
 )
 def test_a_response_is_returned_on_every_path(before: str, after: str) -> None:
-    assert followed(before, lambda seen: service_steps.return_response(seen, "/divide")) == after
+    assert follow_step(before, lambda run: service_steps.return_response(run, "/divide")) == after
 
 
 WRAPPED = """\
@@ -84,8 +84,8 @@ def logged(function):
 """ + body("response.sum = 1", "return response").replace("    def on", "    @logged\n    def on")
 
 
-def test_what_a_decorator_puts_around_a_callback_returns_the_response() -> None:
-    after = followed(WRAPPED, lambda seen: service_steps.return_response(seen, "/divide"))
+def test_the_wrapper_of_a_decorated_callback_returns_the_response() -> None:
+    after = follow_step(WRAPPED, lambda run: service_steps.return_response(run, "/divide"))
     assert after == WRAPPED.replace("response)\n\n    return", "response)\n        return response\n\n    return")
 
 
@@ -96,39 +96,39 @@ for name in NAMES:
 """
 
 
-def test_services_that_are_missing_are_offered_below_the_others() -> None:
-    after = followed(body("return response"), lambda seen: service_steps.add_services(seen, ["/add", "/multiply"]))
+def test_missing_services_are_added_below_the_others() -> None:
+    after = follow_step(body("return response"), lambda run: service_steps.add_services(run, ["/add", "/multiply"]))
     assert after is not None
     assert "self.on_divide)\n        self.create_service(AddTwoInts, 'add', self.add_callback)\n" in after
     assert (
         "    def multiply_callback(self, request, response):\n        response.sum = request.a * request.b\n" in after
     )
-    after = followed(MODULE, lambda seen: service_steps.add_services(seen, ["/add"]))
+    after = follow_step(MODULE, lambda run: service_steps.add_services(run, ["/add"]))
     assert after is not None
     assert after.endswith("    return response\n\nnode.create_service(AddTwoInts, 'add', add_callback)\n")
 
 
-def test_services_that_are_offered_in_a_loop_are_named_and_answered_in_it() -> None:
+def test_services_created_in_a_loop_are_renamed_and_answered_there() -> None:
     wanted = [(f"/calc{name}", name) for name in SIGNS]
-    after = followed(MODULE, lambda seen: service_steps.rename_services(seen, wanted))
+    after = follow_step(MODULE, lambda run: service_steps.rename_services(run, wanted))
     assert after is not None
     assert "node.create_service(AddTwoInts, '/' + (PREFIX + name).rpartition('/')[2], make(name))" in after
-    after = followed(MODULE, lambda seen: services.compute_results(seen, list(SIGNS)))
+    after = follow_step(MODULE, lambda run: services.compute_results(run, list(SIGNS)))
     assert after is not None
     assert "name=PREFIX + name: calculate(name, request, response, node.get_logger()))" in after
     assert "\ndef calculate(name, request, response, logger):\n" in f"\n{after}"
 
 
-def test_a_service_of_another_type_gets_the_type_and_a_callback_that_fills_it_in() -> None:
+def test_a_service_of_the_wrong_type_gets_the_right_type_and_a_matching_callback() -> None:
     text = body("response.success = True", "return response").replace("AddTwoInts", "Trigger")
-    after = followed(text, lambda seen: service_steps.set_types(seen, ["/divide"]))
+    after = follow_step(text, lambda run: service_steps.set_types(run, ["/divide"]))
     assert after is not None
     assert 'self.create_service(AddTwoInts, "divide", self.on_divide)' in after
     assert "self.get_logger().error('division by zero')" in after
     assert "response.success" not in after
 
 
-def test_a_thread_that_spins_is_waited_for_at_the_end() -> None:
+def test_a_spinning_thread_is_no_longer_a_daemon() -> None:
     text = "t = Thread(target=executor.spin, daemon=True)\n"
-    told = steps.join_thread(Code(text, "node.py"))
-    assert told == "in node.py, line 1 becomes: t = Thread(target=executor.spin)"
+    step = steps.join_thread(Code(text, "node.py"))
+    assert step == "in node.py, line 1 becomes: t = Thread(target=executor.spin)"

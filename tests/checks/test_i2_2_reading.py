@@ -1,4 +1,4 @@
-"""What is read of a learner's file for the words of a diagnosis."""
+"""What a diagnosis reads from the learner's file."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Sensor(Base):
 """
 
 
-def test_calls_with_arguments_and_surroundings() -> None:
+def test_calls_with_arguments_and_context() -> None:
     first, later = Source(CODE).calls("create_timer")
     assert (first.line, first.within, first.kept) == (8, "__init__", "self.timer")
     assert first.given == ("1.0 / self.rate", "self.tick")
@@ -48,13 +48,13 @@ def test_assignments_and_names() -> None:
     assert source.uses("count") == 1
 
 
-def test_texts_put_together() -> None:
+def test_concatenated_texts() -> None:
     texts = set(Source(CODE).texts())
     assert ("'a'", "'/'", "self.name") in texts
     assert any(parts[-2:] == ("self.rate", "'!'") for parts in texts)
 
 
-def test_what_cannot_be_read_says_nothing() -> None:
+def test_an_unparsable_file_yields_nothing() -> None:
     for source in (Source(), Source("def ("), Source("\0")):
         assert source.calls("print") == []
         assert source.assignments() == []

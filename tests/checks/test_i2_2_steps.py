@@ -1,4 +1,4 @@
-"""I2.2: the next step in the words of the learner's own launch file."""
+"""I2.2: the next step, in terms of the learner's own launch file."""
 
 from __future__ import annotations
 
@@ -38,31 +38,31 @@ def generate_launch_description():
     ])
 """
 REMAPPED = ", remappings=[('chatter', name)]"
-SPACED = ", namespace=space"
+NAMESPACED = ", namespace=space"
 DECLARED = "        DeclareLaunchArgument('namespace', default_value=''),\n"
 
 
-def of(code: str, **others: str) -> Launch:
+def launch_of(code: str, **others: str) -> Launch:
     return Launch(NodeFile(code), {f"{name}.py": text for name, text in others.items()})
 
 
 def changed(*pairs: tuple[str, str]) -> Launch:
-    """The launch file with something of it written otherwise."""
+    """The launch file with each of these texts replaced."""
     code = LAUNCH
     for old, new in pairs:
         assert old in code
         code = code.replace(old, new)
-    return of(code)
+    return launch_of(code)
 
 
-def followed(there: Launch, cause: Cause | None) -> Cause:
-    """What a learner reads of a cause."""
+def applicable_cause(launch: Launch, cause: Cause | None) -> Cause:
+    """The cause as the learner reads it, with a step that can be applied."""
     assert cause is not None
-    return steps.with_applicable_step(there, cause)
+    return steps.with_applicable_step(launch, cause)
 
 
 @pytest.mark.parametrize(
-    ("there", "cause", "step"),
+    ("launch", "cause", "step"),
     [
         (
             changed((DECLARED, "")),
@@ -91,13 +91,13 @@ def followed(there: Launch, cause: Cause | None) -> Cause:
         ),
     ],
 )
-def test_a_launch_configuration_that_does_not_exist(there: Launch, cause: str, step: str) -> None:
-    """The launch says which one; the text of a substitution in its message is not the learner's doing."""
+def test_a_launch_configuration_that_does_not_exist(launch: Launch, cause: str, step: str) -> None:
+    """The launch names the configuration; the repr of a substitution in its message is not the learner's doing."""
     said = (
         "[ERROR] [launch]: Caught exception in launch (see debug for traceback): launch configuration 'namespace' does "
         "not exist\n<launch.substitutions.launch_configuration.LaunchConfiguration object at 0x7f0>"
     )
-    found = diagnose_launch(trace(err=said, sources={"node.py": there.file.text}))
+    found = diagnose_launch(trace(err=said, sources={"node.py": launch.file.text}))
     assert found is not None
     assert found.name == cause
     assert step in found.hint
@@ -107,7 +107,7 @@ RIGHT = "remappings=[('chatter', name)]"
 
 
 @pytest.mark.parametrize(
-    ("there", "cause", "step"),
+    ("launch", "cause", "step"),
     [
         (changed((REMAPPED, ", parameters=[{'topic': name}]")), "topic given as a parameter", RIGHT),
         (changed((REMAPPED, ", arguments=[name]")), "topic given as an argument", RIGHT),
@@ -127,8 +127,8 @@ RIGHT = "remappings=[('chatter', name)]"
         ),
     ],
 )
-def test_topic(there: Launch, cause: str, step: str) -> None:
-    found = followed(there, steps.diagnose_topic_argument(there, "chatter"))
+def test_causes_of_an_unused_topic_argument(launch: Launch, cause: str, step: str) -> None:
+    found = applicable_cause(launch, steps.diagnose_topic_argument(launch, "chatter"))
     assert found.name == cause, found
     assert step in found.hint
     assert "parameters=" not in found.hint
@@ -136,25 +136,25 @@ def test_topic(there: Launch, cause: str, step: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("there", "step"),
+    ("launch", "step"),
     [
         (
-            changed((SPACED, ""), ("        listener,", "        listener,\n        PushRosNamespace(space),")),
+            changed((NAMESPACED, ""), ("        listener,", "        listener,\n        PushRosNamespace(space),")),
             "namespace=LaunchConfiguration('namespace'),",
         ),
-        (changed((SPACED, ", namespace='robot1'")), "executable='listener', namespace=space, rem"),
-        (changed((SPACED, ", name=[space, '_node']")), "namespace=space)"),
+        (changed((NAMESPACED, ", namespace='robot1'")), "executable='listener', namespace=space, rem"),
+        (changed((NAMESPACED, ", name=[space, '_node']")), "namespace=space)"),
     ],
 )
-def test_namespace(there: Launch, step: str) -> None:
-    found = followed(there, steps.diagnose_namespace_argument(there))
+def test_causes_of_an_unused_namespace_argument(launch: Launch, step: str) -> None:
+    found = applicable_cause(launch, steps.diagnose_namespace_argument(launch))
     assert found.name == "namespace not used"
     assert step in found.hint
     assert "name=[" not in found.hint
 
 
 @pytest.mark.parametrize(
-    ("there", "says", "step"),
+    ("launch", "says", "step"),
     [
         (changed(("        listener,\n", "")), "listener (line 11)", "line 13 becomes: listener, DeclareLaunchArg"),
         (
@@ -174,20 +174,20 @@ def test_namespace(there: Launch, step: str) -> None:
         ),
     ],
 )
-def test_a_node_that_is_not_started(there: Launch, says: str, step: str) -> None:
-    found = followed(there, steps.diagnose_missing_node(there, "subscriber"))
+def test_a_node_that_is_not_started(launch: Launch, says: str, step: str) -> None:
+    found = applicable_cause(launch, steps.diagnose_missing_node(launch, "subscriber"))
     assert found.name == "no subscriber"
     assert says in found.text
     assert step in found.hint
 
 
 @pytest.mark.parametrize("written", ["f'/{name}'", "'/' + str(name)", "'/'.join([space, name])"])
-def test_text_too_early(written: str) -> None:
+def test_a_substitution_turned_into_text_too_early(written: str) -> None:
     step = str(steps.step_for_early_text(changed(("('chatter', name)", f"('chatter', {written})")), "chatter"))
     assert step.count(RIGHT) == 2
 
 
-def test_steps_of_one_line() -> None:
+def test_steps_that_change_single_lines() -> None:
     assert steps.step_for_missing_return(changed(("    return Launch", "    Launch"))) == (
         "line 12 becomes: return LaunchDescription(["
     )
@@ -223,36 +223,36 @@ def generate_launch_description():
 """
 
 
-def test_an_opaque_function_that_returns_nothing_is_told_its_end() -> None:
-    assert steps.step_for_empty_description(of(OPAQUE)) == (
+def test_an_opaque_function_that_returns_nothing_gets_a_return() -> None:
+    assert steps.step_for_empty_description(launch_of(OPAQUE)) == (
         "write below line 3, with the same indentation: return [talker, listener]"
     )
 
 
-def test_what_is_right_is_written_with_the_programs_of_the_demos() -> None:
-    """A function that is as it should be is not written again: what is wrong is what it starts."""
+def test_a_correct_launch_file_is_rewritten_with_the_demo_programs() -> None:
+    """A correct function is not rewritten: what is wrong is what it starts."""
     own = changed(
         ("demo_nodes_py", "my_package"), ("'talker'", "'minimal_publisher'"), ("'listener'", "'minimal_subscriber'")
     )
     assert "executable='minimal_publisher'," in str(steps.rewrite_launch_file(own))
-    once = of(apply(own.file.text, rewriting.rewrite_description(own)))
+    once = launch_of(apply(own.file.text, rewriting.rewrite_description(own)))
     assert "executable='talker'," in str(steps.rewrite_launch_file(once))
 
 
-def test_own_programs_are_kept_with_the_topic_of_their_code() -> None:
+def test_own_programs_are_kept_with_the_topic_in_their_code() -> None:
     code = LAUNCH.replace("package='demo_nodes_py', executable='talker'", "package='my_package', executable='speaker'")
-    found = of(code, speaker="self.create_publisher(String, 'hello', 10)").programs()
+    found = launch_of(code, speaker="self.create_publisher(String, 'hello', 10)").programs()
     assert [(each.package, each.executable, each.topic) for each in found] == [
         ("my_package", "speaker", "hello"),
         ("demo_nodes_py", "listener", "chatter"),
     ]
 
 
-def test_what_cannot_be_read_leaves_the_plain_words() -> None:
-    assert steps.diagnose_topic_argument(of(""), "chatter") is None
-    assert steps.diagnose_namespace_argument(of("")) is None
-    assert steps.diagnose_missing_node(of(""), "publisher") is None
-    assert steps.rewrite_launch_file(of("")) is None
+def test_an_empty_file_leaves_only_generic_steps() -> None:
+    assert steps.diagnose_topic_argument(launch_of(""), "chatter") is None
+    assert steps.diagnose_namespace_argument(launch_of("")) is None
+    assert steps.diagnose_missing_node(launch_of(""), "publisher") is None
+    assert steps.rewrite_launch_file(launch_of("")) is None
     assert steps.remapping(Source(), "chatter") == "remappings=[('chatter', LaunchConfiguration('topic'))]"
 
 
@@ -267,15 +267,15 @@ def generate_launch_description():
 
 
 def test_commands_instead_of_nodes_become_nodes() -> None:
-    found = followed(of(COMMANDS), steps.diagnose_topic_argument(of(COMMANDS), "chatter"))
+    found = applicable_cause(launch_of(COMMANDS), steps.diagnose_topic_argument(launch_of(COMMANDS), "chatter"))
     assert "executable='listener'," in found.hint
     assert "from launch_ros.actions import Node" in found.hint
-    assert steps.diagnose_split_command(of(COMMANDS)) is None
+    assert steps.diagnose_split_command(launch_of(COMMANDS)) is None
 
 
-def test_a_command_in_one_piece() -> None:
+def test_a_command_in_one_string() -> None:
     found = steps.diagnose_split_command(
-        of(COMMANDS.replace("'ros2', 'run', 'demo_nodes_py', '", "'ros2 run demo_nodes_py "))
+        launch_of(COMMANDS.replace("'ros2', 'run', 'demo_nodes_py', '", "'ros2 run demo_nodes_py "))
     )
     assert found is not None
     assert "executable='listener'," in found.hint
@@ -295,16 +295,16 @@ MODULE = changed(
 )
 
 
-@pytest.mark.parametrize(("there", "own"), [(ALIAS, "LC"), (MODULE, "subs.LaunchConfiguration")])
-def test_what_is_imported_under_another_name_is_understood_and_called_so(there: Launch, own: str) -> None:
-    found = steps.diagnose_topic_argument(there, "chatter")
+@pytest.mark.parametrize(("launch", "own"), [(ALIAS, "LC"), (MODULE, "subs.LaunchConfiguration")])
+def test_import_aliases_are_understood_and_used(launch: Launch, own: str) -> None:
+    found = steps.diagnose_topic_argument(launch, "chatter")
     assert found is not None
     assert found.name == "topic given as a parameter"
-    assert f"parameters=[{{'topic': {own}('topic')}}]" in steps.with_own_names(there.source, found).text
-    assert f"remappings=[('chatter', {own}('topic'))]" in steps.with_own_names(there.source, found).hint
+    assert f"parameters=[{{'topic': {own}('topic')}}]" in steps.with_own_names(launch.source, found).text
+    assert f"remappings=[('chatter', {own}('topic'))]" in steps.with_own_names(launch.source, found).hint
 
 
-def test_what_a_step_uses_and_the_file_does_not_import_is_imported() -> None:
+def test_a_step_adds_the_imports_that_it_needs() -> None:
     plain = Source(LAUNCH.replace("LaunchConfiguration", "TextSubstitution"))
     said = steps.with_own_names(plain, Cause("a", "b", "line 1: LaunchConfiguration('topic')"))
     assert said.hint.splitlines() == [
@@ -313,54 +313,56 @@ def test_what_a_step_uses_and_the_file_does_not_import_is_imported() -> None:
     ]
 
 
-def test_arguments_in_a_dict_that_nodes_share_are_not_given_twice() -> None:
+def test_arguments_in_a_shared_dict_are_not_given_twice() -> None:
     shared = changed(
         (REMAPPED, ", **common"),
         ("    talker =", "    common = dict(\n        parameters=[{'topic': name}],\n    )\n    talker ="),
     )
-    found = followed(shared, steps.diagnose_topic_argument(shared, "chatter"))
+    found = applicable_cause(shared, steps.diagnose_topic_argument(shared, "chatter"))
     assert "**common" not in found.hint
     assert "remappings=[('chatter', LaunchConfiguration('topic'))]," in found.hint
 
 
 @pytest.mark.parametrize("case", find(["i2.2"])[0], ids=str)
-def test_each_submission_can_be_written_again(case: Case) -> None:
-    """Where Python can read it at all."""
+def test_each_submission_can_be_rewritten(case: Case) -> None:
+    """If Python can parse it at all."""
     text = (case.folder / "my_launch.py").read_text(errors="replace")
     try:
         ast.parse(text)
     except SyntaxError:
         return
-    assert steps.rewrite_launch_file(of(text))
+    assert steps.rewrite_launch_file(launch_of(text))
 
 
-def test_a_step_in_words_gives_way_to_one_that_can_be_followed() -> None:
+def test_a_step_in_words_is_replaced_by_an_applicable_one() -> None:
     said = Cause("a node that ends", "speaker has ended", "start this program alone, and see what it says")
-    assert "executable='listener'," in steps.with_applicable_step(of(OPAQUE), said).hint
+    assert "executable='listener'," in steps.with_applicable_step(launch_of(OPAQUE), said).hint
     right = changed(("demo_nodes_py", "my_package"))
     assert "package='demo_nodes_py'," in steps.with_applicable_step(right, said, right.demo).hint
-    told = Cause("exception", "x", "line 1 becomes: x = 1")
-    assert steps.with_applicable_step(of(OPAQUE), told) == told
+    applicable = Cause("exception", "x", "line 1 becomes: x = 1")
+    assert steps.with_applicable_step(launch_of(OPAQUE), applicable) == applicable
 
 
-def test_what_ends_python_while_the_file_is_loaded_is_taken_out() -> None:
-    assert steps.step_for_empty_description(of(f"import os\nos._exit(0)\n{LAUNCH}")) == "remove line 2: os._exit(0)"
+def test_a_statement_that_exits_while_the_file_is_loaded_is_removed() -> None:
+    assert (
+        steps.step_for_empty_description(launch_of(f"import os\nos._exit(0)\n{LAUNCH}")) == "remove line 2: os._exit(0)"
+    )
 
 
-def test_a_launch_file_that_python_cannot_read_is_told_as_a_whole_one() -> None:
-    there = of("this is a launch file that nobody can read\n")
+def test_an_unparsable_launch_file_is_rewritten_as_a_whole() -> None:
+    launch = launch_of("this is a launch file that nobody can read\n")
 
-    step = steps.rewrite_launch_file(there)
+    step = steps.rewrite_launch_file(launch)
 
     assert step is not None
-    code = apply_step(step, {"my_launch.py": there.file.text})["my_launch.py"]
+    code = apply_step(step, {"my_launch.py": launch.file.text})["my_launch.py"]
     assert "executable='talker'" in code
     assert "executable='listener'" in code
     compile(code, "my_launch.py", "exec")
 
 
-def test_a_class_that_is_imported_from_elsewhere_gets_the_line_of_its_own() -> None:
-    there = changed(
+def test_a_class_imported_from_the_wrong_module_gets_its_own_import() -> None:
+    launch = changed(
         (
             "from launch.actions import DeclareLaunchArgument\n",
             "from launch.actions import DeclareLaunchArgument, Node\n",
@@ -369,7 +371,7 @@ def test_a_class_that_is_imported_from_elsewhere_gets_the_line_of_its_own() -> N
     )
     cause = Cause("import error", "ImportError: cannot import name 'Node' from 'launch.actions'", "take it out there")
 
-    step = steps.with_applicable_step(there, cause).hint
+    step = steps.with_applicable_step(launch, cause).hint
 
     assert step == (
         "line 2 becomes:\n    from launch.actions import DeclareLaunchArgument\n    from launch_ros.actions import Node"

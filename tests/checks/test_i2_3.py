@@ -1,4 +1,4 @@
-"""I2.3: made log messages of a timer, made calls, and what must be said of each."""
+"""I2.3: verdicts on fabricated timer logs and service calls."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ from tutor.judge.trace import CallAnswer, LogRecord
 from tutor.judge.verdict import Status, Verdict
 
 SERVING = graph(services={SERVICE: TYPE})
-ASKED = START + 0.3
+CALLED_AT = START + 0.3
 EXECUTING = frame("await_or_execute", "/venv/rclpy/executors.py")
 ASLEEP = frame("slow_add", code="time.sleep(3.0)")
 IN_WORKER = (ASLEEP, EXECUTING, frame("_worker", "/usr/lib/python3.12/concurrent/futures/thread.py"))
@@ -57,7 +57,7 @@ IN_CALL = (frame("call", "/venv/rclpy/client.py"), frame("slow_add"), EXECUTING)
 Text = Callable[[int], str]
 
 
-def says(text: str, at: float, level: int = 20, *, node: str = "node", function: str = "") -> LogRecord:
+def log_at(text: str, at: float, level: int = 20, *, node: str = "node", function: str = "") -> LogRecord:
     return LogRecord(level, node, text, at, at, function)
 
 
@@ -65,34 +65,36 @@ def logged_by(function: str, logs: Sequence[LogRecord]) -> list[LogRecord]:
     return [replace(log, function=function) for log in logs]
 
 
-def ticking(
+def tick_logs(
     text: Text = "Timer tick: {}".format,
     *,
     until_s: float = 4.6,
     every: int = 10,
     hz: float = 10.0,
     jitter_s: float = 0.0,
-    stands_still: tuple[float, float] | None = None,
+    pause: tuple[float, float] | None = None,
     seed: int = 1,
 ) -> list[LogRecord]:
-    """A timer's messages from START on; while it stands still (from, to; seconds after START), it does not count."""
-    chance = random.Random(seed)
+    """A timer's log messages from START on. In `pause` (from, to; seconds after START), it neither ticks nor counts."""
+    rng = random.Random(seed)
     logs: list[LogRecord] = []
     number = step = 0
     while (at := (step := step + 1) / hz) <= until_s:
-        if stands_still and stands_still[0] <= at < stands_still[1]:
+        if pause and pause[0] <= at < pause[1]:
             continue
         number += 1
         if number % every == 0:
-            logs.append(says(text(number), START + at + chance.uniform(0, jitter_s)))
+            logs.append(log_at(text(number), START + at + rng.uniform(0, jitter_s)))
     return logs
 
 
-def seen_in(logs: Sequence[LogRecord]) -> tuple[Series, ...]:
+def series_in(logs: Sequence[LogRecord]) -> tuple[Series, ...]:
     return timer_series(all_series(logs))
 
 
-def answer(took_s: float = 3.01, a: int = 5, b: int = 3, sum_: int | None = 8, asked_at: float = ASKED) -> CallAnswer:
+def answer(
+    took_s: float = 3.01, a: int = 5, b: int = 3, sum_: int | None = 8, asked_at: float = CALLED_AT
+) -> CallAnswer:
     response = None if sum_ is None else {"sum": sum_}
     return CallAnswer(SERVICE, {"a": a, "b": b}, response, asked_at, asked_at + took_s)
 
@@ -109,51 +111,51 @@ def single_calls(
 
 
 def idle_run(logs: Sequence[LogRecord], **more: Any) -> IdleRun:
-    return IdleRun(trace(graph=SERVING, logs=logs), seen_in(logs), **more)
+    return IdleRun(trace(graph=SERVING, logs=logs), series_in(logs), **more)
 
 
-def blocks(seen: SingleCalls, several: ConcurrentCalls | None = None) -> Verdict:
+def judge_blocking(seen: SingleCalls, several: ConcurrentCalls | None = None) -> Verdict:
     return judge_blocks(seen, several or ConcurrentCalls(trace()))
 
 
 @given(st.floats(2.8, 3.35), st.integers(-900, 900), st.integers(-900, 900))
-def test_three_seconds(took_s: float, a: int, b: int) -> None:
-    assert_passed(blocks(single_calls((), answer(took_s, a, b, a + b))))
+def test_an_answer_after_three_seconds_passes(took_s: float, a: int, b: int) -> None:
+    assert_passed(judge_blocking(single_calls((), answer(took_s, a, b, a + b))))
 
 
 @given(st.floats(0, 2.7) | st.floats(3.5, 12))
-def test_other_times(took_s: float) -> None:
-    assert_failed(blocks(single_calls((), answer(took_s))), "too quick" if took_s < 3 else "too slow", "s")
+def test_other_durations_fail(took_s: float) -> None:
+    assert_failed(judge_blocking(single_calls((), answer(took_s))), "too quick" if took_s < 3 else "too slow", "s")
 
 
-def test_a_busy_machine_may_take_longer_but_never_less() -> None:
-    assert_passed(blocks(single_calls((), answer(3.7), cpu_wait_s=0.4)))
-    assert_passed(blocks(single_calls((), answer(4.2), answer(3.3))))
-    assert_failed(blocks(single_calls((), answer(2.6), cpu_wait_s=2.0)), "too quick")
-    assert_failed(blocks(single_calls((), answer(4.0), cpu_wait_s=0.6)), "too slow", "4.0 s")
-    assert_failed(blocks(single_calls((), answer(4.5), cpu_wait_s=1.0)), "too slow", "4.5 s")
-    assert_failed(blocks(single_calls((), answer(4.5), answer(4.1))), "too slow", "4.1 s")
-    assert_undecided(blocks(single_calls((), answer(4.2), cpu_wait_s=1.0)))
+def test_a_busy_machine_excuses_slow_answers_but_not_quick_ones() -> None:
+    assert_passed(judge_blocking(single_calls((), answer(3.7), cpu_wait_s=0.4)))
+    assert_passed(judge_blocking(single_calls((), answer(4.2), answer(3.3))))
+    assert_failed(judge_blocking(single_calls((), answer(2.6), cpu_wait_s=2.0)), "too quick")
+    assert_failed(judge_blocking(single_calls((), answer(4.0), cpu_wait_s=0.6)), "too slow", "4.0 s")
+    assert_failed(judge_blocking(single_calls((), answer(4.5), cpu_wait_s=1.0)), "too slow", "4.5 s")
+    assert_failed(judge_blocking(single_calls((), answer(4.5), answer(4.1))), "too slow", "4.1 s")
+    assert_undecided(judge_blocking(single_calls((), answer(4.2), cpu_wait_s=1.0)))
 
 
-def test_one_late_call_on_a_calm_machine_is_enough() -> None:
+def test_one_late_call_on_a_calm_machine_is_enough_to_fail() -> None:
     busy, calm = single_calls((), answer(4.05), cpu_wait_s=0.9), single_calls((), answer(4.2), cpu_wait_s=0.3)
     for calls in (busy.calls + calm.calls, calm.calls + busy.calls):
-        assert_failed(blocks(replace(busy, calls=calls)), "too slow", "4.0 s")
-    assert_undecided(blocks(replace(busy, calls=busy.calls * 2)))
+        assert_failed(judge_blocking(replace(busy, calls=calls)), "too slow", "4.0 s")
+    assert_undecided(judge_blocking(replace(busy, calls=busy.calls * 2)))
 
 
 def calls_made(each: Call, logs: Sequence[LogRecord] = (), *, most: int = MOST_TRIES, calm_at: int = 99) -> int:
-    """How often it is called, if every call is like this one; on a calm machine only from the one numbered so on."""
+    """The number of calls made, if each is like this one; from number `calm_at` on, the machine is calm."""
     made: list[Call] = []
-    while not made or needs_repeat(logs, made, seen_in(ticking(every=1)), most):
+    while not made or needs_repeat(logs, made, series_in(tick_logs(every=1)), most):
         made.append(each if len(made) + 1 < calm_at else replace(each, cpu_wait_s=0.0))
     return len(made)
 
 
-def test_calls_go_on_until_one_tells_something() -> None:
+def test_calls_are_repeated_until_one_is_conclusive() -> None:
     (good,), (late,) = single_calls((), cpu_wait_s=1.0).calls, single_calls((), answer(4.1), cpu_wait_s=1.0).calls
-    ticks, gap = ticking(every=1, until_s=5.5), ticking(every=1, until_s=5.5, stands_still=(0.5, 2))
+    ticks, gap = tick_logs(every=1, until_s=5.5), tick_logs(every=1, until_s=5.5, pause=(0.5, 2))
     assert calls_made(replace(good, cpu_wait_s=0.0), ticks) == 1
     assert calls_made(replace(late, cpu_wait_s=0.0), ticks) == 2
     assert calls_made(late, ticks) == calls_made(replace(good, cpu_wait_s=0.7), gap) == MOST_TRIES
@@ -161,17 +163,17 @@ def test_calls_go_on_until_one_tells_something() -> None:
     assert calls_made(late, ticks, calm_at=3) == 3
     assert calls_made(late, ticks, calm_at=6) == 6
     assert calls_made(replace(good, cpu_wait_s=0.7), gap, calm_at=6) == 6
-    assert calls_made(replace(late, cpu_wait_s=0.3), ticks) == TRIES  # each of them tells, another might be in time
+    assert calls_made(replace(late, cpu_wait_s=0.3), ticks) == TRIES  # each is conclusive, another might be in time
     assert calls_made(replace(late, answer=answer(5.0)), ticks) == 2
     assert calls_made(replace(late, answer=answer(sum_=None)), ticks) == 1
 
 
-def test_one_wrong_sum_is_wrong() -> None:
-    assert_failed(blocks(single_calls((), answer(3.6), answer(3.0, sum_=9))), "wrong sum", "9 instead of 8")
+def test_one_wrong_sum_fails() -> None:
+    assert_failed(judge_blocking(single_calls((), answer(3.6), answer(3.0, sum_=9))), "wrong sum", "9 instead of 8")
 
 
-def called_again(*called: CallAnswer, cpu_wait_s: float = 0.0) -> SingleCalls:
-    """A first call with nothing wrong, and these as the second one."""
+def with_second_call(*called: CallAnswer, cpu_wait_s: float = 0.0) -> SingleCalls:
+    """A first call with nothing wrong, and these as the later ones."""
     return replace(single_calls(), later=single_calls((), *called, cpu_wait_s=cpu_wait_s).calls)
 
 
@@ -179,21 +181,22 @@ def called_again(*called: CallAnswer, cpu_wait_s: float = 0.0) -> SingleCalls:
     ("called", "cause"), [(answer(sum_=9), "wrong sum"), (answer(0.01), "too quick"), (answer(5.0), "too slow")]
 )
 def test_the_second_call_counts_too(called: CallAnswer, cause: str) -> None:
-    assert_passed(blocks(called_again(answer())))
-    assert_failed(blocks(called_again(called)), cause)
-    assert blocks(called_again(called)).observed.startswith("the second call: ")
+    assert_passed(judge_blocking(with_second_call(answer())))
+    assert_failed(judge_blocking(with_second_call(called)), cause)
+    assert judge_blocking(with_second_call(called)).observed.startswith("the second call: ")
 
 
-def test_what_calls_at_once_show_as_well_is_not_told_twice() -> None:
+def test_what_concurrent_calls_also_show_is_not_reported_twice() -> None:
     for called in (answer(sum_=9), answer(sum_=None)):
         assert_failed(
-            blocks(called_again(called), three(1005, 2005, 3005)), "wrong sum" if called.response else "no answer"
+            judge_blocking(with_second_call(called), concurrent(1005, 2005, 3005)),
+            "wrong sum" if called.response else "no answer",
         )
-        assert_passed(blocks(called_again(called), three(1005, None, 3005)))
+        assert_passed(judge_blocking(with_second_call(called), concurrent(1005, None, 3005)))
 
 
-def test_a_second_call_on_a_busy_machine_takes_nothing_back() -> None:
-    assert_passed(blocks(called_again(answer(4.2), cpu_wait_s=1.0)))
+def test_a_second_call_on_a_busy_machine_does_not_change_a_pass() -> None:
+    assert_passed(judge_blocking(with_second_call(answer(4.2), cpu_wait_s=1.0)))
 
 
 @pytest.mark.parametrize(
@@ -217,8 +220,8 @@ def test_a_second_call_on_a_busy_machine_takes_nothing_back() -> None:
         ),
     ],
 )
-def test_no_right_answer(seen: SingleCalls, cause: str, word: str) -> None:
-    assert_failed(blocks(seen), cause, word)
+def test_causes_of_a_wrong_or_missing_answer(seen: SingleCalls, cause: str, word: str) -> None:
+    assert_failed(judge_blocking(seen), cause, word)
 
 
 TEXTS: list[Text] = [
@@ -241,35 +244,35 @@ TEXTS: list[Text] = [
 
 @pytest.mark.parametrize("text", TEXTS)
 @pytest.mark.parametrize("every", [1, 2, 5, 10, 20])
-def test_a_timer_is_found_and_goes_on(text: Text, every: int) -> None:
-    alone = idle_run(ticking(text, until_s=8, every=every))
+def test_a_timer_that_keeps_ticking_passes(text: Text, every: int) -> None:
+    alone = idle_run(tick_logs(text, until_s=8, every=every))
     during_call = [
-        *ticking(text, every=every),
-        says("Service called: 5 + 3", ASKED),
-        *(says(f"working: {percent} %", ASKED + percent / 34) for percent in range(0, 100, 3)),
-        says("Service complete: 8", ASKED + 3.01),
+        *tick_logs(text, every=every),
+        log_at("Service called: 5 + 3", CALLED_AT),
+        *(log_at(f"working: {percent} %", CALLED_AT + percent / 34) for percent in range(0, 100, 3)),
+        log_at("Service complete: 8", CALLED_AT + 3.01),
     ]
     assert_passed(judge_timer(alone, single_calls(during_call)))
 
 
 @pytest.mark.parametrize("text", TEXTS)
 @pytest.mark.parametrize("every", [1, 5, 10, 20])
-def test_a_timer_that_stands_still_is_found_out(text: Text, every: int) -> None:
-    alone = idle_run(ticking(text, until_s=8, every=every))
-    blocked = ticking(text, every=every, stands_still=(0.3, 3.31), until_s=8)
+def test_a_timer_that_stops_during_a_call_fails(text: Text, every: int) -> None:
+    alone = idle_run(tick_logs(text, until_s=8, every=every))
+    blocked = tick_logs(text, every=every, pause=(0.3, 3.31), until_s=8)
     seen = single_calls(blocked, until=START + 8, stuck=IN_WORKER)
     assert_failed(judge_timer(alone, seen), "blocked executor", "line 12", "default group")
     alone_thread = single_calls(blocked, until=START + 8, stuck=(frame("slow_add"), EXECUTING))
     assert_failed(judge_timer(alone, alone_thread), "blocked executor", "one thread")
 
 
-def test_what_the_single_calls_show_so_far() -> None:
-    logs, idle = ticking(every=1, until_s=8), idle_run(ticking(every=1))
-    paused = ticking(every=1, stands_still=(1.2, 2.6), until_s=8)
-    still = ticking(every=1, stands_still=(0.3, 3.31), until_s=8)
+def test_verdicts_on_single_calls_so_far() -> None:
+    logs, idle = tick_logs(every=1, until_s=8), idle_run(tick_logs(every=1))
+    paused = tick_logs(every=1, pause=(1.2, 2.6), until_s=8)
+    still = tick_logs(every=1, pause=(0.3, 3.31), until_s=8)
     assert_passed(judge_timer_so_far(single_calls(logs, until=START + 8, idle=idle)))
     assert_failed(judge_timer_so_far(single_calls(paused, until=START + 8, idle=idle)), "timer pauses")
-    # Where it waits is yet to be seen, or what it does without a call.
+    # Still unknown: where the timer waits, or what it does without a call.
     assert judge_timer_so_far(single_calls(still, until=START + 8, idle=idle)) is None
     assert judge_timer_so_far(single_calls(paused, until=START + 8)) is None
     assert_failed(judge_blocks_so_far(single_calls(logs, answer(sum_=9))), "wrong sum")
@@ -277,30 +280,30 @@ def test_what_the_single_calls_show_so_far() -> None:
     assert judge_blocks_so_far(single_calls(logs, answer(sum_=None))) is None
 
 
-def test_a_timer_of_another_pace_needs_no_call() -> None:
-    assert judge_idle_timer(idle_run(ticking(every=1))) is None
+def test_a_wrong_timer_period_fails_without_a_call() -> None:
+    assert judge_idle_timer(idle_run(tick_logs(every=1))) is None
     assert judge_idle_timer(idle_run(())) is None
-    assert_failed(judge_idle_timer(idle_run(ticking(hz=20.0, every=1))), "wrong timer period")
+    assert_failed(judge_idle_timer(idle_run(tick_logs(hz=20.0, every=1))), "wrong timer period")
 
 
-def test_a_timer_that_pauses_for_a_part_of_a_call() -> None:
-    logs = ticking(every=1, stands_still=(1.2, 2.6), until_s=8)
-    verdict = judge_timer(idle_run(ticking(every=1)), single_calls(logs, until=START + 8, stuck=IN_WORKER))
+def test_a_timer_that_pauses_for_part_of_a_call() -> None:
+    logs = tick_logs(every=1, pause=(1.2, 2.6), until_s=8)
+    verdict = judge_timer(idle_run(tick_logs(every=1)), single_calls(logs, until=START + 8, stuck=IN_WORKER))
     assert_failed(verdict, "timer pauses", "1.5 s")
 
 
 def test_a_process_that_ends_after_a_call() -> None:
-    seen = single_calls(ticking(until_s=4.0), until=START + 4.1)
+    seen = single_calls(tick_logs(until_s=4.0), until=START + 4.1)
     gone = replace(seen, trace=replace(seen.trace, exit=exited(0, after_s=4.1)))
-    assert_failed(judge_timer(idle_run(ticking()), gone), "exit at once", "exit code 0")
+    assert_failed(judge_timer(idle_run(tick_logs()), gone), "exit at once", "exit code 0")
 
 
-def test_the_timer_is_listened_to_during_a_second_call_too() -> None:
+def test_the_timer_is_also_judged_during_a_second_call() -> None:
     later = answer(asked_at=START + 4.8)
-    whole, still = (ticking(until_s=10, every=5, stands_still=pause) for pause in (None, (5.0, 7.9)))
+    whole, still = (tick_logs(until_s=10, every=5, pause=pause) for pause in (None, (5.0, 7.9)))
     for logs, right in ((whole, True), (still, False)):
         seen = replace(single_calls(logs), later=single_calls((), later, until=START + 9).calls)
-        verdict = judge_timer(idle_run(ticking(every=5)), seen)
+        verdict = judge_timer(idle_run(tick_logs(every=5)), seen)
         assert verdict.passed == right
         assert right or verdict.observed.startswith("the second call: ")
 
@@ -316,85 +319,87 @@ UNNUMBERED: list[Text] = [
 
 
 @pytest.mark.parametrize("text", UNNUMBERED)
-def test_without_a_number_ten_messages_per_second_are_the_timer(text: Text) -> None:
-    assert_passed(judge_timer(idle_run(ticking(text, every=1)), single_calls(ticking(text, every=1))))
-    blocked = ticking(text, every=1, stands_still=(0.4, 3.3))
-    assert_failed(judge_timer(idle_run(ticking(text, every=1)), single_calls(blocked)), "blocked executor")
+def test_unnumbered_messages_at_10_hz_are_the_timer(text: Text) -> None:
+    assert_passed(judge_timer(idle_run(tick_logs(text, every=1)), single_calls(tick_logs(text, every=1))))
+    blocked = tick_logs(text, every=1, pause=(0.4, 3.3))
+    assert_failed(judge_timer(idle_run(tick_logs(text, every=1)), single_calls(blocked)), "blocked executor")
 
 
 @pytest.mark.parametrize("text", UNNUMBERED[:3])
-def test_without_a_number_one_message_per_second_is_not_a_timer_of_10_hz(text: Text) -> None:
+def test_unnumbered_messages_at_1_hz_are_not_a_10_hz_timer(text: Text) -> None:
     assert_failed(
-        judge_timer(idle_run(ticking(text, every=10)), single_calls(ticking(text))), "wrong timer period", "0.1 s"
+        judge_timer(idle_run(tick_logs(text, every=10)), single_calls(tick_logs(text))), "wrong timer period", "0.1 s"
     )
 
 
 @given(st.floats(0.2, 7.5) | st.floats(12.6, 100), st.sampled_from([1, 2, 5, 10]))
-def test_other_rates(hz: float, every: int) -> None:
-    alone = idle_run(ticking(hz=hz, every=every, until_s=1.2 + 4.1 * every / hz))
+def test_other_timer_rates_fail(hz: float, every: int) -> None:
+    alone = idle_run(tick_logs(hz=hz, every=every, until_s=1.2 + 4.1 * every / hz))
     assert_failed(judge_timer(alone, single_calls()), "wrong timer period", "times per second")
 
 
 @given(st.floats(8.5, 11.5), st.sampled_from([1, 2, 5, 10]), st.integers(0, 100), st.floats(0, 0.03))
-def test_jitter_is_no_fault(hz: float, every: int, seed: int, jitter_s: float) -> None:
+def test_jitter_passes(hz: float, every: int, seed: int, jitter_s: float) -> None:
     def logs(until_s: float, seed: int) -> list[LogRecord]:
-        return ticking(hz=hz, every=every, until_s=until_s, jitter_s=jitter_s, seed=seed)
+        return tick_logs(hz=hz, every=every, until_s=until_s, jitter_s=jitter_s, seed=seed)
 
     assert_passed(judge_timer(idle_run(logs(3.6, seed)), single_calls(logs(4.7, seed + 1))))
 
 
 @given(st.floats(0.3, 1.5), st.floats(1.2, 3.0), st.sampled_from([1, 2, 5]))
-def test_a_gap_of_more_than_a_second_is_one(start: float, length: float, every: int) -> None:
-    logs = ticking(every=every, stands_still=(start, start + length), until_s=6)
-    verdict = judge_timer(idle_run(ticking(every=every)), single_calls(logs, until=START + 6))
+def test_a_gap_of_more_than_a_second_fails(start: float, length: float, every: int) -> None:
+    logs = tick_logs(every=every, pause=(start, start + length), until_s=6)
+    verdict = judge_timer(idle_run(tick_logs(every=every)), single_calls(logs, until=START + 6))
     assert verdict.status is Status.FAILED
 
 
-def test_a_gap_that_the_machine_made_is_excused() -> None:
-    blocked = ticking(every=1, stands_still=(0.5, 1.6))
-    assert_passed(judge_timer(idle_run(ticking(every=1)), single_calls(blocked, cpu_wait_s=1.0)))
-    for_long = ticking(every=1, stands_still=(0.5, 2))
-    assert_undecided(judge_timer(idle_run(ticking(every=1)), single_calls(for_long, cpu_wait_s=0.7)))
-    long = single_calls(ticking(every=1, stands_still=(0.3, 3.3)), cpu_wait_s=0.7)
-    assert_failed(judge_timer(idle_run(ticking(every=1)), long), "blocked executor")
-    # All of the call stands still: no machine is so busy that this passes.
-    assert_undecided(judge_timer(idle_run(ticking()), single_calls(ticking(stands_still=(0.3, 3.3)), cpu_wait_s=2.5)))
-    assert_undecided(judge_timer(idle_run(ticking(hz=7), excused=True), single_calls()))
+def test_a_gap_caused_by_a_busy_machine_is_excused() -> None:
+    blocked = tick_logs(every=1, pause=(0.5, 1.6))
+    assert_passed(judge_timer(idle_run(tick_logs(every=1)), single_calls(blocked, cpu_wait_s=1.0)))
+    for_long = tick_logs(every=1, pause=(0.5, 2))
+    assert_undecided(judge_timer(idle_run(tick_logs(every=1)), single_calls(for_long, cpu_wait_s=0.7)))
+    long = single_calls(tick_logs(every=1, pause=(0.3, 3.3)), cpu_wait_s=0.7)
+    assert_failed(judge_timer(idle_run(tick_logs(every=1)), long), "blocked executor")
+    # The timer stops for the whole call: no machine is so busy that this passes.
+    assert_undecided(judge_timer(idle_run(tick_logs()), single_calls(tick_logs(pause=(0.3, 3.3)), cpu_wait_s=2.5)))
+    assert_undecided(judge_timer(idle_run(tick_logs(hz=7), excused=True), single_calls()))
 
 
-def test_missed_ticks_made_up_for_are_a_gap_and_a_burst() -> None:
-    burst = [says(f"Timer tick: {n}", START + 3.32 + n / 1e4) for n in range(3, 34)]
-    logs = [*ticking(every=1, until_s=0.25), *burst, *ticking(every=1)[33:]]
-    assert_failed(judge_timer(idle_run(ticking(every=1)), single_calls(logs, stuck=IN_WORKER)), "blocked executor")
+def test_ticks_caught_up_in_a_burst_are_still_a_gap() -> None:
+    burst = [log_at(f"Timer tick: {n}", START + 3.32 + n / 1e4) for n in range(3, 34)]
+    logs = [*tick_logs(every=1, until_s=0.25), *burst, *tick_logs(every=1)[33:]]
+    assert_failed(judge_timer(idle_run(tick_logs(every=1)), single_calls(logs, stuck=IN_WORKER)), "blocked executor")
 
 
 def test_a_burst_without_a_gap() -> None:
-    logs = [*ticking(every=1), *(says("Timer tick: 99", START + 3.2 + n / 1e3) for n in range(20))]
-    assert_failed(judge_timer(idle_run(ticking(every=1)), single_calls(logs)), "ticks in a burst")
+    logs = [*tick_logs(every=1), *(log_at("Timer tick: 99", START + 3.2 + n / 1e3) for n in range(20))]
+    assert_failed(judge_timer(idle_run(tick_logs(every=1)), single_calls(logs)), "ticks in a burst")
 
 
-def test_every_second_tick_left_out_during_a_call() -> None:
-    kept = [log for n, log in enumerate(ticking(lambda n: "tick", every=1)) if n % 2 or not 3 < n < 33]
-    assert_failed(judge_timer(idle_run(ticking(lambda n: "tick", every=1)), single_calls(kept)), "slowed timer")
+def test_every_second_tick_is_skipped_during_a_call() -> None:
+    kept = [log for n, log in enumerate(tick_logs(lambda n: "tick", every=1)) if n % 2 or not 3 < n < 33]
+    assert_failed(judge_timer(idle_run(tick_logs(lambda n: "tick", every=1)), single_calls(kept)), "slowed timer")
 
 
-def test_a_call_that_needs_no_excuse_tells_more_than_one_that_does() -> None:
-    kept = [log for n, log in enumerate(ticking(lambda n: "tick", every=1)) if n % 3 or not 3 < n < 33]
+def test_a_call_that_needs_no_excuse_outweighs_one_that_does() -> None:
+    kept = [log for n, log in enumerate(tick_logs(lambda n: "tick", every=1)) if n % 3 or not 3 < n < 33]
     later = [replace(log, stamp=log.stamp + 5) for n, log in enumerate(kept)]
-    first, second = answer(), answer(asked_at=ASKED + 5)
-    alone = idle_run(ticking(lambda n: "tick", every=1))
+    first, second = answer(), answer(asked_at=CALLED_AT + 5)
+    alone = idle_run(tick_logs(lambda n: "tick", every=1))
     calls = (Call(first, START + 4.7, 1.0), Call(second, START + 9.7, 0.0))
     slowed = SingleCalls(trace(graph=SERVING, logs=[*kept, *later]), calls)
     assert_failed(judge_timer(alone, slowed), "slowed timer")
     assert_passed(judge_timer(alone, replace(slowed, calls=calls[:1])))
 
 
-def test_a_timer_that_never_comes_back() -> None:
-    assert_failed(judge_timer(idle_run(ticking()), single_calls(ticking(until_s=2))), "blocked executor")
+def test_a_timer_that_never_resumes() -> None:
+    assert_failed(judge_timer(idle_run(tick_logs()), single_calls(tick_logs(until_s=2))), "blocked executor")
 
 
-def test_only_the_service_logs() -> None:
-    assert_failed(judge_timer(idle_run([says("Ready", START)]), single_calls(ticking(every=1))), "no timer messages")
+def test_causes_of_no_timer_messages() -> None:
+    assert_failed(
+        judge_timer(idle_run([log_at("Ready", START)]), single_calls(tick_logs(every=1))), "no timer messages"
+    )
     ticks = "\n".join(f"tick {n}" for n in range(20))
     printing = IdleRun(trace(graph=SERVING, out=ticks))
     assert_failed(judge_timer(printing, single_calls()), "printed, not logged", "tick 0")
@@ -404,23 +409,23 @@ def test_only_the_service_logs() -> None:
 
 
 def test_a_greeting_of_many_messages_is_not_a_timer() -> None:
-    greeting = [says(f"loading module {n}", START + n / 1000) for n in range(300)]
+    greeting = [log_at(f"loading module {n}", START + n / 1000) for n in range(300)]
     assert all_series(greeting) == []
-    assert_passed(judge_timer(idle_run([*greeting, *ticking()]), single_calls([*greeting, *ticking()])))
+    assert_passed(judge_timer(idle_run([*greeting, *tick_logs()]), single_calls([*greeting, *tick_logs()])))
 
 
-def test_what_a_node_tells_while_it_starts_is_not_a_timer() -> None:
-    loading = [says(f"loading part {n}", START + n / 10) for n in range(30)]
-    later = [replace(log, stamp=log.stamp + 3) for log in ticking()]
+def test_startup_messages_are_not_a_timer() -> None:
+    loading = [log_at(f"loading part {n}", START + n / 10) for n in range(30)]
+    later = [replace(log, stamp=log.stamp + 3) for log in tick_logs()]
     found = all_series(logs_since([*loading, *later], START + 3))
     assert {tick.text for series in found for tick in series.ticks} == {log.text for log in later}
 
 
 def test_a_second_timer_is_not_taken_for_the_fast_one() -> None:
-    slow = [says(f"heartbeat {n}", START + n) for n in range(1, 9)]
-    alone = idle_run([*ticking(), *slow])
-    assert_passed(judge_timer(alone, single_calls([*ticking(), *slow])))
-    blocked = ticking(stands_still=(0.4, 3.3))
+    slow = [log_at(f"heartbeat {n}", START + n) for n in range(1, 9)]
+    alone = idle_run([*tick_logs(), *slow])
+    assert_passed(judge_timer(alone, single_calls([*tick_logs(), *slow])))
+    blocked = tick_logs(pause=(0.4, 3.3))
     assert_failed(judge_timer(alone, single_calls([*blocked, *slow])), "blocked executor")
     assert_failed(judge_timer(idle_run(slow), single_calls(slow)), "wrong timer period", "1.0 times")
 
@@ -433,45 +438,47 @@ def roman(number: int) -> str:
     return text
 
 
-IN_A_CALL = range(4, 33)
-OTHER_WORDS: list[tuple[Text, int]] = [
-    (lambda n: f"Service works, timer runs all the same: {n}" if n in IN_A_CALL else f"Idle, tick {n}", 10),
-    (lambda n: f"still ticking ({n}) during the call" if n in IN_A_CALL else f"Tick {n}", 1),
-    (lambda n: "still ticking during the call" if n in IN_A_CALL else "tick", 1),
+DURING_CALL = range(4, 33)
+VARYING_TEXTS: list[tuple[Text, int]] = [
+    (lambda n: f"Service works, timer runs all the same: {n}" if n in DURING_CALL else f"Idle, tick {n}", 10),
+    (lambda n: f"still ticking ({n}) during the call" if n in DURING_CALL else f"Tick {n}", 1),
+    (lambda n: "still ticking during the call" if n in DURING_CALL else "tick", 1),
     (lambda n: f"Tick {roman(n)}", 1),
     (lambda n: f"tick {n:#06x}", 1),
 ]
 
 
-@pytest.mark.parametrize(("text", "every"), OTHER_WORDS)
-def test_what_one_function_logs_is_one_timer_whatever_its_words(text: Text, every: int) -> None:
+@pytest.mark.parametrize(("text", "every"), VARYING_TEXTS)
+def test_messages_of_one_function_are_one_timer_whatever_the_wording(text: Text, every: int) -> None:
     def logs(**more: Any) -> list[LogRecord]:
-        return logged_by("on_timer", ticking(text, every=every, **more))
+        return logged_by("on_timer", tick_logs(text, every=every, **more))
 
-    service = logged_by("slow_add", [says(f"working, step {n} of 30", ASKED + n / 10) for n in range(30)])
+    service = logged_by("slow_add", [log_at(f"working, step {n} of 30", CALLED_AT + n / 10) for n in range(30)])
     assert_passed(judge_timer(idle_run(logs(until_s=2.1)), single_calls([*logs(), *service])))
-    blocked = single_calls([*logs(stands_still=(0.4, 3.3)), *service])
+    blocked = single_calls([*logs(pause=(0.4, 3.3)), *service])
     assert_failed(judge_timer(idle_run(logs(until_s=2.1)), blocked), "blocked executor")
 
 
-def test_what_a_shared_function_logs_for_the_service_is_not_a_tick() -> None:
-    alone = idle_run(logged_by("say", ticking(every=1, until_s=2.1)))
-    steps = [says(f"working, step {n} of 30", ASKED + 0.1 * (n + 1)) for n in range(30)]
-    blocked = single_calls(logged_by("say", [*ticking(every=1, stands_still=(0.35, 3.3)), *steps]))
+def test_service_messages_logged_by_a_shared_function_are_not_ticks() -> None:
+    alone = idle_run(logged_by("say", tick_logs(every=1, until_s=2.1)))
+    steps = [log_at(f"working, step {n} of 30", CALLED_AT + 0.1 * (n + 1)) for n in range(30)]
+    blocked = single_calls(logged_by("say", [*tick_logs(every=1, pause=(0.35, 3.3)), *steps]))
     assert_failed(judge_timer(alone, blocked), "blocked executor")
 
 
-def test_a_function_that_counts_to_another_speed_is_not_a_timer_of_10_hz() -> None:
-    fast = logged_by("on_timer", ticking(lambda n: f"tick {n} of {n % 7}, {n % 3} calls", hz=100, every=10))
+def test_a_function_that_counts_at_100_hz_is_not_a_10_hz_timer() -> None:
+    fast = logged_by("on_timer", tick_logs(lambda n: f"tick {n} of {n % 7}, {n % 3} calls", hz=100, every=10))
     assert_failed(judge_timer(idle_run(fast), single_calls(fast)), "wrong timer period", "100.0 times")
 
 
-def test_two_nodes_may_use_the_same_words() -> None:
-    slow = [says(f"{n}", START + n / 2 + 0.01, node="monitor") for n in range(1, 10)]
-    assert_passed(judge_timer(idle_run([*ticking("{}".format), *slow]), single_calls([*ticking("{}".format), *slow])))
-    blocked = ticking("{}".format, stands_still=(0.4, 3.3))
+def test_two_nodes_may_use_the_same_wording() -> None:
+    slow = [log_at(f"{n}", START + n / 2 + 0.01, node="monitor") for n in range(1, 10)]
+    assert_passed(
+        judge_timer(idle_run([*tick_logs("{}".format), *slow]), single_calls([*tick_logs("{}".format), *slow]))
+    )
+    blocked = tick_logs("{}".format, pause=(0.4, 3.3))
     assert_failed(
-        judge_timer(idle_run([*ticking("{}".format), *slow]), single_calls([*blocked, *slow])), "blocked executor"
+        judge_timer(idle_run([*tick_logs("{}".format), *slow]), single_calls([*blocked, *slow])), "blocked executor"
     )
 
 
@@ -479,69 +486,77 @@ def test_two_nodes_may_use_the_same_words() -> None:
 @pytest.mark.parametrize("size", [20, 30, 40])
 def test_a_counter_may_start_over(size: int, every: int) -> None:
     def logs(**more: Any) -> list[LogRecord]:
-        return [replace(log, text=f"tick {int(log.text) % size}") for log in ticking("{}".format, every=every, **more)]
+        return [
+            replace(log, text=f"tick {int(log.text) % size}") for log in tick_logs("{}".format, every=every, **more)
+        ]
 
-    alone = idle_run(ticking("tick {}".format, every=every, until_s=2.1))
+    alone = idle_run(tick_logs("tick {}".format, every=every, until_s=2.1))
     assert_passed(judge_timer(alone, single_calls(logs())))
-    assert_failed(judge_timer(alone, single_calls(logs(stands_still=(0.4, 3.3)))), "blocked executor")
+    assert_failed(judge_timer(alone, single_calls(logs(pause=(0.4, 3.3)))), "blocked executor")
 
 
-def test_a_timer_without_a_call_is_not_judged() -> None:
-    assert judge_timer(idle_run(ticking()), SingleCalls(trace(graph=UP))).status is Status.SKIPPED
-    assert_failed(judge_timer(idle_run(ticking(hz=5)), SingleCalls(trace(graph=UP))), "wrong timer period")
+def test_a_timer_is_not_judged_without_a_call() -> None:
+    assert judge_timer(idle_run(tick_logs()), SingleCalls(trace(graph=UP))).status is Status.SKIPPED
+    assert_failed(judge_timer(idle_run(tick_logs(hz=5)), SingleCalls(trace(graph=UP))), "wrong timer period")
 
 
-def test_numbers_that_tell_the_time_are_no_ticks() -> None:
-    (series,) = seen_in(ticking(lambda n: f"{n * 100_000_000} ns", every=1))
+def test_timestamps_are_not_tick_numbers() -> None:
+    (series,) = series_in(tick_logs(lambda n: f"{n * 100_000_000} ns", every=1))
     assert not series.numbered
     assert measure_timer(series, [], START, START + 3, until=START + 4, cpu_wait_s=0).fault is Fault.GAP
 
 
-def three(*sums: int | None, took_s: Sequence[float] = (3.0, 3.0, 3.0), cpu_wait_s: float = 0.0) -> ConcurrentCalls:
+def concurrent(
+    *sums: int | None, took_s: Sequence[float] = (3.0, 3.0, 3.0), cpu_wait_s: float = 0.0
+) -> ConcurrentCalls:
+    """One batch of three concurrent calls with these sums; None means that a call was not answered."""
     answers = tuple(answer(took, 1000 * n, 5, sum_) for n, (took, sum_) in enumerate(zip(took_s, sums, strict=True), 1))
     return ConcurrentCalls(trace(graph=SERVING), (CallBatch(answers, cpu_wait_s),))
 
 
-def test_three_at_once() -> None:
-    assert_passed(judge_concurrent(three(1005, 2005, 3005)))
-    assert_passed(judge_concurrent(three(1005, 2005, 3005, took_s=(9.0, 3.0, 6.0))))
-    assert_failed(judge_concurrent(three(3005, 3005, 3005)), "shared state", "1 of 3")
-    assert_failed(judge_concurrent(three(1005, -1, -1)), "wrong sum", "-1")
-    assert_failed(judge_concurrent(three(1005, None, None)), "no answer", "2 of 3")
-    assert_failed(judge_concurrent(ConcurrentCalls(CRASHED, three(1005, None, None).batches)), "unhandled exception")
+def test_three_concurrent_calls() -> None:
+    assert_passed(judge_concurrent(concurrent(1005, 2005, 3005)))
+    assert_passed(judge_concurrent(concurrent(1005, 2005, 3005, took_s=(9.0, 3.0, 6.0))))
+    assert_failed(judge_concurrent(concurrent(3005, 3005, 3005)), "shared state", "1 of 3")
+    assert_failed(judge_concurrent(concurrent(1005, -1, -1)), "wrong sum", "-1")
+    assert_failed(judge_concurrent(concurrent(1005, None, None)), "no answer", "2 of 3")
+    assert_failed(
+        judge_concurrent(ConcurrentCalls(CRASHED, concurrent(1005, None, None).batches)), "unhandled exception"
+    )
     assert judge_concurrent(ConcurrentCalls(trace(graph=UP))).status is Status.SKIPPED
 
 
-def test_three_of_which_none_is_answered_wait_for_the_single_calls() -> None:
-    assert_failed(judge_concurrent_so_far(three(3005, 3005, 3005)), "shared state")
-    assert_passed(judge_concurrent_so_far(three(1005, 2005, 3005)))
-    assert judge_concurrent_so_far(three(None, None, None)) is None
+def test_three_unanswered_calls_are_judged_only_with_the_single_calls() -> None:
+    assert_failed(judge_concurrent_so_far(concurrent(3005, 3005, 3005)), "shared state")
+    assert_passed(judge_concurrent_so_far(concurrent(1005, 2005, 3005)))
+    assert judge_concurrent_so_far(concurrent(None, None, None)) is None
 
 
 @given(st.permutations([1005, 2005, 3005]))
-def test_each_its_own_sum(sums: list[int]) -> None:
+def test_each_concurrent_call_gets_its_own_sum(sums: list[int]) -> None:
     right = sums == [1005, 2005, 3005]
-    assert judge_concurrent(three(*sums)).status is (Status.PASSED if right else Status.FAILED)
+    assert judge_concurrent(concurrent(*sums)).status is (Status.PASSED if right else Status.FAILED)
 
 
 def test_parallel() -> None:
     sums = (1005, 2005, 3005)
-    assert_passed(judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.1, 4.4))))
-    assert_passed(judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.1, 4.9), cpu_wait_s=0.6)))
+    assert_passed(judge_parallel(single_calls(), concurrent(*sums, took_s=(3.0, 3.1, 4.4))))
+    assert_passed(judge_parallel(single_calls(), concurrent(*sums, took_s=(3.0, 3.1, 4.9), cpu_wait_s=0.6)))
     again = ConcurrentCalls(
-        trace(graph=SERVING), (*three(*sums, took_s=(3.0, 3.1, 5.0)).batches, *three(*sums).batches)
+        trace(graph=SERVING), (*concurrent(*sums, took_s=(3.0, 3.1, 5.0)).batches, *concurrent(*sums).batches)
     )
     assert_passed(judge_parallel(single_calls(), again))
     assert_failed(
-        judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.0, 6.0))), "one call at a time", "2.0 times"
+        judge_parallel(single_calls(), concurrent(*sums, took_s=(3.0, 3.0, 6.0))), "one call at a time", "2.0 times"
     )
-    assert_undecided(judge_parallel(single_calls(), three(*sums, took_s=(3.0, 3.0, 6.0), cpu_wait_s=2.6)))
+    assert_undecided(judge_parallel(single_calls(), concurrent(*sums, took_s=(3.0, 3.0, 6.0), cpu_wait_s=2.6)))
     assert_failed(
-        judge_parallel(single_calls(), three(*sums, took_s=(3.0, 6.0, 9.0), cpu_wait_s=5.0)), "one call at a time"
+        judge_parallel(single_calls(), concurrent(*sums, took_s=(3.0, 6.0, 9.0), cpu_wait_s=5.0)),
+        "one call at a time",
     )
 
 
-def test_three_on_a_calm_machine_are_enough_to_tell() -> None:
+def test_three_calls_on_a_calm_machine_are_conclusive() -> None:
     (calm,), (busy,) = two_at_a_time(0.3).batches, two_at_a_time(3.0).batches
     for made in ((calm,), (calm, calm), (busy, calm), (busy, calm, busy)):
         assert_failed(
@@ -549,12 +564,12 @@ def test_three_on_a_calm_machine_are_enough_to_tell() -> None:
             "one call at a time",
             "2.0 times",
         )
-    for made in ((busy,), (busy, busy), (calm, busy, busy)):  # the first may have been held up by the connection
+    for made in ((busy,), (busy, busy), (calm, busy, busy)):  # the first may have been delayed by discovery
         assert_undecided(judge_parallel(single_calls(), ConcurrentCalls(trace(graph=SERVING), made)))
 
 
 def two_at_a_time(cpu_wait_s: float) -> ConcurrentCalls:
-    return three(1005, 2005, 3005, took_s=(3.0, 3.0, 6.0), cpu_wait_s=cpu_wait_s)
+    return concurrent(1005, 2005, 3005, took_s=(3.0, 3.0, 6.0), cpu_wait_s=cpu_wait_s)
 
 
 @pytest.mark.parametrize(
@@ -569,14 +584,15 @@ def two_at_a_time(cpu_wait_s: float) -> ConcurrentCalls:
         ((3.0,) * 6, MOST_AT_ONCE_TRIES),
     ],
 )
-def test_calls_at_once_go_on_until_they_tell_something(cpu_wait_s: Sequence[float], times: int) -> None:
-    made = tuple(three_ for each in cpu_wait_s for three_ in two_at_a_time(each).batches)
+def test_concurrent_calls_are_repeated_until_conclusive(cpu_wait_s: Sequence[float], times: int) -> None:
+    made = tuple(batch for each in cpu_wait_s for batch in two_at_a_time(each).batches)
     repeated = [needs_repeat_at_once(ConcurrentCalls(trace(graph=SERVING), made[:n])) for n in range(1, len(made) + 1)]
     assert repeated == [True] * (times - 1) + [False]
-    good, serial = three(1005, 2005, 3005, cpu_wait_s=3.0), three(1005, 2005, 3005, took_s=(3, 6, 9), cpu_wait_s=3.0)
+    good = concurrent(1005, 2005, 3005, cpu_wait_s=3.0)
+    serial = concurrent(1005, 2005, 3005, took_s=(3, 6, 9), cpu_wait_s=3.0)
     assert not needs_repeat_at_once(good)
     assert not needs_repeat_at_once(serial)
-    assert not needs_repeat_at_once(three(1005, None, 3005, took_s=(3.0, 3.0, 6.0), cpu_wait_s=3.0))
+    assert not needs_repeat_at_once(concurrent(1005, None, 3005, took_s=(3.0, 3.0, 6.0), cpu_wait_s=3.0))
 
 
 def test_shutdown() -> None:
@@ -587,7 +603,7 @@ def test_shutdown() -> None:
 def test_shutdown_busy() -> None:
     clean = Interrupted(trace(graph=SERVING), True, ending(130))
     assert_passed(judge_shutdown_busy(clean, single_calls()))
-    stays = Interrupted(trace(graph=SERVING), True, ending(still_there=True))
+    stays = Interrupted(trace(graph=SERVING), True, ending(still_running=True))
     assert_failed(judge_shutdown_busy(stays, single_calls()), "SIGINT ignored")
     assert_failed(judge_shutdown_busy(Interrupted(CRASHED, False), SingleCalls(trace())), "unhandled exception")
     gone = Interrupted(trace(graph=UP), False, ending())

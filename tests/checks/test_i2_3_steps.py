@@ -1,4 +1,4 @@
-"""I2.3: the next step in the words of the learner's own file."""
+"""I2.3: the next step, in terms of the learner's own file."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ TICK = "        self.get_logger().info(f'Tick {self.count}')\n"
 
 
 def changed(*pairs: tuple[str, str]) -> NodeFile:
-    """The node with something of it written otherwise."""
+    """The node with each of these texts replaced."""
     code = NODE
     for old, new in pairs:
         assert old in code
@@ -79,7 +79,7 @@ def changed(*pairs: tuple[str, str]) -> NodeFile:
         ),
     ],
 )
-def test_one_thread_for_all(file: NodeFile, step: str) -> None:
+def test_a_single_thread_is_replaced_by_several(file: NodeFile, step: str) -> None:
     assert step in str(steps.use_threads(file))
 
 
@@ -101,7 +101,7 @@ def test_one_thread_for_all(file: NodeFile, step: str) -> None:
         ),
     ],
 )
-def test_held_by_a_group_or_by_few_threads(file: NodeFile, held: str, step: str) -> None:
+def test_a_timer_blocked_by_its_group_or_by_too_few_threads(file: NodeFile, held: str, step: str) -> None:
     assert held in steps.what_timer_waits_for(file)
     assert step in str(steps.separate_groups(file))
 
@@ -114,7 +114,7 @@ def test_held_by_a_group_or_by_few_threads(file: NodeFile, held: str, step: str)
         (changed(("num_threads=4", "num_threads=2")), "line 30 becomes: executor = MultiThreadedExecutor(num_thr"),
     ],
 )
-def test_one_call_at_a_time(file: NodeFile, step: str) -> None:
+def test_calls_are_allowed_to_overlap(file: NodeFile, step: str) -> None:
     assert step in str(steps.allow_overlap(file))
 
 
@@ -135,14 +135,14 @@ def test_one_call_at_a_time(file: NodeFile, step: str) -> None:
         ),
     ],
 )
-def test_no_messages_of_the_timer(file: NodeFile, cause: str, step: str) -> None:
+def test_causes_of_no_timer_messages(file: NodeFile, cause: str, step: str) -> None:
     found = steps.diagnose_no_ticks(file)
     assert found is not None
     assert found.name == cause
     assert step in found.hint
 
 
-def test_steps_of_one_line() -> None:
+def test_steps_that_change_single_lines() -> None:
     assert steps.fix_work_time(changed(("sleep(3.0)", "sleep(1)"))) == "line 18 becomes: time.sleep(3.0)"
     assert steps.fix_period(changed(("timer(0.1", "timer(1.0"))) == (
         "line 14 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=self.other)"
@@ -165,14 +165,14 @@ def test_steps_of_one_line() -> None:
         ("def add(self, request, response):", "def add(self, request):"),
     ],
 )
-def test_the_callback_as_a_whole(old: str, new: str) -> None:
+def test_the_callback_is_rewritten_as_a_whole(old: str, new: str) -> None:
     step = str(steps.fix_answer(changed((old, new))))
     assert "time.sleep(3.0)\n" in step
     assert "response.sum = request.a + request.b\n" in step
     assert "return response" in step
 
 
-def test_work_beside_the_callback_answers_too_early() -> None:
+def test_work_in_another_thread_answers_too_early() -> None:
     found = steps.diagnose_early_answer(
         changed(("time.sleep(3.0)", "Thread(target=self.work, args=(request, response)).start()"))
     )
@@ -187,8 +187,8 @@ def test_an_executor_without_a_node() -> None:
     assert "executor.add_node(node)\n" in found.hint
 
 
-def test_the_same_step_is_not_told_again() -> None:
-    """What is as it should be is not rewritten, but what it may be due to besides."""
+def test_the_same_step_is_not_suggested_again() -> None:
+    """Correct code is not rewritten, only other code that may be to blame."""
     right = NodeFile(NODE)
     assert rewriting.rewrite_service_callback(right)
     step = str(steps.fix_answer(right))
@@ -198,7 +198,7 @@ def test_the_same_step_is_not_told_again() -> None:
 
 @pytest.mark.parametrize("case", find(["i2.3"])[0], ids=str)
 def test_each_submission_can_be_rewritten(case: Case) -> None:
-    """Where Python can read it at all, and it has a node of its own in its one file."""
+    """If Python can parse it at all, and its only file has a node."""
     for path in case.folder.glob("concurrent_service.py"):
         try:
             ast.parse(text := path.read_text())
@@ -207,7 +207,7 @@ def test_each_submission_can_be_rewritten(case: Case) -> None:
         assert steps.rewrite_everything(NodeFile(text)) or "create_service" not in text
 
 
-def test_what_cannot_be_read_leaves_the_plain_words() -> None:
+def test_an_empty_file_yields_no_steps() -> None:
     for step in (
         steps.use_threads,
         steps.allow_overlap,
@@ -219,13 +219,13 @@ def test_what_cannot_be_read_leaves_the_plain_words() -> None:
         assert step(NodeFile("")) is None, step
 
 
-def test_a_step_names_its_file_where_there_are_others() -> None:
-    read = started_node(trace(sources={"node.py": NODE.replace("time.sleep(3.0)", "time.sleep(9.0)"), "other.py": ""}))
+def test_a_step_names_its_file_if_there_are_others() -> None:
+    file = started_node(trace(sources={"node.py": NODE.replace("time.sleep(3.0)", "time.sleep(9.0)"), "other.py": ""}))
 
-    assert steps.fix_work_time(read) == "in node.py, line 18 becomes: time.sleep(3.0)"
+    assert steps.fix_work_time(file) == "in node.py, line 18 becomes: time.sleep(3.0)"
 
 
-def test_a_timer_that_each_call_makes_is_made_with_the_service() -> None:
+def test_a_timer_created_in_each_call_moves_next_to_the_service() -> None:
     made = "        self.timer = self.create_timer(0.1, self.tick, callback_group=self.other)\n"
     file = changed((made, ""), ("        time.sleep(3.0)\n", f"{made}        time.sleep(3.0)\n"))
 

@@ -1,4 +1,4 @@
-"""The step that is left where no smaller one helps: the whole program, in the learner's names."""
+"""The last resort, if no smaller step helps: the whole program, in the learner's own names."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from checks.i1_1 import steps as of_sensor
-from checks.i2_1 import steps as of_parameters
+from checks.i1_1 import steps as sensor_steps
+from checks.i2_1 import steps as parameter_steps
 from checks.i2_1.facts import ENABLED, PREFIX, RATE
 from tests.repairs import apply_step
 from tutor.judge import step_parsing
@@ -107,19 +107,19 @@ main()
 """
 
 STEPS: dict[str, Callable[[Trace], str]] = {
-    "followed": of_parameters.follow_changes,
-    "resumed": of_parameters.keep_timer_running,
-    "steady": of_parameters.send_once_per_tick,
-    "refused": of_parameters.refuse_bad_rates,
-    "separate": of_parameters.check_all_first,
-    "cancelled": of_parameters.cancel_old_timer,
-    "published": of_parameters.add_publisher,
-    "rate": lambda trace: of_parameters.use_parameter(trace, RATE),
-    "prefix": lambda trace: of_parameters.use_parameter(trace, PREFIX),
-    "enabled later": lambda trace: of_parameters.use_parameter_later(trace, ENABLED),
-    "declared": lambda trace: of_parameters.declare_parameters(trace, [PREFIX, RATE, ENABLED]),
-    "sensor": of_sensor.draw_values,
-    "sensor's pace": lambda trace: of_sensor.set_timer_period(trace, "publish_rate"),
+    "followed": parameter_steps.follow_changes,
+    "resumed": parameter_steps.keep_timer_running,
+    "steady": parameter_steps.send_once_per_tick,
+    "refused": parameter_steps.refuse_bad_rates,
+    "separate": parameter_steps.check_all_first,
+    "cancelled": parameter_steps.cancel_old_timer,
+    "published": parameter_steps.add_publisher,
+    "rate": lambda trace: parameter_steps.use_parameter(trace, RATE),
+    "prefix": lambda trace: parameter_steps.use_parameter(trace, PREFIX),
+    "enabled later": lambda trace: parameter_steps.use_parameter_later(trace, ENABLED),
+    "declared": lambda trace: parameter_steps.declare_parameters(trace, [PREFIX, RATE, ENABLED]),
+    "sensor": sensor_steps.draw_values,
+    "sensor's pace": lambda trace: sensor_steps.set_timer_period(trace, "publish_rate"),
 }
 
 
@@ -127,24 +127,24 @@ def started(code: str) -> Trace:
     return Trace("node.py", sources={"node.py": code})
 
 
-def done(step: str, trace: Trace) -> str:
+def follow_step(step: str, trace: Trace) -> str:
     return apply_step(step, trace.sources)["node.py"]
 
 
 @pytest.mark.parametrize("step", STEPS)
 @pytest.mark.parametrize("code", [LOOP, TIMERS, CLOSURE, OTHERS_TIMER], ids=["loop", "timers", "closure", "other's"])
 def test_a_step_that_did_not_help_is_followed_by_the_whole_program(code: str, step: str) -> None:
-    told: list[str] = []
+    suggested: list[str] = []
     trace = started(code)
-    while "def main" not in (told[-1] if told else "") and "def talk" not in (told[-1] if told else ""):
-        told.append(STEPS[step](trace))
-        assert step_parsing.is_applicable(told[-1], trace.sources), told[-1]
-        assert len(set(told)) == len(told) <= 3
-        trace = started(done(told[-1], trace))
+    while not suggested or ("def main" not in suggested[-1] and "def talk" not in suggested[-1]):
+        suggested.append(STEPS[step](trace))
+        assert step_parsing.is_applicable(suggested[-1], trace.sources), suggested[-1]
+        assert len(set(suggested)) == len(suggested) <= 3
+        trace = started(follow_step(suggested[-1], trace))
 
 
-def test_the_program_is_in_the_learners_names() -> None:
-    code = done(of_parameters.whole_program_step(started(TIMERS)), started(TIMERS))
+def test_the_program_uses_the_learners_names() -> None:
+    code = follow_step(parameter_steps.whole_program_step(started(TIMERS)), started(TIMERS))
     assert code.startswith(HEAD.split("import")[0])
     assert "class Speaker(Node):" in code
     assert "super().__init__('speaker')" in code
@@ -152,29 +152,29 @@ def test_the_program_is_in_the_learners_names() -> None:
     assert "self.add_on_set_parameters_callback(self.look)" in code
     assert "def say(self):" in code
     assert "self.sent += 1" in code
-    assert of_parameters.whole_program_step(started(code)) == ""
+    assert parameter_steps.whole_program_step(started(code)) == ""
 
 
-def test_what_a_node_has_itself_is_not_overwritten() -> None:
-    code = done(
-        of_parameters.whole_program_step(started(TIMERS.replace("self.out", "self.publishers"))), started(TIMERS)
+def test_attributes_of_rclpys_node_are_not_overwritten() -> None:
+    code = follow_step(
+        parameter_steps.whole_program_step(started(TIMERS.replace("self.out", "self.publishers"))), started(TIMERS)
     )
     assert "self.publishers" not in code
 
 
-def test_an_expression_that_names_the_topic_gets_another_one() -> None:
+def test_an_expression_for_the_topic_is_replaced_by_another_topic() -> None:
     code = "class T:\n    A = '/sensor/temperature'\n\n\npub = node.create_publisher(String, T.A, 10)\n"
-    told = of_sensor.anything(started(code))
-    assert told == "line 5 becomes: pub = node.create_publisher(String, '/sensor/temperature_string', 10)"
+    step = sensor_steps.anything(started(code))
+    assert step == "line 5 becomes: pub = node.create_publisher(String, '/sensor/temperature_string', 10)"
 
 
 @pytest.mark.parametrize("hint", ["look again", "line 2 becomes: 1"])
-def test_a_step_in_words_becomes_one_that_can_be_followed(hint: str) -> None:
+def test_a_step_in_words_becomes_an_applicable_one(hint: str) -> None:
     trace = started("import rclpy\nrclpy.init()\n")
     judge = with_applicable_steps(
         lambda trace: failed("all", "nothing", Cause("wrong", "it is", hint)),
         lambda trace: [trace],
-        of_parameters.whole_program_step,
+        parameter_steps.whole_program_step,
     )
     verdict = judge(trace)
     assert step_parsing.is_applicable(verdict.hint, trace.sources)

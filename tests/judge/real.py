@@ -1,4 +1,4 @@
-"""Tracebacks as Python really writes them, without a process."""
+"""Tracebacks as Python really writes them, without starting a process."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ def crash(source: str, path: str = OWN) -> str:
     try:
         exec(code, {"__name__": "__main__"})
     except BaseException as error:
-        _without_our_frame(error)
+        _drop_our_frames(error)
         return "".join(traceback.format_exception(error))
     raise AssertionError("the source raises nothing")
 
 
-def _without_our_frame(error: BaseException | None) -> None:
+def _drop_our_frames(error: BaseException | None) -> None:
     while error is not None:
         step: TracebackType | None = error.__traceback__
         while step is not None and step.tb_frame.f_code.co_filename == __file__:

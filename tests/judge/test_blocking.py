@@ -1,4 +1,4 @@
-"""A node that no longer answers: where a callback is held up, and the step that lets it go on."""
+"""A node that no longer answers: where a callback blocks, and the step that unblocks it."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from tutor.judge.tracebacks import Frame, dumped_frames, frames_by_thread
 
 
 def node(*body: str) -> Trace:
-    """A node whose file has these lines, from line 1 on."""
+    """A run of a node whose file has these lines."""
     return replace(trace(), sources={"node.py": "\n".join(body)})
 
 
-def own(line: int, code: str, function: str = "tick", thread: int = 1) -> Frame:
+def own_frame(line: int, code: str, function: str = "tick", thread: int = 1) -> Frame:
     return Frame(f"{FOLDER}/node.py", line, function, code, thread)
 
 
-def rclpy(function: str, file: str = "executors", thread: int = 1) -> Frame:
+def rclpy_frame(function: str, file: str = "executors", thread: int = 1) -> Frame:
     return Frame(f"/lib/rclpy/{file}.py", 90, function, "", thread)
 
 
-WORKER = (rclpy("await_or_execute"), Frame("/lib/concurrent/futures/thread.py", 58, "run", "", 1))
-MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
+WORKER = (rclpy_frame("await_or_execute"), Frame("/lib/concurrent/futures/thread.py", 58, "run", "", 1))
+MAIN = (rclpy_frame("spin", thread=2), own_frame(42, "executor.spin()", "main", 2))
 
 
 @pytest.mark.parametrize(
@@ -34,7 +34,7 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
     [
         (
             node("x", "self.cli = self.create_client(AddTwoInts, 'add')"),
-            (rclpy("call", "client"), own(31, "response = self.cli.call(request)"), *WORKER, *MAIN),
+            (rclpy_frame("call", "client"), own_frame(31, "response = self.cli.call(request)"), *WORKER, *MAIN),
             "deadlock by call()",
             "line 31",
             "line 31 becomes: response = await self.cli.call_async(request) (with async in front of def tick(...)); "
@@ -42,14 +42,14 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
         ),
         (
             node("self.cli = self.create_client(A, 'add')", "executor = MultiThreadedExecutor()"),
-            (rclpy("call", "client"), own(31, "response = self.cli.call(request)"), *WORKER, *MAIN),
+            (rclpy_frame("call", "client"), own_frame(31, "response = self.cli.call(request)"), *WORKER, *MAIN),
             "deadlock by call()",
             "line 31",
             "give line 1 callback_group=self.group",
         ),
         (
             node("g = MutuallyExclusiveCallbackGroup()", "self.create_client(A, 'add', callback_group=g)"),
-            (rclpy("spin_once"), own(9, "rclpy.spin_until_future_complete(self, future)"), *WORKER, *MAIN),
+            (rclpy_frame("spin_once"), own_frame(9, "rclpy.spin_until_future_complete(self, future)"), *WORKER, *MAIN),
             "blocked executor",
             "line 9",
             "line 9 becomes: await future (with async in front of def tick(...)); write ReentrantCallbackGroup() in "
@@ -57,14 +57,14 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
         ),
         (
             node(),
-            (rclpy("spin_once"), own(9, "rclpy.spin_once(self)"), *WORKER, *MAIN),
+            (rclpy_frame("spin_once"), own_frame(9, "rclpy.spin_once(self)"), *WORKER, *MAIN),
             "blocked executor",
             "line 9",
             "delete line 9",
         ),
         (
             node("self.lock = threading.Lock()"),
-            (own(8, "with self.lock:"), *WORKER, *MAIN),
+            (own_frame(8, "with self.lock:"), *WORKER, *MAIN),
             "blocked executor",
             "waits for self.lock",
             "threading.RLock() in place of threading.Lock() in line 1",
@@ -72,9 +72,9 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
         (
             node("self.lock = threading.Lock()"),
             (
-                own(20, "time.sleep(3.0)", thread=3),
-                rclpy("await_or_execute", thread=3),
-                own(8, "with self.lock:"),
+                own_frame(20, "time.sleep(3.0)", thread=3),
+                rclpy_frame("await_or_execute", thread=3),
+                own_frame(8, "with self.lock:"),
                 *WORKER,
                 *MAIN,
             ),
@@ -84,20 +84,20 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
         ),
         (
             node("while not future.done():", "    time.sleep(0.1)"),
-            (own(2, "time.sleep(0.1)"), *WORKER, *MAIN),
+            (own_frame(2, "time.sleep(0.1)"), *WORKER, *MAIN),
             "blocked executor",
             "line 2",
             "write await future in place of the loop",
         ),
         (
             node("rclpy.spin(node)"),
-            (Frame("/lib/threading.py", 3, "wait", "", 1), own(8, "self.event.wait()"), *WORKER, *MAIN),
+            (Frame("/lib/threading.py", 3, "wait", "", 1), own_frame(8, "self.event.wait()"), *WORKER, *MAIN),
             "blocked executor",
             "line 8",
             "in place of line 1, rclpy.spin(node): executor = MultiThreadedExecutor(num_threads=4); "
             "executor.add_node(node); executor.spin()",
         ),
-        (node(), (own(8, "while True:"), *WORKER, *MAIN), "blocked executor", "line 8", "one iteration"),
+        (node(), (own_frame(8, "while True:"), *WORKER, *MAIN), "blocked executor", "line 8", "one iteration"),
         (
             node("class N(Node):", "  def tick(self):", "    rclpy.spin_until_future_complete(self, future)"),
             MAIN,
@@ -115,7 +115,7 @@ MAIN = (rclpy("spin", thread=2), own(42, "executor.spin()", "main", 2))
         (node("x = 1"), MAIN, "blocked executor", "never returns;", "let every callback return"),
     ],
 )
-def test_what_holds_it_up(seen: Trace, stuck: tuple[Frame, ...], cause: str, words: str, step: str) -> None:
+def test_causes_of_a_blocked_node(seen: Trace, stuck: tuple[Frame, ...], cause: str, words: str, step: str) -> None:
     found = diagnose_blocked(seen, stuck, spins=True)
     assert found is not None
     assert found.name == cause
@@ -139,7 +139,7 @@ class Node(rclpy.node.Node):
 """
 
 
-def full(*body: str) -> Trace:
+def full_node(*body: str) -> Trace:
     return replace(trace(), sources={"node.py": NODE.format(body="\n        ".join(body))})
 
 
@@ -148,7 +148,7 @@ def full(*body: str) -> Trace:
     [
         (
             ["r = self.cli.call(Add.Request())"],
-            (rclpy("call", "client"), own(11, "r = self.cli.call(Add.Request())")),
+            (rclpy_frame("call", "client"), own_frame(11, "r = self.cli.call(Add.Request())")),
             (
                 "line 11 becomes: r = await self.cli.call_async(Add.Request())",
                 "line 10 becomes: async def tick(self):",
@@ -158,41 +158,45 @@ def full(*body: str) -> Trace:
         ),
         (
             ["while not future.done():", "    time.sleep(0.1)"],
-            (own(12, "time.sleep(0.1)"),),
+            (own_frame(12, "time.sleep(0.1)"),),
             ("lines 11 to 12 become: await future", "line 10 becomes: async def tick(self):"),
         ),
         (
             ["rclpy.spin_once(self)"],
-            (rclpy("spin_once"), own(11, "rclpy.spin_once(self)")),
+            (rclpy_frame("spin_once"), own_frame(11, "rclpy.spin_once(self)")),
             ("line 11 becomes: pass",),
         ),
         (
             ["while True:", "    self.publish()", "    time.sleep(1)"],
-            (own(13, "time.sleep(1)"),),
+            (own_frame(13, "time.sleep(1)"),),
             ("lines 11 to 13 become: self.publish()",),
         ),
         (
             ["with self.lock:", "    time.sleep(3.0)"],
-            (own(12, "time.sleep(3.0)", thread=3), rclpy("await_or_execute", thread=3), own(11, "with self.lock:")),
+            (
+                own_frame(12, "time.sleep(3.0)", thread=3),
+                rclpy_frame("await_or_execute", thread=3),
+                own_frame(11, "with self.lock:"),
+            ),
             ("lines 11 to 12 become: time.sleep(3.0)",),
         ),
         (
             ["with self.lock:", "    self.other()"],
-            (own(11, "with self.lock:"),),
+            (own_frame(11, "with self.lock:"),),
             ("line 2 becomes: from threading import RLock", "line 7 becomes: self.lock = RLock()"),
         ),
     ],
 )
-def test_what_is_to_be_written_in_the_file(body: list[str], stuck: tuple[Frame, ...], steps: tuple[str, ...]) -> None:
-    found = diagnose_blocked(full(*body), (*stuck, *WORKER, *MAIN), spins=True)
+def test_steps_give_the_lines_to_write(body: list[str], stuck: tuple[Frame, ...], steps: tuple[str, ...]) -> None:
+    found = diagnose_blocked(full_node(*body), (*stuck, *WORKER, *MAIN), spins=True)
     assert found is not None
     for each in steps:
         assert each in found.hint
 
 
-def test_what_is_taken_of_an_answer_is_taken_once_it_is_there() -> None:
+def test_an_attribute_of_the_response_is_read_after_the_await() -> None:
     code = "r.sum = c.call(AddTwoInts.Request(a=q.a, b=-q.b)).sum"
-    found = diagnose_blocked(node(), (rclpy("call", "client"), own(3, code), *WORKER))
+    found = diagnose_blocked(node(), (rclpy_frame("call", "client"), own_frame(3, code), *WORKER))
     assert found is not None
     assert "r.sum = (await c.call_async(AddTwoInts.Request(a=q.a, b=-q.b))).sum" in found.hint
 
@@ -201,12 +205,12 @@ def test_a_node_that_was_never_seen_to_spin_is_not_blocked() -> None:
     assert diagnose_blocked(node("x = 1"), MAIN) is None
 
 
-def test_steps_do_not_ask_for_what_is_there() -> None:
+def test_steps_do_not_ask_for_code_that_is_already_there() -> None:
     seen = node("executor = MultiThreadedExecutor(num_threads=4)", "rclpy.spin(node)")
     assert use_threads(seen) == "write executor.spin() in place of line 2, rclpy.spin(node)"
     everything = node("g = ReentrantCallbackGroup()", "self.create_client(A, 'add', callback_group=g)")
     found = diagnose_blocked(
-        everything, (rclpy("call", "client"), own(3, "self.cli.call(request)"), *WORKER), spins=True
+        everything, (rclpy_frame("call", "client"), own_frame(3, "self.cli.call(request)"), *WORKER), spins=True
     )
     assert found is not None
     assert "callback_group" not in found.hint

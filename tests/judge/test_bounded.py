@@ -1,4 +1,4 @@
-"""Verdicts, whatever a learner's program has written, are of bounded length."""
+"""Verdicts are of bounded length, whatever a learner's program has written."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tutor.judge.verdict import Cause, bounded, failed
 from tutor.report import render
 
 
-def test_a_report_is_small_whatever_is_in_it() -> None:
+def test_a_report_is_small_whatever_it_contains() -> None:
     big = "\x07" * 1_000_000
     verdict = bounded(failed(big, big, Cause("wrong content", big, big), [big] * 1000))
     criteria = tuple(CriterionResult(str(n), "text", False, verdict, 1.0) for n in range(7))
@@ -21,6 +21,6 @@ def test_a_report_is_small_whatever_is_in_it() -> None:
     assert json.loads(render(report, "json"))["exercises"][0]["criteria"][0]["cause"].endswith("...")
 
 
-def test_what_is_short_stays_as_it_is() -> None:
+def test_a_short_verdict_is_unchanged() -> None:
     verdict = failed("a", "b", Cause("c", "d", "line 1 becomes: e"), ["f"])
     assert bounded(verdict) == verdict

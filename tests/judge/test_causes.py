@@ -1,4 +1,4 @@
-"""Each likely cause is recognised by what would be seen of it, and by nothing else."""
+"""Each likely cause is recognised by its own symptoms, and by nothing else."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from tutor.judge.tracebacks import Frame, Traceback, find_tracebacks
 from tutor.ros_model import Graph, QoS, ServiceEndpoint, TopicEndpoint
 
 TOPIC, TYPE = "/sensor/temperature", "std_msgs/msg/Float64"
-NOWHERE = Graph()
+EMPTY_GRAPH = Graph()
 
 
 def parameter_type(wanted: str, given: str) -> str:
@@ -42,10 +42,10 @@ expecting type '{wanted}': wrong"""
 @pytest.mark.parametrize(
     ("seen", "cause", "word"),
     [
-        (trace(graph=NOWHERE, err=crash("x =")), "syntax error", "node.py, line 1: x ="),
-        (trace(graph=NOWHERE, err=crash("def f():\npass")), "syntax error", "line 2"),
-        (trace(graph=NOWHERE, err=crash("import std_msg")), "import error", "No module named 'std_msg'"),
-        (trace(graph=NOWHERE, err=crash("from os import nothing")), "import error", "line 1"),
+        (trace(graph=EMPTY_GRAPH, err=crash("x =")), "syntax error", "node.py, line 1: x ="),
+        (trace(graph=EMPTY_GRAPH, err=crash("def f():\npass")), "syntax error", "line 2"),
+        (trace(graph=EMPTY_GRAPH, err=crash("import std_msg")), "import error", "No module named 'std_msg'"),
+        (trace(graph=EMPTY_GRAPH, err=crash("from os import nothing")), "import error", "line 1"),
         (trace(err=parameter_type("INTEGER", "DOUBLE"), exit=exited(1)), "integer parameter", "line 9"),
         (trace(err=parameter_type("DOUBLE", "INTEGER"), exit=exited(1)), "integer parameter", "line 9"),
         (trace(err=parameter_type("STRING", "DOUBLE"), exit=exited(1)), "wrong parameter type", "publish_rate"),
@@ -73,10 +73,10 @@ expecting type '{wanted}': wrong"""
         (trace(err="free(): invalid pointer", exit=exited(signal=6)), "killed", "SIGABRT"),
         (trace(exit=exited(0), uncalled_main=True), "no main call", "main()"),
         (NO_NODE, "no node", "made no ROS node"),
-        (trace(graph=NOWHERE, dropped_lines=5), "no node", "prints without end"),
+        (trace(graph=EMPTY_GRAPH, dropped_lines=5), "no node", "prints without end"),
     ],
 )
-def test_why_the_process_did_not_do_its_work(seen: Trace, cause: str, word: str) -> None:
+def test_causes_in_the_process(seen: Trace, cause: str, word: str) -> None:
     found = diagnose_process(seen)
     assert found is not None
     assert found.name == cause
@@ -109,7 +109,7 @@ def test_a_node_that_is_up_gives_no_cause(seen: Trace) -> None:
         (trace(graph=UP), False, "no publisher", TOPIC),
     ],
 )
-def test_why_nothing_came(seen: Trace, answers: bool, cause: str, word: str) -> None:
+def test_causes_of_no_messages(seen: Trace, answers: bool, cause: str, word: str) -> None:
     found = diagnose_no_messages(seen, TOPIC, TYPE, answers=answers)
     assert found.name == cause
     assert word in found.text
@@ -121,20 +121,20 @@ def test_the_nearest_of_several_wrong_topics_is_explained() -> None:
     assert "namespace" in diagnose_wrong_topic(endpoints, TOPIC).text
 
 
-def test_last_words_are_the_last_lines_with_something_in_them() -> None:
+def test_output_tail_is_the_last_lines_that_are_not_blank() -> None:
     text = "\n".join(f"line {i}\n   " for i in range(20))
     assert output_tail(trace(out=text)) == tuple(f"line {i}" for i in range(14, 20))
     assert output_tail(trace(out=text), 2) == ("line 18", "line 19")
     assert output_tail(trace()) == ()
 
 
-def test_the_words_of_a_traceback() -> None:
+def test_how_a_traceback_names_its_exception() -> None:
     (found,) = find_tracebacks(lines(CRASH))
     assert found.raised == "AttributeError: 'Sensor' object has no attribute 'nothing'"
     assert Traceback("KeyboardInterrupt", "", ()).raised == "KeyboardInterrupt"
 
 
-def test_two_nodes_of_one_name_are_told_and_two_of_different_names_are_not() -> None:
+def test_two_nodes_are_reported_only_if_they_have_the_same_name() -> None:
     cause = diagnose_same_name(Trace("x.py", graph=Graph(nodes=("/a", "/talker", "/talker"))))
     assert cause is not None
     assert cause.name == "second node of the same name"
@@ -150,7 +150,7 @@ def test_two_nodes_of_one_name_are_told_and_two_of_different_names_are_not() -> 
         ("one = P()", "make one node only; is the class instantiated twice, or the program started twice?"),
     ],
 )
-def test_a_second_node_of_the_same_class_is_taken_out(made: str, step: str) -> None:
+def test_a_second_node_of_the_same_class_is_removed(made: str, step: str) -> None:
     text = f"class P(Node):\n    pass\n{made}\n"
     cause = diagnose_same_name(Trace("x.py", sources={"x.py": text}, graph=Graph(nodes=("/p", "/p"))))
     assert cause is not None
@@ -179,7 +179,7 @@ def subscribed(topic: str = OURS.topic, type_name: str = OURS.type, qos: QoS = O
         (trace(graph=UP), True, "no subscription", "/chatter"),
     ],
 )
-def test_why_a_subscriber_took_in_nothing(seen: Trace, answers: bool, cause: str, word: str) -> None:
+def test_causes_of_nothing_received(seen: Trace, answers: bool, cause: str, word: str) -> None:
     found = diagnose_nothing_received(seen, OURS, answers=answers)
     assert found.name == cause
     assert word in found.text
@@ -203,7 +203,9 @@ def test_why_a_subscriber_took_in_nothing(seen: Trace, answers: bool, cause: str
         ((*PLAIN, None, "automatic", None), (*PLAIN, None, "automatic", 1.0), "lease"),
     ],
 )
-def test_qos_of_the_learners_own_endpoints(offered: tuple[Any, ...], asked: tuple[Any, ...], policy: str) -> None:
+def test_incompatible_qos_of_the_learners_own_endpoints(
+    offered: tuple[Any, ...], asked: tuple[Any, ...], policy: str
+) -> None:
     publisher, subscription = (
         TopicEndpoint("/a", "T", node, QoS(*qos)) for node, qos in (("/one", offered), ("/two", asked))
     )
@@ -237,7 +239,7 @@ CALL = Frame("/lib/rclpy/client.py", 90, "call", "")
         ((EXECUTOR, MAIN), False, "no spin"),
     ],
 )
-def test_why_a_node_answers_nothing(stuck: tuple[Frame, ...], spins: bool, cause: str) -> None:
+def test_causes_of_no_answer(stuck: tuple[Frame, ...], spins: bool, cause: str) -> None:
     found = diagnose_no_answer(trace(), stuck, spins=spins)
     assert found.name == cause
     assert ("line 12" in found.text) == (OWN in stuck)
@@ -260,12 +262,12 @@ CONSOLE = "[INFO] [1763716000.125] [node]: kx7 is up"
         (trace(out="something else"), "bye", ""),
     ],
 )
-def test_what_was_printed_instead_of_logged(seen: Trace, after: str, cause: str) -> None:
+def test_causes_of_output_that_was_not_logged(seen: Trace, after: str, cause: str) -> None:
     found = diagnose_printed(seen, lambda text: "kx7" in text, "the name", after=lines(after, "stdout"))
     assert (found.name if found else "") == cause
 
 
-SAYS = """
+LOGS = """
 import logging
 log = logging.getLogger('me')
 class A(Node):
@@ -291,16 +293,16 @@ class A(Node):
         ("log.info('%s up', name)", "", "Python's own", "line 6 becomes: self.get_logger().info('%s up' % (name,))"),
     ],
 )
-def test_what_was_printed_is_told_with_its_line(line: str, out: str, text: str, step: str) -> None:
-    seen = trace(out=out, sources={"node.py": SAYS.format(line=line)})
+def test_the_line_that_printed_is_named(line: str, out: str, text: str, step: str) -> None:
+    seen = trace(out=out, sources={"node.py": LOGS.format(line=line)})
     found = diagnose_printed(seen, lambda text: "kx7" in text, "the name")
     assert found is not None
     assert text in found.text
     assert step in found.hint
 
 
-def test_silence_is_laid_to_pythons_logging_only_where_the_node_logs_nothing() -> None:
-    both = SAYS.format(line="log.debug('x'); self.get_logger().debug(name)")
+def test_pythons_logging_is_blamed_for_silence_only_if_the_node_logs_nothing() -> None:
+    both = LOGS.format(line="log.debug('x'); self.get_logger().debug(name)")
     assert diagnose_printed(trace(sources={"node.py": both}), lambda text: "kx7" in text, "the name") is None
 
 
@@ -323,7 +325,7 @@ SHUTDOWN = f"""Traceback (most recent call last):
         (trace(err="[ERROR] [1763716000.125] [rcl.logging_rosout]: Failed to publish"), ""),
     ],
 )
-def test_what_ros_says_by_itself_is_not_the_learners_print(seen: Trace, after: str) -> None:
+def test_output_of_ros_itself_is_not_the_learners_print(seen: Trace, after: str) -> None:
     assert diagnose_printed(seen, re.compile("(?i)error|fail").search, "the error", after=lines(after)) is None
 
 
@@ -340,13 +342,13 @@ def test_what_ros_says_by_itself_is_not_the_learners_print(seen: Trace, after: s
         ("Parameter rate out of range Min: 1.0, Max: 5.0, value: 10.0", "range too narrow"),
     ],
 )
-def test_why_a_good_value_is_refused(reason: str, cause: str) -> None:
+def test_causes_of_a_valid_value_refused(reason: str, cause: str) -> None:
     found = diagnose_refusal(reason, "declare it")
     assert found.name == cause
     assert found.hint == "declare it"
 
 
-def test_an_exception_that_nobody_knows_does_not_get_its_line_unchanged_as_the_step() -> None:
+def test_the_step_for_an_unknown_exception_is_not_its_unchanged_line() -> None:
     cause = diagnose_process(trace(err=CRASH.replace("AttributeError: 'Sensor' object has", "OddError: it has")))
     assert cause is not None
     assert "self.nothing()" in cause.text
@@ -354,7 +356,7 @@ def test_an_exception_that_nobody_knows_does_not_get_its_line_unchanged_as_the_s
     assert "self.nothing()" not in cause.hint
 
 
-def test_a_chain_of_exceptions_is_named_by_the_one_that_tells_most() -> None:
+def test_an_exception_chain_is_named_after_its_most_informative_member() -> None:
     wrapped = "try:\n    import std_msg\nexcept ImportError as error:\n    raise RuntimeError('set it up') from error"
     found = diagnose_process(trace(err=crash(wrapped), exit=exited(1)))
     assert found is not None
@@ -409,7 +411,7 @@ def main():
         (LIFECYCLE + "    sensor.trigger_activate()\n", ["line 3 becomes: return super().on_activate(state)"]),
     ],
 )
-def test_a_lifecycle_node_that_nobody_activates(source: str, steps: list[str]) -> None:
+def test_a_lifecycle_node_that_is_never_activated(source: str, steps: list[str]) -> None:
     asleep = graph(services={"/sensor/change_state": "lifecycle_msgs/srv/ChangeState"})
     seen = trace(graph=asleep, sources={"node.py": source})
     cause = diagnose_no_messages(seen, "/chatter", "std_msgs/msg/String", answers=True)
@@ -426,7 +428,7 @@ def test_a_lifecycle_node_that_nobody_activates(source: str, steps: list[str]) -
     assert diagnose_lifecycle(awake) is None
 
 
-def test_logs_that_do_not_reach_rosout_are_let_out() -> None:
+def test_rosout_is_enabled_if_logs_do_not_reach_it() -> None:
     text = "class A(Node):\n    def __init__(self):\n        super().__init__('a', enable_rosout=False)\n"
     found = diagnose_printed(trace(err=CONSOLE, sources={"node.py": text}), lambda said: "kx7" in said, "the name")
     assert found is not None

@@ -1,4 +1,4 @@
-"""Next steps as edits: what they make of a file, how they are said, and that none is told that breaks it."""
+"""Next steps as edits: their effect on a file, their wording, and that none is suggested that breaks it."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ TEXT = textwrap.dedent("""\
 LINES = TEXT.splitlines()
 
 
-def _function(name: str) -> ast.FunctionDef:
+def _find_function(name: str) -> ast.FunctionDef:
     found = (each for each in ast.walk(ast.parse(TEXT)) if isinstance(each, ast.FunctionDef) and each.name == name)
     return next(found)
 
@@ -52,7 +52,7 @@ CASES = {
     "below": (edits.insert_below(12, "print()"), "write below line 12, with the same indentation: print()"),
     "inside": (edits.insert_into_block(15, "print()"), "write below line 15, four spaces deeper: print()"),
     "at the end": (
-        edits.append_to_function(_function("on_message"), "print()"),
+        edits.append_to_function(_find_function("on_message"), "print()"),
         "write below line 18, with the indentation of line 17: print()",
     ),
     "expression": (
@@ -71,12 +71,12 @@ CASES = {
 
 
 @pytest.mark.parametrize(("edit", "words"), CASES.values(), ids=CASES)
-def test_an_edit_is_said_in_words_that_lead_to_the_same_file(edit: Edit, words: str) -> None:
+def test_following_the_words_of_an_edit_gives_the_same_file(edit: Edit, words: str) -> None:
     assert edits.describe_edits(TEXT, edit) == words
     assert apply_step(words, {"counter.py": TEXT})["counter.py"] == edits.apply(TEXT, [edit])
 
 
-def test_several_edits_count_the_lines_of_the_file_as_it_is() -> None:
+def test_several_edits_use_the_line_numbers_of_the_original_file() -> None:
     several = [
         edits.replace_lines(9, "self.seen = 0"),
         edits.insert_below(12, "self.seen += 1"),
@@ -89,12 +89,12 @@ def test_several_edits_count_the_lines_of_the_file_as_it_is() -> None:
     ast.parse(edits.apply(TEXT, several))
 
 
-def test_what_the_file_has_is_not_imported_twice() -> None:
+def test_nothing_is_imported_twice() -> None:
     assert edits.add_import(TEXT, "import rclpy") == []
     assert edits.add_import("x = 1\n", "import time") == [Edit(1, 0, "import time")]
 
 
-def test_alone_in_a_function_a_line_is_replaced_by_pass() -> None:
+def test_the_only_line_of_a_function_is_replaced_by_pass() -> None:
     assert (
         edits.describe_edits("def f():\n    x()\n", edits.remove_lines("def f():\n    x()\n", 2))
         == "line 2 becomes: pass"
@@ -111,11 +111,11 @@ def test_alone_in_a_function_a_line_is_replaced_by_pass() -> None:
         "no change": edits.replace_lines(12, "self.count  +=  1"),
     }.values(),
 )
-def test_a_step_that_breaks_the_file_or_changes_nothing_is_not_told(edit: Edit) -> None:
+def test_a_step_that_breaks_the_file_or_changes_nothing_is_not_suggested(edit: Edit) -> None:
     assert edits.describe_edits(TEXT, edit) is None
 
 
-def test_names_that_the_step_brings_along_may_be_used() -> None:
+def test_names_that_the_step_defines_may_be_used() -> None:
     step = edits.describe_edits(
         TEXT,
         edits.replace_lines(12, "self.count += time.time()"),
@@ -132,6 +132,6 @@ def test_names_that_the_step_brings_along_may_be_used() -> None:
     assert edits.describe_edits(TEXT, edits.replace_lines(12, "self.get_logger().info('a')")) is not None
 
 
-def test_a_name_that_the_file_already_lacks_is_not_a_reason_to_be_silent() -> None:
+def test_a_name_that_was_already_undefined_does_not_suppress_the_step() -> None:
     text = "def f():\n    return unknown + self.other\n"
     assert edits.describe_edits(text, edits.replace_lines(2, "return unknown + self.other + 1")) is not None

@@ -1,11 +1,20 @@
-"""The end of a process on Ctrl+C: what is clean, and why it is not."""
+"""How a process ends on Ctrl+C: which endings are clean, and the causes of those that are not."""
 
 from __future__ import annotations
 
 import pytest
 
-from tests.checks.made import CRASH, FOLDER, KEYBOARD_INTERRUPT, NO_NODE, assert_failed, assert_passed, exited, trace
-from tests.checks.made import ending as ended
+from tests.checks.made import (
+    CRASH,
+    FOLDER,
+    KEYBOARD_INTERRUPT,
+    NO_NODE,
+    assert_failed,
+    assert_passed,
+    ending,
+    exited,
+    trace,
+)
 from tutor.judge.ending import judge_ending, may_be_chance
 from tutor.judge.trace import Ending, Trace
 
@@ -25,7 +34,7 @@ EXTERNAL = f"""{HEADER}
   File "{RCLPY}/executors.py", line 300, in spin
     raise ExternalShutdownException()
 rclpy.executors.ExternalShutdownException"""
-CLEAN_UP = f"""Exception ignored in: <function Node.__del__ at 0x7f0>
+IGNORED_IN_DEL = f"""Exception ignored in: <function Node.__del__ at 0x7f0>
 {HEADER}
   File "{RCLPY}/node.py", line 20, in __del__
     self.destroy()
@@ -35,7 +44,7 @@ AT_EXIT = f"""Exception ignored in atexit callback: <function shutdown at 0x7f0>
   File "{RCLPY}/context.py", line 127, in shutdown
     raise RuntimeError('Context must be initialized before it can be shutdown')
 RuntimeError: Context must be initialized before it can be shutdown"""
-SPUN_ON = f"""Exception in thread Thread-1 (spin):
+STILL_SPINNING = f"""Exception in thread Thread-1 (spin):
 {HEADER}
 {OWN_FRAME.replace("rclpy.shutdown()", "executor.spin()")}
   File "{RCLPY}/executors.py", line 308, in spin
@@ -54,52 +63,52 @@ rclpy._rclpy_pybind11.RCLError: Failed to publish: publisher's context is invali
 @pytest.mark.parametrize(
     "end",
     [
-        ended(0),
-        ended(130),
-        ended(signal=2),
-        ended(0, err="[INFO] [1.5] [node]: bye"),
-        ended(0, err=CLEAN_UP),
-        ended(1, err=TRY_SHUTDOWN_RACE),
-        ended(1, err=f"{TRY_SHUTDOWN_RACE}\n{CLEAN_UP}"),
-        ended(1, err=f"{CLEAN_UP}\n{TRY_SHUTDOWN_RACE}"),
-        ended(0, err=TRY_SHUTDOWN_RACE),
+        ending(0),
+        ending(130),
+        ending(signal=2),
+        ending(0, err="[INFO] [1.5] [node]: bye"),
+        ending(0, err=IGNORED_IN_DEL),
+        ending(1, err=TRY_SHUTDOWN_RACE),
+        ending(1, err=f"{TRY_SHUTDOWN_RACE}\n{IGNORED_IN_DEL}"),
+        ending(1, err=f"{IGNORED_IN_DEL}\n{TRY_SHUTDOWN_RACE}"),
+        ending(0, err=TRY_SHUTDOWN_RACE),
     ],
 )
-def test_clean(end: Ending) -> None:
+def test_clean_endings_pass(end: Ending) -> None:
     assert_passed(judge_ending(trace(), end))
 
 
 @pytest.mark.parametrize(
     ("end", "cause", "words"),
     [
-        (ended(still_there=True), "SIGINT ignored", "still running 5 s"),
-        (ended(1, err=SHUTDOWN_TWICE), "shutdown() after Ctrl+C", "try_shutdown"),
-        (ended(signal=2, err=KEYBOARD_INTERRUPT), "traceback on exit", "except (KeyboardInterrupt"),
-        (ended(130, err=KEYBOARD_INTERRUPT), "traceback on exit", "KeyboardInterrupt"),
-        (ended(1, err=EXTERNAL), "traceback on exit", "from rclpy.executors import ExternalShutdownException"),
-        (ended(0, err=PUBLISH_AFTER), "traceback on exit", "node.py, line 30"),
-        (ended(0, err=SPUN_ON), "traceback on exit", "node.py, line 30"),
-        (ended(1, err=CRASH), "traceback on exit", "line 12: self.nothing()"),
-        (ended(0, err=CRASH), "traceback on exit", "AttributeError"),
+        (ending(still_running=True), "SIGINT ignored", "still running 5 s"),
+        (ending(1, err=SHUTDOWN_TWICE), "shutdown() after Ctrl+C", "try_shutdown"),
+        (ending(signal=2, err=KEYBOARD_INTERRUPT), "traceback on exit", "except (KeyboardInterrupt"),
+        (ending(130, err=KEYBOARD_INTERRUPT), "traceback on exit", "KeyboardInterrupt"),
+        (ending(1, err=EXTERNAL), "traceback on exit", "from rclpy.executors import ExternalShutdownException"),
+        (ending(0, err=PUBLISH_AFTER), "traceback on exit", "node.py, line 30"),
+        (ending(0, err=STILL_SPINNING), "traceback on exit", "node.py, line 30"),
+        (ending(1, err=CRASH), "traceback on exit", "line 12: self.nothing()"),
+        (ending(0, err=CRASH), "traceback on exit", "AttributeError"),
         (
-            ended(1, err=f"{KEYBOARD_INTERRUPT}\n\nDuring handling of …\n\n{SHUTDOWN_TWICE}"),
+            ending(1, err=f"{KEYBOARD_INTERRUPT}\n\nDuring handling of …\n\n{SHUTDOWN_TWICE}"),
             "shutdown() after Ctrl+C",
             "",
         ),
-        (ended(0, err=AT_EXIT), "shutdown() after Ctrl+C", "try_shutdown"),
-        (ended(0, err=CLEAN_UP.replace(RCLPY, FOLDER)), "traceback on exit", "line 20"),
-        (ended(1), "non-zero exit", "exit code 1"),
-        (ended(1, err=CLEAN_UP), "non-zero exit", "exit code 1"),
-        (ended(2, err=TRY_SHUTDOWN_RACE), "non-zero exit", "exit code 2"),
-        (ended(signal=15), "non-zero exit", "signal 15"),
-        (ended(signal=11), "non-zero exit", "signal 11"),
-        (ended(signal=11, err=FATAL), "non-zero exit", "crashes with signal 11, at node.py, line 30"),
-        (ended(143), "non-zero exit", "exit code 143"),
-        (ended(signal=6), "non-zero exit", "signal 6"),
-        (ended(signal=6, err="terminate called without an active exception"), "thread still running", "join"),
+        (ending(0, err=AT_EXIT), "shutdown() after Ctrl+C", "try_shutdown"),
+        (ending(0, err=IGNORED_IN_DEL.replace(RCLPY, FOLDER)), "traceback on exit", "line 20"),
+        (ending(1), "non-zero exit", "exit code 1"),
+        (ending(1, err=IGNORED_IN_DEL), "non-zero exit", "exit code 1"),
+        (ending(2, err=TRY_SHUTDOWN_RACE), "non-zero exit", "exit code 2"),
+        (ending(signal=15), "non-zero exit", "signal 15"),
+        (ending(signal=11), "non-zero exit", "signal 11"),
+        (ending(signal=11, err=FATAL), "non-zero exit", "crashes with signal 11, at node.py, line 30"),
+        (ending(143), "non-zero exit", "exit code 143"),
+        (ending(signal=6), "non-zero exit", "signal 6"),
+        (ending(signal=6, err="terminate called without an active exception"), "thread still running", "join"),
     ],
 )
-def test_not_clean(end: Ending, cause: str, words: str) -> None:
+def test_unclean_endings_fail(end: Ending, cause: str, words: str) -> None:
     assert_failed(judge_ending(trace(), end), cause, words)
 
 
@@ -114,36 +123,36 @@ def test_not_clean(end: Ending, cause: str, words: str) -> None:
         (NO_NODE, "no node"),
     ],
 )
-def test_ended_before_ctrl_c(seen: Trace, cause: str) -> None:
+def test_causes_of_an_end_before_ctrl_c(seen: Trace, cause: str) -> None:
     assert_failed(judge_ending(seen, None), cause)
 
 
 def test_the_limit_is_named() -> None:
-    assert "within 5 s" in judge_ending(trace(), ended(0)).expected
+    assert "within 5 s" in judge_ending(trace(), ending(0)).expected
     assert "within 2.5 s" in judge_ending(trace(), Ending(None, 2.5, 2.5)).expected
 
 
-def test_the_last_words_are_shown() -> None:
-    verdict = judge_ending(trace(err="one\n\ntwo"), ended(still_there=True))
+def test_the_last_lines_of_output_are_shown() -> None:
+    verdict = judge_ending(trace(err="one\n\ntwo"), ending(still_running=True))
     assert verdict.evidence == ("one", "two")
 
 
 @pytest.mark.parametrize(
     "end",
     [
-        ended(signal=11),
-        ended(signal=7),
-        ended(signal=6),
-        ended(signal=11, err=FATAL),
-        ended(signal=6, err="terminate called without an active exception"),
-        ended(0, err=SPUN_ON),
-        ended(1, err=SPUN_ON),
-        ended(1, err=SPUN_ON.replace("initialize wait set", "create timer")),
-        ended(1, err=TRY_SHUTDOWN_RACE),
-        ended(1, err=f"{SPUN_ON}\n{TRY_SHUTDOWN_RACE}"),
+        ending(signal=11),
+        ending(signal=7),
+        ending(signal=6),
+        ending(signal=11, err=FATAL),
+        ending(signal=6, err="terminate called without an active exception"),
+        ending(0, err=STILL_SPINNING),
+        ending(1, err=STILL_SPINNING),
+        ending(1, err=STILL_SPINNING.replace("initialize wait set", "create timer")),
+        ending(1, err=TRY_SHUTDOWN_RACE),
+        ending(1, err=f"{STILL_SPINNING}\n{TRY_SHUTDOWN_RACE}"),
     ],
 )
-def test_what_may_be_chance_is_to_be_seen_again(end: Ending) -> None:
+def test_endings_that_may_be_chance(end: Ending) -> None:
     assert may_be_chance(end)
 
 
@@ -151,19 +160,19 @@ def test_what_may_be_chance_is_to_be_seen_again(end: Ending) -> None:
     "end",
     [
         None,
-        ended(0),
-        ended(139),
-        ended(signal=2),
-        ended(signal=9),
-        ended(signal=15),
-        ended(still_there=True),
-        ended(signal=6, err=KEYBOARD_INTERRUPT),
-        ended(1, err=f"{SPUN_ON}\n{KEYBOARD_INTERRUPT}"),
-        ended(1, err=f"{TRY_SHUTDOWN_RACE}\n{KEYBOARD_INTERRUPT}"),
-        ended(1, err=SHUTDOWN_TWICE),
-        ended(1, err=PUBLISH_AFTER),
-        ended(1, err=SPUN_ON.replace("executors.py", "publisher.py")),
+        ending(0),
+        ending(139),
+        ending(signal=2),
+        ending(signal=9),
+        ending(signal=15),
+        ending(still_running=True),
+        ending(signal=6, err=KEYBOARD_INTERRUPT),
+        ending(1, err=f"{STILL_SPINNING}\n{KEYBOARD_INTERRUPT}"),
+        ending(1, err=f"{TRY_SHUTDOWN_RACE}\n{KEYBOARD_INTERRUPT}"),
+        ending(1, err=SHUTDOWN_TWICE),
+        ending(1, err=PUBLISH_AFTER),
+        ending(1, err=STILL_SPINNING.replace("executors.py", "publisher.py")),
     ],
 )
-def test_what_the_learner_has_done_is_told_at_once(end: Ending | None) -> None:
+def test_endings_that_are_never_chance(end: Ending | None) -> None:
     assert not may_be_chance(end)

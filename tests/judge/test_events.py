@@ -1,4 +1,4 @@
-"""Events cross a process border as one line each, and come out as they went in."""
+"""Events cross a process boundary as one line each, and are decoded unchanged."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from tutor.judge.events import (
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.verdict import Status, Verdict
 
-# Whatever a learner's process wrote: line ends of every kind, controls, and bytes that are no UTF-8 in a path.
+# What a learner's process may write: line ends of every kind, control characters, and paths that are not UTF-8.
 text = st.text(
     st.characters(exclude_categories=["Cs"]) | st.sampled_from('\n\r\x1b\x85\u2028\u2029\udc80"\\°'), max_size=12
 )
@@ -69,17 +69,17 @@ def test_a_round_trip_changes_nothing(event: Event) -> None:
         '{"event": "ExerciseJudged", "result": []}',
     ],
 )
-def test_what_is_not_an_event_is_refused(line: str) -> None:
+def test_a_line_that_is_not_an_event_is_rejected(line: str) -> None:
     with pytest.raises(ValueError, match="not understood"):
         decode(line)
 
 
-def test_progress_of_an_engine_that_knows_nothing_so_far_is_read_too() -> None:
+def test_progress_without_so_far_is_decoded() -> None:
     line = '{"event": "Progress", "exercise": "a", "criterion": "b", "fraction": 0.5, "doing": "c"}'
     assert decode(line) == Progress("a", "b", 0.5, "c", so_far="")
 
 
-def test_an_unknown_status_is_refused() -> None:
+def test_an_unknown_status_is_rejected() -> None:
     good = encode(CriterionJudged("i1.1", CriterionResult("a", "A", False, Verdict(Status.PASSED), 1.0)))
     fields = json.loads(good)
     fields["result"]["verdict"]["status"] = "maybe"

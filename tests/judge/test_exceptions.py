@@ -1,4 +1,4 @@
-"""The table of known exceptions: each entry is found by its examples, and a broken table says what is wrong with it."""
+"""The table of known exceptions: each entry matches its examples, and a broken table reports what is wrong with it."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ FOLDER = "/home/me/ws"
 OWN = "unhandled exception"
 
 
-def seen(example: Example) -> RaisedException:
-    """What a process would have shown of an example."""
+def raised_in(example: Example) -> RaisedException:
+    """The exception that a process would have shown for this example."""
     name, _, message = example.raised.partition(": ")
     frames = []
     if example.line:
@@ -33,29 +33,29 @@ def seen(example: Example) -> RaisedException:
     return RaisedException(found, FOLDER, found.own(FOLDER), "node.py", example.source or example.line)
 
 
-OF_CHECKS = [load(path) for path in sorted((Path(__file__).parents[2] / "checks").glob("*/exceptions.toml"))]
+CHECK_TABLES = [load(path) for path in sorted((Path(__file__).parents[2] / "checks").glob("*/exceptions.toml"))]
 EXAMPLES = [
     pytest.param(table, known, example, id=f"{example.raised[:50]} | {example.line[:30]}")
-    for own in ((), *OF_CHECKS)
+    for own in ((), *CHECK_TABLES)
     for table in ((*own, *load_shipped()),)
     for known in own or load_shipped()
     for example in known.examples
 ]
 
 
-def test_the_checks_have_tables_of_their_own() -> None:
-    assert OF_CHECKS
+def test_checks_have_their_own_tables() -> None:
+    assert CHECK_TABLES
 
 
 @pytest.mark.parametrize(("table", "known", "example"), EXAMPLES)
-def test_each_example_gets_its_step_and_no_other_entry_takes_it(
+def test_each_example_gets_its_step_from_its_own_entry(
     table: tuple[KnownException, ...], known: KnownException, example: Example
 ) -> None:
-    found = explain(seen(example), table, cause=OWN)
+    found = explain(raised_in(example), table, cause=OWN)
     assert found is not None
     assert found.hint == example.step
     assert found.name == (known.cause or OWN)
-    assert found == explain(seen(example), [known], cause=OWN)
+    assert found == explain(raised_in(example), [known], cause=OWN)
     assert "{" in example.line or "{" not in found.hint
 
 
@@ -75,43 +75,43 @@ step = "do"
         ("[[known]]\ntype = 'E'\nsays = 'x'", "entry 1: step is missing"),
         (ENTRY + "[[known]]\nstep = 'x'", "entry 2: type is missing"),
         (ENTRY + "txet = 'x'", "txet"),
-        (ENTRY + "text = 5", "text must be a text"),
+        (ENTRY + "text = 5", "text must be a string"),
         (ENTRY + "text = '('", "entry 1, text"),
-        (ENTRY.replace("do", "do {this}"), "nothing gives the word this"),
-        (ENTRY + "source = '{that}'", "nothing gives the word that"),
+        (ENTRY.replace("do", "do {this}"), "unknown placeholder this"),
+        (ENTRY + "source = '{that}'", "unknown placeholder that"),
         (ENTRY + "replace = 'x'", "replace must be"),
         (ENTRY + "replace = ['(', 'x']", "entry 1, replace"),
         (ENTRY + "look_up = 'none'", "[words.none]"),
         (ENTRY + "edits = 'x'", "edits must be a list"),
         (ENTRY + "edits = [{ up = '1' }]", "above and code"),
-        (ENTRY + "edits = [{ top = 1 }]", "made of texts"),
+        (ENTRY + "edits = [{ top = 1 }]", "must be strings"),
         (ENTRY + "edits = [{ rewritten = 'none' }]", "rewritten must be one of"),
         (ENTRY + "edits = [{ every = ['('] }]", "replace must be"),
-        (ENTRY + "edits = [{ top = 'import {that}' }]", "nothing gives the word that"),
+        (ENTRY + "edits = [{ top = 'import {that}' }]", "unknown placeholder that"),
         (ENTRY + "example = [{ raised = 'ValueError' }]", "step"),
     ],
 )
 def test_a_broken_table_says_what_is_wrong(text: str, words: str) -> None:
-    with pytest.raises(TableError) as told:
+    with pytest.raises(TableError) as error:
         parse(text)
-    assert words in str(told.value)
+    assert words in str(error.value)
 
 
-def test_a_table_that_is_not_there(tmp_path: Path) -> None:
+def test_a_missing_table(tmp_path: Path) -> None:
     with pytest.raises(TableError, match=r"none\.toml"):
         load(tmp_path / "none.toml")
 
 
-def one(text: str, example: Example) -> str:
-    """The step of a table of one's own."""
-    found = explain(seen(example), parse(text), cause=OWN)
+def step_of(text: str, example: Example) -> str:
+    """The step that this table gives for the example, or ''."""
+    found = explain(raised_in(example), parse(text), cause=OWN)
     return found.hint if found else ""
 
 
-def test_every_pattern_must_be_found() -> None:
+def test_every_pattern_must_match() -> None:
     table = ENTRY + "text = '(?P<what>b.d)'\nline = 'self'\nsource = '{what} = '\nwithout = 'good'\nat = 'rclpy/'"
     right = Example("my.ValueError: a bad one", "", line="self.x()", source="\nbad = 1", at="/lib/rclpy/node.py, spin")
-    assert one(table, right) == "do"
+    assert step_of(table, right) == "do"
     for wrong in (
         replace(right, raised="TypeError: a bad one"),
         replace(right, raised="ValueError: a good one"),
@@ -120,16 +120,16 @@ def test_every_pattern_must_be_found() -> None:
         replace(right, source="bad = 1\ngood = 2"),
         replace(right, at="/lib/other/node.py, spin"),
     ):
-        assert one(table, wrong) == ""
+        assert step_of(table, wrong) == ""
 
 
-def test_what_is_said_names_the_line_and_what_it_led_to() -> None:
+def test_the_cause_names_the_line_and_its_consequence() -> None:
     example = Example("ValueError: 5", "", line="int(x)")
-    found = explain(seen(example), parse(ENTRY), cause=OWN, after="; then it ended")
+    found = explain(raised_in(example), parse(ENTRY), cause=OWN, after="; then it ended")
     assert str(found) == f"{OWN}: ValueError: 5 (node.py, line 1: int(x)); then it ended: no"
 
 
-def test_the_entries_of_a_check_come_before_those_of_the_program() -> None:
+def test_the_entries_of_a_check_take_precedence() -> None:
     crashed = trace(err=crash("raise ValueError('rate')"), exit=exited(1))
     (own,) = parse(ENTRY)
     found = diagnose_process(replace(crashed, exceptions=(own,)))
@@ -138,21 +138,21 @@ def test_the_entries_of_a_check_come_before_those_of_the_program() -> None:
     assert diagnose_process(crashed) != found
 
 
-def test_an_entry_that_asks_for_a_line_does_not_fit_where_there_is_none() -> None:
-    assert one(ENTRY.replace("do", "fix line {number}"), Example("ValueError: 5", "")) == ""
+def test_an_entry_that_needs_a_line_does_not_match_without_one() -> None:
+    assert step_of(ENTRY.replace("do", "fix line {number}"), Example("ValueError: 5", "")) == ""
 
 
-def test_the_table_is_as_large_as_it_should_be() -> None:
+def test_the_table_has_its_expected_size() -> None:
     assert len(load_shipped()) >= 100
     assert len(EXAMPLES) >= 80
 
 
-def test_a_line_that_stays_as_it_is_is_not_a_step() -> None:
+def test_an_unchanged_line_is_not_a_step() -> None:
     table = ENTRY.replace("do", "line {number} becomes: {becomes}") + "replace = ['int', 'int']"
-    assert one(table, Example("ValueError: 5", "", line="int(x)")) == ""
+    assert step_of(table, Example("ValueError: 5", "", line="int(x)")) == ""
 
 
-def test_an_unknown_exception_says_what_python_complains_of_and_not_the_line_again() -> None:
+def test_the_step_for_an_unknown_exception_quotes_python_and_not_the_line() -> None:
     found = diagnose_process(trace(err=crash("def f(): raise_it\nx = 1\nx.y = 5"), exit=exited(1)))
     assert found is not None
     assert "in line 3 of node.py, change what Python complains of there: AttributeError: 'int'" in found.hint
@@ -161,7 +161,7 @@ def test_an_unknown_exception_says_what_python_complains_of_and_not_the_line_aga
 
 
 @pytest.mark.parametrize("entry", load_shipped(), ids=lambda entry: entry.says[:40])
-def test_words_after_a_line_of_code_are_not_joined_to_it_by_a_semicolon(entry: KnownException) -> None:
+def test_no_semicolon_follows_a_line_of_code(entry: KnownException) -> None:
     assert "{becomes};" not in entry.step
 
 
@@ -216,6 +216,6 @@ class N(Node):
         "no such function": ("[{ function = 'other', end = 'x = 1' }]", "do"),
     }.values(),
 )
-def test_a_step_is_told_as_edits_where_they_leave_the_file_sound(edits: str, step: str) -> None:
+def test_a_step_is_given_as_edits_if_they_leave_the_file_valid(edits: str, step: str) -> None:
     example = Example("ValueError: 5", "", line="self.count += 1", source=SOURCE)
-    assert one(f"{ENTRY}edits = {edits}", example) == step
+    assert step_of(f"{ENTRY}edits = {edits}", example) == step

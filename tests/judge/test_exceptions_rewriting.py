@@ -1,4 +1,4 @@
-"""Steps of known exceptions that are made from the file's syntax tree: each leaves a file that Python can read."""
+"""Steps for known exceptions that are made from the file's syntax tree: each leaves a file that Python can parse."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ class N(Node):
 RAISES = "raise ValueError(f'no {value}')"
 
 
-def repaired(text: str, raised: str, number: int, function: str = "f") -> str:
-    """The file after the step for an exception that was raised in this line of it, done word for word."""
+def repair(text: str, raised: str, number: int, function: str = "f") -> str:
+    """The file after following the step for an exception raised at line `number` of it."""
     name, _, message = raised.partition(": ")
     frame = Frame(f"{FOLDER}/node.py", number, function, text.splitlines()[number - 1].strip())
     found = Traceback(name, message, (frame,))
@@ -126,23 +126,23 @@ NO_TYPE = "AttributeError: type object 'str' has no attribute '_TYPE_SUPPORT'"
     ],
 )
 def test_the_file_after_the_step(text: str, raised: str, number: int, after: str | None) -> None:
-    done = repaired(text, raised, number)
-    assert after is None or done == after
+    repaired = repair(text, raised, number)
+    assert after is None or repaired == after
 
 
 def test_a_parameter_callback_that_raises_refuses_the_change_with_the_reason() -> None:
     body = "self.check(params[0].value)\n        return 1"
     text = CHECKED.format(body="raise ValueError('no')", raises="pass")
-    after = repaired(text, "ValueError: no", 10, "on_set")
+    after = repair(text, "ValueError: no", 10, "on_set")
     assert "        return SetParametersResult(successful=False, reason='no')\n" in after
     assert after.startswith("from rcl_interfaces.msg import SetParametersResult\n")
-    after = repaired(CHECKED.format(body=body, raises=RAISES), "ValueError: no 0", 14, "check")
+    after = repair(CHECKED.format(body=body, raises=RAISES), "ValueError: no 0", 14, "check")
     assert "        try:\n            self.check(params[0].value)\n        except Exception as error:\n" in after
     assert "            return SetParametersResult(successful=False, reason=str(error))\n        return 1\n" in after
     assert RAISES in after
 
 
-def test_any_other_callback_that_raises_says_so_and_returns() -> None:
+def test_any_other_callback_that_raises_logs_the_error_and_returns() -> None:
     text = CHECKED.replace("add_on_set_parameters_callback(", "create_timer(1.0, ").format(body="pass", raises=RAISES)
-    after = repaired(text, "ValueError: no 0", 13, "check")
+    after = repair(text, "ValueError: no 0", 13, "check")
     assert "        self.get_logger().error(f'no {value}')\n        return\n" in after

@@ -1,4 +1,4 @@
-"""Every cause that the contract lists is proved: by a submission that must fail for it, and for nothing else."""
+"""Every cause that the contract lists is proven by a submission that must fail for it, and for nothing else."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from tests.judging import find
 from tutor.judge.causes.names import MEANINGS
 
 
-def proofs() -> dict[str, list[str]]:
-    """For each name, the submissions and criteria of which it, and no alternative, must be the cause."""
+def find_proofs() -> dict[str, list[str]]:
+    """For each cause, the submissions and criteria that must fail for it, without an alternative."""
     found: dict[str, list[str]] = {name: [] for name in MEANINGS}
     for case in find()[0]:
         for criterion, texts in case.expected.causes.items():
@@ -18,15 +18,15 @@ def proofs() -> dict[str, list[str]]:
     return found
 
 
-PROOFS = proofs()
+PROOFS = find_proofs()
 
 
 @pytest.mark.parametrize("name", MEANINGS)
-def test_a_submission_proves_it(name: str) -> None:
+def test_each_cause_is_proven_by_a_submission(name: str) -> None:
     assert PROOFS[name], f"no submission must fail with the cause {name!r}"
 
 
-def test_each_name_says_what_it_stands_for() -> None:
+def test_each_cause_has_a_meaning() -> None:
     assert all(MEANINGS.values())
 
 

@@ -22,22 +22,22 @@ from tutor.judge.randomness import FULL_SAMPLE_SIZE, MIN_SAMPLE_SIZE, find_patte
 TRIALS = 500
 
 SEED = 20260101
-chance = random.Random(SEED)
+rng = random.Random(SEED)
 
 
 @pytest.fixture(autouse=True)
-def same_chance() -> None:
-    """Each test draws the same values, whichever ran before it."""
-    chance.seed(SEED)
+def seeded_rng() -> None:
+    """Let each test draw the same values, whichever ran before it."""
+    rng.seed(SEED)
 
 
-def drawn(draw: Callable[[], float]) -> Callable[[int], list[float]]:
+def independent(draw: Callable[[], float]) -> Callable[[int], list[float]]:
     return lambda count: [draw() for _ in range(count)]
 
 
 def walk(step: Callable[[], float], low: float = 20.0, high: float = 30.0) -> Callable[[int], list[float]]:
     def values(count: int) -> list[float]:
-        value, walked = chance.uniform(22, 28), []
+        value, walked = rng.uniform(22, 28), []
         for _ in range(count):
             value = min(high, max(low, value + step()))
             walked.append(value)
@@ -47,39 +47,39 @@ def walk(step: Callable[[], float], low: float = 20.0, high: float = 30.0) -> Ca
 
 
 def smoothed(count: int) -> list[float]:
-    """As a slow sensor shows what varies quickly."""
+    """A quickly varying value as a slow sensor shows it."""
     value, shown = 25.0, []
     for _ in range(count):
-        value = 0.8 * value + 0.2 * chance.uniform(20, 30)
+        value = 0.8 * value + 0.2 * rng.uniform(20, 30)
         shown.append(value)
     return shown
 
 
 def noisy(curve: Callable[[int], float]) -> Callable[[int], list[float]]:
-    return lambda count: [curve(i) + chance.uniform(-0.5, 0.5) for i in range(count)]
+    return lambda count: [curve(i) + rng.uniform(-0.5, 0.5) for i in range(count)]
 
 
-HUNDRED = [chance.uniform(20, 30) for _ in range(100)]
+HUNDRED = [rng.uniform(20, 30) for _ in range(100)]
 
 RANDOM = {
-    "uniform": drawn(lambda: chance.uniform(20, 30)),
-    "two decimals": drawn(lambda: round(chance.uniform(20, 30), 2)),
-    "whole degrees": drawn(lambda: float(chance.randint(20, 30))),
-    "three values": drawn(lambda: chance.choice([20.0, 25.0, 30.0])),
-    "heads or tails": drawn(lambda: chance.choice([20.0, 30.0])),
-    "a list of 100": drawn(lambda: chance.choice(HUNDRED)),
-    "a list of 20": drawn(lambda: chance.choice(HUNDRED[:20])),
-    "one decimal": drawn(lambda: round(chance.uniform(20, 30), 1)),
-    "half degrees": drawn(lambda: chance.randrange(40, 61) / 2),
-    "clipped gauss": drawn(lambda: min(30.0, max(20.0, chance.gauss(25, 4)))),
-    "triangular": drawn(lambda: chance.triangular(20, 30)),
-    "nearly the same": drawn(lambda: 25 + chance.uniform(-0.01, 0.01)),
+    "uniform": independent(lambda: rng.uniform(20, 30)),
+    "two decimals": independent(lambda: round(rng.uniform(20, 30), 2)),
+    "whole degrees": independent(lambda: float(rng.randint(20, 30))),
+    "three values": independent(lambda: rng.choice([20.0, 25.0, 30.0])),
+    "heads or tails": independent(lambda: rng.choice([20.0, 30.0])),
+    "a list of 100": independent(lambda: rng.choice(HUNDRED)),
+    "a list of 20": independent(lambda: rng.choice(HUNDRED[:20])),
+    "one decimal": independent(lambda: round(rng.uniform(20, 30), 1)),
+    "half degrees": independent(lambda: rng.randrange(40, 61) / 2),
+    "clipped gauss": independent(lambda: min(30.0, max(20.0, rng.gauss(25, 4)))),
+    "triangular": independent(lambda: rng.triangular(20, 30)),
+    "nearly the same": independent(lambda: 25 + rng.uniform(-0.01, 0.01)),
     "smoothed": smoothed,
-    "gauss": drawn(lambda: chance.gauss(25, 1.5)),
-    "walk": walk(lambda: chance.uniform(-0.5, 0.5)),
-    "walk in equal steps": walk(lambda: chance.choice([-0.5, 0.5])),
-    "walk in equal steps, or none": walk(lambda: chance.choice([-0.5, 0.0, 0.5])),
-    "walk without walls": walk(lambda: chance.gauss(0, 0.1), -1e9, 1e9),
+    "gauss": independent(lambda: rng.gauss(25, 1.5)),
+    "walk": walk(lambda: rng.uniform(-0.5, 0.5)),
+    "walk in equal steps": walk(lambda: rng.choice([-0.5, 0.5])),
+    "walk in equal steps, or none": walk(lambda: rng.choice([-0.5, 0.0, 0.5])),
+    "walk without walls": walk(lambda: rng.gauss(0, 0.1), -1e9, 1e9),
     "noise on a sine": noisy(lambda i: 25 + 4 * math.sin(i / 5)),
     "noise on a slow ramp": noisy(lambda i: 22 + 0.1 * i),
 }
@@ -93,12 +93,12 @@ def test_random_values_are_no_pattern(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["uniform", "two decimals", "whole degrees", "a list of 20", "gauss"])
 @pytest.mark.parametrize("count", [MIN_SAMPLE_SIZE, 14])
-def test_nor_are_fewer_of_them(name: str, count: int) -> None:
+def test_few_random_values_are_no_pattern(name: str, count: int) -> None:
     found = [find_pattern(RANDOM[name](count)) for _ in range(TRIALS)]
     assert not [each for each in found if each is not None]
 
 
-def test_random_values_hardly_ever_need_more_than_a_few() -> None:
+def test_random_values_rarely_need_more_values() -> None:
     doubtful = sum(needs_more_values(RANDOM["uniform"](MIN_SAMPLE_SIZE)) for _ in range(TRIALS))
     assert doubtful <= TRIALS / 20
 
@@ -137,47 +137,47 @@ def test_a_sawtooth_is_found(start: float, step: float, down: bool) -> None:
 @pytest.mark.parametrize("decimals", [1, 2, 9])
 def test_a_ramp_that_starts_over_is_found_whatever_its_step(decimals: int) -> None:
     for _ in range(200):
-        start, step = chance.uniform(0, 10), chance.uniform(0.3, 9.7)
+        start, step = rng.uniform(0, 10), rng.uniform(0.3, 9.7)
         values = [round(20 + (start + i * step) % 10, decimals) for i in range(FULL_SAMPLE_SIZE)]
         assert needs_more_values(values[:MIN_SAMPLE_SIZE]), (start, step)
         assert find_pattern(values) is not None or decimals == 1, (start, step)
 
 
-def test_a_ramp_of_two_or_three_steps_in_turn_is_found() -> None:
+def test_a_ramp_of_two_or_three_alternating_steps_is_found() -> None:
     for period in (2, 3):
         for _ in range(200):
-            steps = [chance.uniform(0.3, 9.7) for _ in range(period)]
-            values = [chance.uniform(20, 30)]
+            steps = [rng.uniform(0.3, 9.7) for _ in range(period)]
+            values = [rng.uniform(20, 30)]
             while len(values) < FULL_SAMPLE_SIZE:
                 values.append(20 + (values[-1] - 20 + steps[len(values) % period]) % 10)
             assert needs_more_values(values[:MIN_SAMPLE_SIZE]), steps
             assert find_pattern(values) is not None, steps
 
 
-def test_a_ramp_by_the_clock_is_found() -> None:
+def test_a_ramp_computed_from_the_clock_is_found() -> None:
     for _ in range(200):
-        speed = chance.uniform(0.3, 3)
-        times = [i + chance.uniform(-0.003, 0.003) for i in range(FULL_SAMPLE_SIZE)]
+        speed = rng.uniform(0.3, 3)
+        times = [i + rng.uniform(-0.003, 0.003) for i in range(FULL_SAMPLE_SIZE)]
         assert find_pattern([20 + (speed * time) % 10 for time in times]) is not None, speed
 
 
 def test_a_triangle_is_found() -> None:
     missed = 0
     for _ in range(200):
-        start, step = chance.uniform(0, 10), chance.uniform(0.3, 9.7)
+        start, step = rng.uniform(0, 10), rng.uniform(0.3, 9.7)
         missed += find_pattern([20 + abs((start + i * step) % 20 - 10) for i in range(FULL_SAMPLE_SIZE)]) is None
-    assert missed <= 10  # it may not touch its ends in so few values
+    assert missed <= 10  # with so few values, it may not reach its turning points
 
 
-def test_a_round_that_is_entered_late_is_found() -> None:
+def test_a_cycle_after_a_different_first_value_is_found() -> None:
     values = [22.7] + [20.0, 22.1, 24.2, 26.3, 28.4, 30.0] * 4
     found = find_pattern(values)
     assert found is not None
     assert found.name == "short cycle"
 
 
-def test_a_cycle_under_a_little_noise_is_found() -> None:
-    values = [(21.3, 28.8, 24.1)[i % 3] + chance.uniform(-0.01, 0.01) for i in range(FULL_SAMPLE_SIZE)]
+def test_a_cycle_with_a_little_noise_is_found() -> None:
+    values = [(21.3, 28.8, 24.1)[i % 3] + rng.uniform(-0.01, 0.01) for i in range(FULL_SAMPLE_SIZE)]
     assert find_pattern(values) is not None
     assert needs_more_values(values[:MIN_SAMPLE_SIZE])
 
@@ -193,7 +193,7 @@ def test_a_cycle_is_found(data: st.DataObject) -> None:
 
 @pytest.mark.parametrize("step", [0.25, 0.5, 1.0, 2.0, 2.5, 5.0])
 @pytest.mark.parametrize("start", [20.0, 25.0])
-def test_up_to_the_top_and_down_again_is_found(step: float, start: float) -> None:
+def test_bouncing_between_the_limits_is_found(step: float, start: float) -> None:
     values = [start]
     while len(values) < FULL_SAMPLE_SIZE:
         step = -step if not 20 <= values[-1] + step <= 30 else step
@@ -203,10 +203,10 @@ def test_up_to_the_top_and_down_again_is_found(step: float, start: float) -> Non
 
 
 @pytest.mark.parametrize("jitter", [0.0, 0.002])
-def test_a_sine_is_found_also_with_a_timers_jitter(jitter: float) -> None:
+def test_a_sine_is_found_even_with_timer_jitter(jitter: float) -> None:
     for _ in range(300):
-        omega, phase, size = chance.uniform(0.05, 1.5), chance.uniform(0, 7), chance.uniform(1, 5)
-        times = [i + chance.uniform(-jitter, jitter) for i in range(FULL_SAMPLE_SIZE)]
+        omega, phase, size = rng.uniform(0.05, 1.5), rng.uniform(0, 7), rng.uniform(1, 5)
+        times = [i + rng.uniform(-jitter, jitter) for i in range(FULL_SAMPLE_SIZE)]
         values = [25 + size * math.sin(omega * t + phase) for t in times]
         assert find_pattern(values) is not None, (omega, phase, size)
         assert needs_more_values(values[:MIN_SAMPLE_SIZE]), (omega, phase, size)
@@ -218,7 +218,7 @@ def test_a_decay_is_found(factor: float, size: float) -> None:
 
 
 @given(st.lists(st.floats(), max_size=2))
-def test_two_values_tell_nothing(values: list[float]) -> None:
+def test_two_values_are_no_pattern(values: list[float]) -> None:
     assert find_pattern(values) is None
     assert needs_more_values(values)
 
@@ -231,11 +231,11 @@ def test_any_values_can_be_judged(values: list[float]) -> None:
     needs_more_values(values)
 
 
-def test_what_is_not_a_number_neither_makes_a_pattern_nor_hides_one() -> None:
+def test_nan_and_inf_neither_make_a_pattern_nor_hide_one() -> None:
     lost = [math.nan, math.inf, -math.inf]
     for trial in range(200):
-        chance = random.Random(trial)
-        values = [chance.choice(lost) if i % 3 == 2 else chance.uniform(20, 30) for i in range(FULL_SAMPLE_SIZE)]
+        rng = random.Random(trial)
+        values = [rng.choice(lost) if i % 3 == 2 else rng.uniform(20, 30) for i in range(FULL_SAMPLE_SIZE)]
         assert find_pattern(values) is None
     ramp = [math.nan if i % 5 == 4 else 20 + i / 10 for i in range(FULL_SAMPLE_SIZE)]
     assert find_pattern(ramp) is not None
@@ -244,9 +244,9 @@ def test_what_is_not_a_number_neither_makes_a_pattern_nor_hides_one() -> None:
     assert needs_more_values([math.nan] * 4 + [21.5, 27.25, 24.0, 29.1])
 
 
-def test_ints_sent_as_the_bits_of_a_float_vary_all_the_same() -> None:
-    # What an int in a float field looks like on the wire: numbers below any rounding.
-    values = [chance.randint(20, 30) * 5e-324 for _ in range(FULL_SAMPLE_SIZE)]
+def test_ints_sent_as_the_bits_of_a_float_still_vary() -> None:
+    # What an int in a float field looks like on the wire: denormal numbers, smaller than any rounding.
+    values = [rng.randint(20, 30) * 5e-324 for _ in range(FULL_SAMPLE_SIZE)]
     assert find_pattern(values) is None
 
 

@@ -1,4 +1,4 @@
-"""Rates are measured on source times, whatever the order in which the messages came."""
+"""Rates are measured from source timestamps, in whatever order the messages arrived."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ rates = st.floats(0.05, 1000)
 
 
 @given(rates, st.integers(2, 60), st.integers())
-def test_a_steady_rate_is_what_it_is(hz: float, count: int, seed: int) -> None:
-    heard = list(samples("/t", hz, count=count))
-    random.Random(seed).shuffle(heard)
-    rate = measure(heard)
+def test_a_steady_rate_is_measured_exactly(hz: float, count: int, seed: int) -> None:
+    received = list(samples("/t", hz, count=count))
+    random.Random(seed).shuffle(received)
+    rate = measure(received)
     assert rate is not None
     assert rate.samples == count
     assert rate.hz == pytest.approx(hz, rel=1e-6)
@@ -35,7 +35,7 @@ def test_a_rate_agrees_within_its_tolerance(asked: float, factor: float) -> None
     assert not outside or not agrees
 
 
-def test_a_rate_is_far_above_only_in_a_window_that_shows_it() -> None:
+def test_a_rate_is_far_above_only_in_a_conclusive_window() -> None:
     assert Rate(2.0, 9, 4.0, 0.5).is_far_above(0.5, 4.0)
     assert not Rate(0.7, 4, 4.0, 1.4).is_far_above(0.5, 4.0)
     assert not Rate(2.0, 3, 1.0, 0.5).is_far_above(0.5, 4.0)
@@ -43,18 +43,18 @@ def test_a_rate_is_far_above_only_in_a_window_that_shows_it() -> None:
 
 
 @pytest.mark.parametrize("times", [[], [5.0], [5.0, 5.0], [5.0, 5.0, 5.0]])
-def test_too_little_to_tell(times: list[float]) -> None:
+def test_too_few_times_for_a_rate(times: list[float]) -> None:
     assert measure([sample("/t", 0, at) for at in times]) is None
 
 
-def test_in_words() -> None:
+def test_describe() -> None:
     assert describe(None, 0) == "no message"
     assert describe(None, 1) == "only 1 message"
     assert describe(None, 2) == "only 2 messages"
     assert describe(Rate(2.0, 5, 2.0), 5) == "2.00 Hz (5 messages in 2.00 s)"
 
 
-def test_a_crowded_machine_excuses_too_few_messages_by_as_much_as_it_took_and_never_too_many() -> None:
+def test_cpu_wait_excuses_too_few_messages_in_proportion_but_never_too_many() -> None:
     assert not too_few_by_cpu_wait(5, 10.0, cpu_wait_s=0.0, of_s=1.0)
     assert too_few_by_cpu_wait(5, 10.0, cpu_wait_s=0.5, of_s=1.0)
     assert not too_few_by_cpu_wait(1, 10.0, cpu_wait_s=0.5, of_s=1.0)
@@ -64,7 +64,7 @@ def test_a_crowded_machine_excuses_too_few_messages_by_as_much_as_it_took_and_ne
 
 
 @given(st.floats(0.5, 10), st.integers(2, 8), st.integers(3, 8))
-def test_bursts_are_no_rate(hz: float, size: int, bursts: int) -> None:
+def test_bursts_agree_with_no_rate(hz: float, size: int, bursts: int) -> None:
     every_s = size / hz
     times = [5.0 + burst * every_s + i * 1e-4 for burst in range(bursts) for i in range(size)]
     rate = measure([sample("/t", 0, at) for at in times])
@@ -74,10 +74,10 @@ def test_bursts_are_no_rate(hz: float, size: int, bursts: int) -> None:
 
 
 @given(st.floats(0.5, 10), st.integers(5, 40), st.integers())
-def test_jitter_and_a_pause_are_no_bursts(hz: float, count: int, seed: int) -> None:
-    chance = random.Random(seed)
-    pause_after = chance.randrange(count)
-    times = [5.0 + (i + chance.uniform(-0.2, 0.2) + (1.0 if i > pause_after else 0.0)) / hz for i in range(count)]
+def test_jitter_and_a_pause_are_not_bursts(hz: float, count: int, seed: int) -> None:
+    rng = random.Random(seed)
+    pause_after = rng.randrange(count)
+    times = [5.0 + (i + rng.uniform(-0.2, 0.2) + (1.0 if i > pause_after else 0.0)) / hz for i in range(count)]
     rate = measure([sample("/t", 0, at) for at in times])
     assert rate is not None
     assert not rate.in_bursts

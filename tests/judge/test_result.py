@@ -1,4 +1,4 @@
-"""One status out of many, the shape of a check, and small helpers."""
+"""Combining statuses into one, the structure of a check, and small helpers."""
 
 from __future__ import annotations
 
@@ -55,20 +55,20 @@ def test_a_bonus_never_changes_a_verdict(required: Status, bonus: Status) -> Non
     assert exercise(criterion(required), criterion(bonus, True)).verdict is overall([required])
 
 
-def test_bonus_alone_misses_nothing_that_is_required() -> None:
+def test_a_failed_bonus_alone_does_not_fail_the_exercise() -> None:
     assert exercise(criterion(F, True)).verdict is P
     assert exercise().verdict is E
 
 
 @given(st.lists(st.sampled_from(Status), min_size=1))
-def test_a_report_is_as_its_exercises(statuses: list[Status]) -> None:
+def test_the_verdict_of_a_report_follows_from_its_exercises(statuses: list[Status]) -> None:
     exercises = tuple(exercise(criterion(status)) for status in statuses)
     report = Report(Environment("jazzy", "bundled", "rmw", "0"), exercises, 1.0)
     assert report.verdict is overall(overall([status]) for status in statuses)
     assert (report.verdict is P) == all(status is P for status in statuses)
 
 
-def test_each_kind_of_verdict_says_what_it_must() -> None:
+def test_constructors_of_each_kind_of_verdict() -> None:
     assert passed("e", "o", ["1"]) == Verdict(P, "e", "o", evidence=("1",))
     assert failed("e", "o", Cause("n", "t", "h"), iter("12")) == Verdict(F, "e", "o", "n: t", "h", ("1", "2"))
     assert skipped("because") == Verdict(S, cause="because")
@@ -76,12 +76,12 @@ def test_each_kind_of_verdict_says_what_it_must() -> None:
     assert [Verdict(status).passed for status in Status] == [True, False, False, False]
 
 
-def asks(*criteria: tuple[str, tuple[str, ...]]) -> Check:
+def check_of(*criteria: tuple[str, tuple[str, ...]]) -> Check:
     return Check("i9.9", tuple(Criterion(name, lambda: passed("", ""), (), after=after) for name, after in criteria))
 
 
-def test_a_check_may_depend_on_what_is_before() -> None:
-    assert [c.id for c in asks(("a", ()), ("b", ("a",)), ("c", ("a", "b"))).criteria] == ["a", "b", "c"]
+def test_a_criterion_may_depend_on_earlier_ones() -> None:
+    assert [c.id for c in check_of(("a", ()), ("b", ("a",)), ("c", ("a", "b"))).criteria] == ["a", "b", "c"]
 
 
 @pytest.mark.parametrize(
@@ -94,9 +94,9 @@ def test_a_check_may_depend_on_what_is_before() -> None:
         [("a", ()), ("b", ("a", "c")), ("c", ())],
     ],
 )
-def test_a_check_that_cannot_be_run_is_refused(wrong: list[tuple[str, tuple[str, ...]]]) -> None:
+def test_a_check_with_invalid_dependencies_is_rejected(wrong: list[tuple[str, tuple[str, ...]]]) -> None:
     with pytest.raises(ValueError, match=r"i9\.9"):
-        asks(*wrong)
+        check_of(*wrong)
 
 
 @given(st.integers(), st.floats(-1e6, 1e6).map(lambda value: f"{value:.3f}"))

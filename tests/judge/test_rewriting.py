@@ -1,4 +1,4 @@
-"""General edits of a node: whole functions, or one line, in the learner's own names."""
+"""General edits of a node, of whole functions or single lines, in the learner's own names."""
 
 from __future__ import annotations
 
@@ -57,22 +57,22 @@ rclpy.spin(node)
 
 
 def changed(*pairs: tuple[str, str], text: str = NODE) -> NodeFile:
-    """The node with something of it written otherwise."""
+    """The node with each of these texts replaced."""
     for old, new in pairs:
         assert old in text
         text = text.replace(old, new)
     return node_file(text)
 
 
-def done(file: NodeFile, edits: list[Edit]) -> str:
-    """The file after the step, done word for word."""
+def apply_edits(file: NodeFile, edits: list[Edit]) -> str:
+    """The file after following the step for these edits to the letter."""
     step = file.step(edits)
     assert step is not None
     return apply_step(step, {"node.py": file.text})["node.py"]
 
 
-def test_the_callback_refuses_bad_rates_and_lets_the_others_take_effect() -> None:
-    after = done(changed(), parameters.follow_parameters(changed(), RATE, PREFIX, ENABLED))
+def test_the_callback_refuses_bad_rates_and_applies_the_others() -> None:
+    after = apply_edits(changed(), parameters.follow_parameters(changed(), RATE, PREFIX, ENABLED))
     assert (
         """\
     def changed(self, params):
@@ -130,22 +130,22 @@ def test_the_callback_refuses_bad_rates_and_lets_the_others_take_effect() -> Non
         ),
     ],
 )
-def test_what_the_callback_needs_comes_with_it(file: NodeFile, words: list[str]) -> None:
-    after = done(file, parameters.follow_parameters(file, RATE, PREFIX, ENABLED))
+def test_the_step_includes_everything_that_the_callback_needs(file: NodeFile, words: list[str]) -> None:
+    after = apply_edits(file, parameters.follow_parameters(file, RATE, PREFIX, ENABLED))
     for word in words:
         assert word in after, after
 
 
-def test_a_timer_that_is_emptied_later_is_kept() -> None:
+def test_a_timer_whose_attribute_is_set_to_none_is_stored_there() -> None:
     file = changed(
         ("self.timer = self.create_timer(1.0 / self.rate, self.tick)", "self.create_timer(1.0, self.tick)"),
         (REGISTERED, f"        self.timer = None\n{REGISTERED}"),
     )
-    after = done(file, parameters.follow_parameters(file, RATE))
+    after = apply_edits(file, parameters.follow_parameters(file, RATE))
     assert "self.timer = self.create_timer(1.0, self.tick)\n" + REGISTERED in after
 
 
-def test_whether_a_parameter_is_followed() -> None:
+def test_is_followed() -> None:
     assert not parameters.is_followed(changed(), PREFIX)
     assert parameters.is_followed(
         changed(("data=self.prefix", "data=self.get_parameter('message_prefix').value")), PREFIX
@@ -154,21 +154,21 @@ def test_whether_a_parameter_is_followed() -> None:
     assert parameters.is_followed(changed(("        return Set", f"        {asking}        return Set")), PREFIX)
 
 
-def test_what_is_kept_of_a_period_is_worked_out_from_the_new_rate() -> None:
+def test_a_stored_period_is_computed_from_the_new_rate() -> None:
     file = changed(("self.rate = self", "self.period = 1.0 / self"), ("1.0 / self.rate,", "self.period,"))
-    assert "self.period = 1.0 / p.value\n" in done(file, parameters.follow_parameters(file, RATE))
+    assert "self.period = 1.0 / p.value\n" in apply_edits(file, parameters.follow_parameters(file, RATE))
 
 
-def test_where_only_the_old_timer_is_left_it_is_cancelled() -> None:
+def test_an_old_timer_that_is_left_running_is_cancelled() -> None:
     making = "self.timer = self.create_timer(1.0 / params[0].value, self.tick)"
     file = changed(("        return Set", f"        {making}\n        return Set"))
     right = changed(("        return Set", f"        self.timer.cancel()\n        {making}\n        return Set"))
-    assert done(file, parameters.cancel_old_timer(file)) == right.text
+    assert apply_edits(file, parameters.cancel_old_timer(file)) == right.text
     assert parameters.cancel_old_timer(right) == parameters.cancel_old_timer(changed()) == []
 
 
 def test_bad_rates_are_refused_before_anything_else() -> None:
-    after = done(changed(), parameters.refuse_bad_rates(changed(), RATE))
+    after = apply_edits(changed(), parameters.refuse_bad_rates(changed(), RATE))
     assert "    def changed(self, params):\n        for p in params:\n            if p.name == 'publish_rate'" in after
 
 
@@ -188,16 +188,16 @@ def test_bad_rates_are_refused_before_anything_else() -> None:
         (node_file(MODULE), ENABLED, True, "create_node('p')\nnode.declare_parameter('enabled', True)"),
     ],
 )
-def test_declared(file: NodeFile, name: str, default: object, line: str) -> None:
-    assert line in done(file, parameters.declare_parameter(file, name, default))
+def test_a_parameter_is_declared_with_its_default(file: NodeFile, name: str, default: object, line: str) -> None:
+    assert line in apply_edits(file, parameters.declare_parameter(file, name, default))
 
 
-def test_what_is_declared_again_and_again_is_declared_once() -> None:
+def test_a_parameter_declared_in_every_callback_is_declared_once() -> None:
     file = changed(
         ("        self.declare_parameter('message_prefix', 'Hello')\n", ""),
         ("        self.count += 1", "        self.prefix = self.declare_parameter('message_prefix', 'Hello').value"),
     )
-    after = done(file, parameters.declare_once(file, 22))
+    after = apply_edits(file, parameters.declare_once(file, 22))
     assert "__init__('parameterized_publisher')\n        self.declare_parameter('message_prefix', 'Hello')\n" in after
     assert after.endswith("        self.prefix = self.get_parameter('message_prefix').value\n")
     assert parameters.declare_once(changed(), 9) == []
@@ -205,20 +205,20 @@ def test_what_is_declared_again_and_again_is_declared_once() -> None:
 
 def test_a_parameter_of_another_name_is_renamed_wherever_it_is_named() -> None:
     file = changed(("'message_prefix'", "'prefix'"))
-    assert done(file, parameters.rename_parameter(file, PREFIX, [PREFIX, RATE, ENABLED])) == NODE
+    assert apply_edits(file, parameters.rename_parameter(file, PREFIX, [PREFIX, RATE, ENABLED])) == NODE
 
 
 @pytest.mark.parametrize("code", ["msg = String()\n        msg.data = 'x'\n        self.publisher.publish(msg)", ""])
-def test_the_message_is_another_one(code: str) -> None:
+def test_the_message_is_replaced(code: str) -> None:
     file = changed(("self.publisher.publish(String(data=self.prefix))", code)) if code else changed()
-    assert publishing.text_with(file, PREFIX) in done(
+    assert publishing.text_with(file, PREFIX) in apply_edits(
         file, publishing.send_data(file, publishing.text_with(file, PREFIX))
     )
 
 
-def test_the_whole_callback_of_the_timer() -> None:
+def test_the_timer_callback_is_rewritten_as_a_whole() -> None:
     code = publishing.text_with(changed(), PREFIX)
-    assert done(changed(), publishing.whole_timer_callback(changed(), code, enabled=ENABLED)).endswith(
+    assert apply_edits(changed(), publishing.whole_timer_callback(changed(), code, enabled=ENABLED)).endswith(
         """\
     def tick(self):
         if not self.get_parameter('enabled').value:
@@ -231,9 +231,9 @@ def test_the_whole_callback_of_the_timer() -> None:
     )
 
 
-def test_a_node_without_anything_gets_publisher_timer_and_callback() -> None:
+def test_an_empty_node_gets_a_publisher_a_timer_and_a_callback() -> None:
     file = node_file("class P(Node):\n    def __init__(self):\n        super().__init__('p')\n")
-    after = done(file, publishing.whole_publishing(file, "/chatter", "std_msgs/msg/String", "'Hello'", RATE))
+    after = apply_edits(file, publishing.whole_publishing(file, "/chatter", "std_msgs/msg/String", "'Hello'", RATE))
     for line in (
         "from std_msgs.msg import String",
         "self.publisher = self.create_publisher(String, '/chatter', 10)",
@@ -245,7 +245,7 @@ def test_a_node_without_anything_gets_publisher_timer_and_callback() -> None:
 
 def test_a_second_timer_is_removed() -> None:
     file = changed(("        self.add_on", "        self.create_timer(1.0, self.tick)\n        self.add_on"))
-    assert done(file, publishing.keep_one_timer(file)) == NODE
+    assert apply_edits(file, publishing.keep_one_timer(file)) == NODE
 
 
 @pytest.mark.parametrize(
@@ -318,7 +318,7 @@ def test_a_callback_that_is_never_called(file: NodeFile, cause: str, line: str) 
     assert parameter_slips.diagnose_uncalled_callback(changed()) is None
 
 
-def test_the_old_value_is_read_in_an_on_set_callback() -> None:
+def test_an_on_set_callback_that_reads_the_old_value() -> None:
     reading = "for p in params:\n            self.prefix = self.get_parameter('message_prefix').value\n        return"
     file = changed(("        return Set", f"        {reading} Set"))
     found = parameter_slips.diagnose_old_value_read(file, PREFIX)
@@ -326,7 +326,7 @@ def test_the_old_value_is_read_in_an_on_set_callback() -> None:
     assert "self.prefix = p.value" in found.hint
 
 
-def test_a_file_that_cannot_be_read_gives_no_step() -> None:
+def test_an_unparsable_file_yields_no_step() -> None:
     for text in ("", "def f(:\n"):
         file = node_file(text)
         assert (

@@ -1,4 +1,4 @@
-"""The step for a process that does not end well on Ctrl+C fits the lines that the learner's file has."""
+"""Steps for a process that does not end cleanly on Ctrl+C, in terms of the learner's own file."""
 
 from __future__ import annotations
 
@@ -72,9 +72,9 @@ def changed(*pairs: tuple[str, str]) -> Trace:
         (((BOTH, "except ValueError:"),), (BOTH,)),
     ],
 )
-def test_catching_what_ends_a_spin(pairs: tuple[tuple[str, str], ...], steps: tuple[str, ...]) -> None:
-    told = shutdown_steps.catch_interrupt(changed(*pairs))
-    assert all(each in told for each in steps)
+def test_the_exceptions_that_end_a_spin_are_caught(pairs: tuple[tuple[str, str], ...], steps: tuple[str, ...]) -> None:
+    step = shutdown_steps.catch_interrupt(changed(*pairs))
+    assert all(each in step for each in steps)
 
 
 @pytest.mark.parametrize(
@@ -88,25 +88,25 @@ def test_catching_what_ends_a_spin(pairs: tuple[tuple[str, str], ...], steps: tu
         ("        rclpy.spin(node)\n", "        while True:\n            rclpy.spin_once(node)\n"),
     ],
 )
-def test_the_program_as_a_whole(old: str, new: str) -> None:
-    told = shutdown_steps.allow_interrupt(changed((old, new)))
-    assert told.endswith(
+def test_main_is_rewritten_as_a_whole(old: str, new: str) -> None:
+    step = shutdown_steps.allow_interrupt(changed((old, new)))
+    assert step.endswith(
         f"    try:\n        rclpy.spin(node)\n    {BOTH}\n        pass\n    finally:\n        rclpy.try_shutdown()"
     )
-    assert not any(each in told for each in ("sleep", "abort", "exit", "signal", "Thread", "while"))
+    assert not any(each in step for each in ("sleep", "abort", "exit", "signal", "Thread", "while"))
 
 
-def test_what_is_beside_the_program() -> None:
+def test_a_thread_started_by_the_node_becomes_a_daemon() -> None:
     kept = changed(("    pass\n\n\ndef", "    def __init__(self):\n        Thread(target=self.watch).start()\n\n\ndef"))
     assert "line 8 becomes: Thread(target=self.watch, daemon=True).start()" in shutdown_steps.allow_interrupt(kept)
 
 
-def test_a_right_program_is_not_written_again() -> None:
+def test_a_correct_program_is_not_rewritten() -> None:
     assert shutdown_steps.allow_interrupt(node(MAIN)).startswith("let KeyboardInterrupt end the program")
     assert shutdown_steps.exit_with_zero(node("def broken(")).startswith("return normally")
 
 
-def test_leaving_out_what_raises() -> None:
+def test_the_line_that_raises_is_removed() -> None:
     broken = Frame(f"{FOLDER}/node.py", 7, "slow_add", "raise RuntimeError('interrupted')")
     raising = changed(
         ("    pass\n\n\ndef", "    def slow_add(self):\n        raise RuntimeError('interrupted')\n\n\ndef")

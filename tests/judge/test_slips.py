@@ -1,4 +1,4 @@
-"""Slips of plain Python that raise nothing: what the learner's source says of them, and the step."""
+"""Slips in plain Python that raise nothing: how the learner's source reveals them, and the step."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def node(text: str) -> Trace:
         ("self.on = 'false' == p.value", "becomes: self.on = not p.value"),
     ],
 )
-def test_a_truth_is_not_a_text(text: str, step: str) -> None:
+def test_a_boolean_compared_with_text(text: str, step: str) -> None:
     assert step in (slips.boolean_compared_with_text(node(text)) or "")
 
 
 @pytest.mark.parametrize(
     "text", ["x = str(p.value).lower() == 'true'", "if p.name == 'true': pass", "x = p.value == 'a'"]
 )
-def test_a_comparison_that_goes_well(text: str) -> None:
+def test_valid_comparisons_are_not_reported(text: str) -> None:
     assert slips.boolean_compared_with_text(node(text)) is None

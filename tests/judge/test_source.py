@@ -1,4 +1,4 @@
-"""What a learner's source says, for the words of a diagnosis."""
+"""What a diagnosis reads from the learner's source."""
 
 from __future__ import annotations
 
@@ -53,13 +53,13 @@ def test_callbacks_are_found_with_what_they_call(create: str, found: list[str]) 
 
 
 @pytest.mark.parametrize("text", ["def broken(:", "\0", "(" * 5000])
-def test_a_file_that_python_cannot_read_says_nothing(text: str) -> None:
+def test_an_unparsable_file_yields_nothing(text: str) -> None:
     seen = trace(sources={"node.py": text})
     assert not source.mentions(seen, "Node")
     assert source.calls(seen, "call") == []
 
 
-def test_a_file_brings_along_those_beside_it_that_it_imports(tmp_path: Path) -> None:
+def test_files_imported_from_the_same_folder_are_included(tmp_path: Path) -> None:
     for name, text in {
         "node.py": "import helper\nfrom my_package.more import thing\nimport rclpy",
         "helper.py": "from node import main",

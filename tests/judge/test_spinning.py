@@ -1,4 +1,4 @@
-"""A program that does not spin: the line at which it stays, or ends, and what is to be written there."""
+"""A program that does not spin: the line at which it blocks or ends, and what to write there."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ def started(*body: str, **more: object) -> Trace:
     return replace(trace(graph=UP, **more), sources={"node.py": NODE.format(body="\n    ".join(body))})  # type: ignore[arg-type]
 
 
-def at(line: int, code: str, function: str = "main") -> tuple[Frame, ...]:
-    me = f"{FOLDER}/node.py"
-    return Frame(me, line, function, code, 1), Frame(me, 99, "<module>", "main()", 1)
+def stack_at(line: int, code: str, function: str = "main") -> tuple[Frame, ...]:
+    path = f"{FOLDER}/node.py"
+    return Frame(path, line, function, code, 1), Frame(path, 99, "<module>", "main()", 1)
 
 
 @pytest.mark.parametrize(
@@ -45,45 +45,47 @@ def at(line: int, code: str, function: str = "main") -> tuple[Frame, ...]:
     [
         (
             ["while rclpy.ok():", "    time.sleep(0.1)"],
-            at(14, "time.sleep(0.1)"),
+            stack_at(14, "time.sleep(0.1)"),
             "stays at node.py, line 14: time.sleep(0.1), in the loop of line 13: while rclpy.ok():",
             "lines 13 to 14 become: rclpy.spin(talker)",
         ),
         (
             ["while True:", "    time.sleep(0.5)", "rclpy.spin(talker)"],
-            at(14, "time.sleep(0.5)"),
+            stack_at(14, "time.sleep(0.5)"),
             "while True:",
             "remove lines 13 to 14",
         ),
         (
             ["while True:", "    talker.tick()", "    time.sleep(0.5)"],
-            at(15, "time.sleep(0.5)"),
+            stack_at(15, "time.sleep(0.5)"),
             "line 15",
             "lines 13 to 15 become:\n    talker.create_timer(0.5, talker.tick)\n    rclpy.spin(talker)",
         ),
         (
             ["while True:", "    talker.tick()", "    time.sleep(0.5)", "rclpy.spin(talker)"],
-            at(15, "time.sleep(0.5)"),
+            stack_at(15, "time.sleep(0.5)"),
             "line 15",
             "lines 13 to 15 become: talker.create_timer(0.5, talker.tick)",
         ),
         (
             ["while True:", "    m = String()", "    talker.pub.publish(m)", "    time.sleep(1)"],
-            at(16, "time.sleep(1)"),
+            stack_at(16, "time.sleep(1)"),
             "line 16",
             "lines 13 to 16 become:\n    def on_timer():\n        m = String()\n        talker.pub.publish(m)\n"
             "    talker.create_timer(1, on_timer)\n    rclpy.spin(talker)",
         ),
-        (["time.sleep(60)"], at(13, "time.sleep(60)"), "line 13", "line 13 becomes: rclpy.spin(talker)"),
+        (["time.sleep(60)"], stack_at(13, "time.sleep(60)"), "line 13", "line 13 becomes: rclpy.spin(talker)"),
         (
             ["input()", "rclpy.spin(talker)"],
-            at(13, "input()"),
+            stack_at(13, "input()"),
             "line 13",
             "remove line 13: input()",
         ),
     ],
 )
-def test_where_it_stays_instead_of_spinning(body: list[str], stuck: tuple[Frame, ...], text: str, step: str) -> None:
+def test_where_a_program_blocks_instead_of_spinning(
+    body: list[str], stuck: tuple[Frame, ...], text: str, step: str
+) -> None:
     found = diagnose_no_answer(started(*body), stuck)
     assert found.name == "no spin"
     assert text in found.text
@@ -91,31 +93,31 @@ def test_where_it_stays_instead_of_spinning(body: list[str], stuck: tuple[Frame,
     assert ("rclpy.spin" in found.hint) == ("rclpy.spin" in step)
 
 
-def test_what_a_loop_counts_is_counted_by_the_timer() -> None:
+def test_a_loop_counter_moves_into_the_timer_callback() -> None:
     body = ["n = 0", "while not talker.done:", "    n += 1", "    print(n)", "    time.sleep(0.5)"]
-    found = diagnose_no_answer(started(*body), at(17, "time.sleep(0.5)"))
+    found = diagnose_no_answer(started(*body), stack_at(17, "time.sleep(0.5)"))
     code = (
         "def on_timer():\n        nonlocal n\n        if not talker.done:\n            n += 1\n            print(n)\n"
     )
     assert f"lines 14 to 17 become:\n    {code}" in found.hint
 
 
-def test_the_node_is_spun_before_the_program_tidies_up() -> None:
+def test_the_spin_goes_above_the_cleanup() -> None:
     found = diagnose_process(started("talker.tick()", "talker.destroy_node()", exit=exited(0)))
     assert found is not None
     assert found.hint == "write above line 14, with the same indentation: rclpy.spin(talker)"
 
 
-def test_a_loop_in_the_constructor_is_left_to_a_timer() -> None:
+def test_a_loop_in_the_constructor_becomes_a_timer() -> None:
     code = NODE.replace("\n    def tick", "        while True:\n            self.tick()\n\n    def tick", 1)
     seen = replace(started("rclpy.spin(talker)"), sources={"node.py": code.format(body="rclpy.spin(talker)")})
-    found = diagnose_no_answer(seen, at(6, "self.tick()", "__init__"))
+    found = diagnose_no_answer(seen, stack_at(6, "self.tick()", "__init__"))
     assert "lines 5 to 6 become: self.create_timer(1.0, self.tick)" in found.hint
     assert "rclpy.spin" not in found.hint
 
 
-def test_one_that_does_spin_is_not_told_to() -> None:
-    for stuck in ((), at(13, "rclpy.spin(talker)")):
+def test_a_program_that_spins_is_not_told_to_spin() -> None:
+    for stuck in ((), stack_at(13, "rclpy.spin(talker)")):
         assert "stays" not in diagnose_no_answer(started("rclpy.spin(talker)"), stuck).text
 
 
@@ -128,14 +130,14 @@ def test_one_that_does_spin_is_not_told_to() -> None:
         (["talker.tick()"], "write below line 13, with the same indentation: rclpy.spin(talker)"),
     ],
 )
-def test_one_that_ends_is_told_where_to_spin(body: list[str], step: str) -> None:
+def test_a_program_that_ends_is_told_where_to_spin(body: list[str], step: str) -> None:
     found = diagnose_process(started(*body, exit=exited(0)))
     assert found is not None
     assert (found.name, found.hint) == ("exit at once", step)
 
 
 @pytest.mark.parametrize("body", ["rclpy.spin(talker)", "while ok():\n        rclpy.spin_once(talker)"])
-def test_one_that_ends_though_it_spins_is_not_told_that_it_does_not(body: str) -> None:
+def test_a_program_that_ends_despite_a_spin_is_not_told_that_it_never_spins(body: str) -> None:
     found = diagnose_process(started(body, exit=exited(0)))
     assert found is not None
     assert "never spins" not in found.text

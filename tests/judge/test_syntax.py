@@ -1,4 +1,4 @@
-"""A slip that keeps Python from reading a file is told as the line without it."""
+"""The step for a slip that keeps Python from parsing a file is the corrected line."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pytest
 from tutor.judge.rewriting.syntax import make_readable
 from tutor.judge.step_parsing import apply_step
 
-_SOUND = """\
+_VALID = """\
 import time
 
 
@@ -48,30 +48,30 @@ class Stats:
         ("        self.count += 1", "\t self.count += 1"),
     ],
 )
-def test_a_slip_is_told_as_the_line_without_it(line: str, slipped: str) -> None:
-    broken = _SOUND.replace(line, slipped, 1)
-    assert broken != _SOUND
+def test_the_step_for_a_slip_is_the_corrected_line(line: str, slipped: str) -> None:
+    broken = _VALID.replace(line, slipped, 1)
+    assert broken != _VALID
 
     step = make_readable(broken)
 
     assert step is not None
-    assert apply_step(step, {"stats.py": broken})["stats.py"] == _SOUND
+    assert apply_step(step, {"stats.py": broken})["stats.py"] == _VALID
 
 
-def test_two_slips_are_told_together() -> None:
-    broken = _SOUND.replace("message):", "message)").replace("10)\n\n    def", "10\n\n    def")
+def test_two_slips_are_corrected_in_one_step() -> None:
+    broken = _VALID.replace("message):", "message)").replace("10)\n\n    def", "10\n\n    def")
 
     step = make_readable(broken)
 
     assert step is not None
-    assert apply_step(step, {"stats.py": broken})["stats.py"] == _SOUND
+    assert apply_step(step, {"stats.py": broken})["stats.py"] == _VALID
 
 
-def test_nothing_is_told_where_python_can_read_the_file_or_no_small_change_helps() -> None:
-    assert make_readable(_SOUND) is None
+def test_there_is_no_step_for_a_valid_file_or_if_no_small_change_helps() -> None:
+    assert make_readable(_VALID) is None
     assert make_readable("") is None
     assert make_readable("this is a text and no program at all\n" * 5) is None
 
 
-def test_a_character_with_the_number_0_is_left_out() -> None:
+def test_a_null_character_is_removed() -> None:
     assert make_readable("import os\n\0print(os)\n") == "line 2 becomes: print(os)"

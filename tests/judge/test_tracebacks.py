@@ -1,4 +1,4 @@
-"""Reading tracebacks in what a process wrote."""
+"""Parsing tracebacks in the output of a process."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ main()
 HEADER = "Traceback (most recent call last):"
 
 
-def test_an_exception_is_read_whole() -> None:
+def test_an_exception_is_parsed_completely() -> None:
     (found,) = find_tracebacks(lines(crash(CALLS)))
     assert (found.type, found.message) == ("ZeroDivisionError", "division by zero")
     assert found.raised == "ZeroDivisionError: division by zero"
@@ -67,7 +67,7 @@ def test_an_exception_is_read_whole() -> None:
         ("e = ValueError('x'); e.add_note('a note: long'); raise e", "ValueError", "x"),
     ],
 )
-def test_what_was_raised(source: str, type_name: str, message: str) -> None:
+def test_type_and_message_of_an_exception(source: str, type_name: str, message: str) -> None:
     found = find_tracebacks(lines(crash(source)))[0]
     assert (found.type.removeprefix("__main__."), found.message) == (type_name, message)
 
@@ -110,7 +110,7 @@ SyntaxError: invalid syntax"""
         ("raise RuntimeError('two') from None", ["RuntimeError"]),
     ],
 )
-def test_chained_exceptions_are_found_in_their_order(how: str, types: list[str]) -> None:
+def test_chained_exceptions_are_found_in_order(how: str, types: list[str]) -> None:
     text = crash(f"try:\n    1 / 0\nexcept ZeroDivisionError as error:\n    {how}\n")
     found = find_tracebacks(lines(text))
     assert [each.type for each in found] == types
@@ -141,7 +141,7 @@ raise ExceptionGroup("many", [found[0], ExceptionGroup("more", [found[1]])])
 """
 
 
-def test_a_group_of_exceptions_is_read_one_by_one() -> None:
+def test_an_exception_group_is_parsed_into_its_members() -> None:
     found = find_tracebacks(lines(f"before\n{crash(GROUP)}\nafter\n| a table |"))
     assert [each.raised for each in found] == [
         "ExceptionGroup: many (2 sub-exceptions)",
@@ -155,7 +155,7 @@ def test_a_group_of_exceptions_is_read_one_by_one() -> None:
     assert not [line for line in lines_without_tracebacks(lines(crash(GROUP))) if "raise kind" in line]
 
 
-def test_the_way_out_of_an_executor_to_a_callback() -> None:
+def test_callbacks_called_by_an_executor() -> None:
     callback, main = Frame(f"{FOLDER}/node.py", 3, "tick", ""), Frame(f"{FOLDER}/node.py", 9, "main", "")
     spin = Frame("/lib/rclpy/executors.py", 5, "spin", "")
     assert called_by_executor((callback, spin, main), FOLDER)
@@ -174,23 +174,23 @@ IGNORED = (
 )
 
 
-def test_an_ignored_exception_is_told_apart() -> None:
+def test_an_ignored_exception_is_marked() -> None:
     found = find_tracebacks(lines(f"{IGNORED}\n{CRASH}\n{IGNORED}"))
     assert [each.ignored for each in found] == [True, False, True]
 
 
-def test_an_exception_at_exit_is_told_apart() -> None:
+def test_an_exception_at_exit_is_marked() -> None:
     at_exit = IGNORED.replace("in: <function Node.__del__", "in atexit callback: <function goodbye")
     found = find_tracebacks(lines(f"{IGNORED}\n{at_exit}\n{CRASH}"))
     assert [(each.ignored, each.at_exit) for each in found] == [(True, False), (True, True), (False, False)]
 
 
-def test_an_ignored_one_does_not_make_the_next_without_header_ignored() -> None:
+def test_an_exception_without_header_after_an_ignored_one_is_not_ignored() -> None:
     assert [each.ignored for each in find_tracebacks(lines(f"{IGNORED}\n{crash('if x')}"))] == [True, False]
 
 
-def test_the_last_is_the_one_that_ended_something() -> None:
-    # What rclpy's objects say while the interpreter goes down comes after the crash, and is not news.
+def test_the_last_traceback_is_not_an_ignored_one_if_there_is_another() -> None:
+    # What rclpy's objects write at interpreter shutdown comes after the crash, and is of no interest.
     found = last_traceback(trace(err=f"{CRASH}\n{IGNORED}"))
     assert found is not None
     assert found.type == "AttributeError"
@@ -229,7 +229,7 @@ def test_own_is_the_innermost_of_the_learners_frames() -> None:
         (b"\0", "SyntaxError: source code cannot contain null bytes"),
     ],
 )
-def test_a_file_that_python_refuses_altogether(source: bytes, raised: str, tmp_path: Path) -> None:
+def test_a_file_that_python_cannot_compile(source: bytes, raised: str, tmp_path: Path) -> None:
     path = tmp_path / "node.py"
     path.write_bytes(source)
     found = find_tracebacks(lines(subprocess.run([sys.executable, path], capture_output=True, text=True).stderr))
@@ -240,7 +240,7 @@ def test_a_file_that_python_refuses_altogether(source: bytes, raised: str, tmp_p
     assert cause.name == "syntax error"
 
 
-def test_a_dump_of_all_stacks() -> None:
+def test_a_stack_dump_of_all_threads() -> None:
     text = f"""Fatal Python error: Aborted
 
 Thread 0x00007f1 (most recent call first):
@@ -265,17 +265,17 @@ def test_only_stderr_counts() -> None:
     assert find_tracebacks(lines(CRASH, "stdout")) == ()
 
 
-def test_colours_do_not_hide_it() -> None:
-    def painted(text: str) -> str:
+def test_colours_do_not_hide_a_traceback() -> None:
+    def coloured(text: str) -> str:
         return "\n".join(f"\x1b[1;31m{line}\x1b[0m" if line else line for line in text.split("\n"))
 
-    assert find_tracebacks(lines(painted(CRASH))) == find_tracebacks(lines(CRASH))
+    assert find_tracebacks(lines(coloured(CRASH))) == find_tracebacks(lines(CRASH))
     assert find_tracebacks(lines(f"\x1b[33m[WARN] [1.5] [node]: hot\x1b[0m\n{CRASH}")) == find_tracebacks(lines(CRASH))
 
 
 @given(st.integers(0, CRASH.count("\n")), st.sampled_from(["[INFO] [1.5] [node]: tick 3", "[node]: a: b", "", "=> 3"]))
-def test_a_log_line_in_the_middle_does_not_hide_it(where: int, text: str) -> None:
-    # Another thread's log message may come between any two lines that Python writes.
+def test_a_log_line_in_the_middle_does_not_hide_a_traceback(where: int, text: str) -> None:
+    # A log message of another thread may come between any two lines that Python writes.
     crash_lines = CRASH.split("\n")
     (found,) = find_tracebacks(lines("\n".join([*crash_lines[:where], text, *crash_lines[where:]])))
     assert found.type == "AttributeError"
@@ -303,31 +303,31 @@ def test_ordinary_output_is_not_a_traceback(text: list[str]) -> None:
 
 
 @given(st.lists(ordinary), st.lists(ordinary))
-def test_the_same_traceback_whatever_is_around_it(before: list[str], after: list[str]) -> None:
+def test_surrounding_output_does_not_change_a_traceback(before: list[str], after: list[str]) -> None:
     text = "\n".join([*before, CRASH, *after])
     assert find_tracebacks(lines(text)) == find_tracebacks(lines(CRASH))
 
 
 @given(st.lists(st.builds(OutputLine, st.sampled_from(["stdout", "stderr"]), st.text(), st.just(0.0))))
-def test_anything_can_be_read(output: list[OutputLine]) -> None:
+def test_any_output_can_be_parsed(output: list[OutputLine]) -> None:
     find_tracebacks(output)
     dumped_frames(output)
     assert len(lines_without_tracebacks(output)) <= len(output)
 
 
-def test_without_keeps_what_names_the_exception_and_drops_the_source_lines() -> None:
+def test_lines_without_tracebacks_keep_the_exception_and_drop_the_source() -> None:
     source = "publish_rate = 0.0\nraise ValueError('publish_rate is bad')"
     text = "before\n" + crash(source) + "after\n  indented"
     assert lines_without_tracebacks(lines(text)) == ("before", "ValueError: publish_rate is bad", "after", "  indented")
     assert lines_without_tracebacks(lines("publish_rate", "stdout")) == ("publish_rate",)
 
 
-def test_of_one_traceback_nothing_is_read_twice_or_from_the_other_stream() -> None:
+def test_a_traceback_interleaved_with_the_other_stream_is_found_once() -> None:
     mixed = [line for pair in zip(lines(CRASH), lines(CRASH, "stdout"), strict=True) for line in pair]
     assert len(find_tracebacks(mixed)) == 1
 
 
-def test_without_drops_what_joins_two_exceptions_of_a_chain() -> None:
+def test_lines_without_tracebacks_drop_the_link_between_chained_exceptions() -> None:
     chain = "During handling of the above exception, another exception occurred:"
     one = 'Traceback (most recent call last):\n  File "/a/node.py", line 1, in main\n    spin()\nKeyboardInterrupt'
     assert lines_without_tracebacks(lines(f"{one}\n\n{chain}\n\n{one}")) == (

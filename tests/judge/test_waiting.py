@@ -1,4 +1,4 @@
-"""How long a node that is up is waited for, by what is known of it."""
+"""How long to wait for a message of a node that is up, depending on its publishers."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from tutor.ros_model import Graph, TopicEndpoint
 TOPIC, TYPE = "/sensor/temperature", "std_msgs/msg/Float64"
 
 
-class Clock:
-    """A run of a node that is up from the start, whose time goes on only while it is waited for."""
+class FakeRun:
+    """A run of a node that is up from the start, with a clock that advances only during `until`."""
 
     def __init__(self, *publishers: tuple[float, str, str], message_at: float = 1e9, cpu_wait_s: float = 0.0) -> None:
         self._publishers, self._message_at, self._cpu_wait_s, self._now = publishers, message_at, cpu_wait_s, 0.0
@@ -27,8 +27,8 @@ class Clock:
 
     @property
     def graph(self) -> Graph:
-        there = [TopicEndpoint(topic, kind, "/node") for at, topic, kind in self._publishers if at <= self._now]
-        return Graph(nodes=("/node",), publishers=tuple(there))
+        visible = [TopicEndpoint(topic, kind, "/node") for at, topic, kind in self._publishers if at <= self._now]
+        return Graph(nodes=("/node",), publishers=tuple(visible))
 
     def samples_on(self, topic: str) -> list[Sample]:
         return [Sample(topic, {"data": 1.0}, self._now, self._now)] if self._now >= self._message_at else []
@@ -55,19 +55,19 @@ class Clock:
         ([(3.0, TOPIC, "std_msgs/msg/String"), (3.25, TOPIC, TYPE)], 3.25 + RARE_S),
     ],
 )
-async def test_what_is_there_says_how_long_to_wait(
+async def test_the_publishers_determine_how_long_to_wait(
     publishers: list[tuple[float, str, str]], gives_up_after_s: float
 ) -> None:
-    run = Clock(*publishers)
+    run = FakeRun(*publishers)
     assert not await wait_for_message(run, TOPIC, TYPE)  # type: ignore[arg-type]
     assert run.now() == pytest.approx(gives_up_after_s, abs=0.2)
 
 
-async def test_a_node_that_pauses_before_it_has_the_right_publisher_is_waited_for() -> None:
-    run = Clock((0.0, "/temperature", TYPE), (2.0, TOPIC, TYPE), message_at=9.0)
+async def test_a_node_that_creates_the_right_publisher_late_is_waited_for() -> None:
+    run = FakeRun((0.0, "/temperature", TYPE), (2.0, TOPIC, TYPE), message_at=9.0)
     assert await wait_for_message(run, TOPIC, TYPE)  # type: ignore[arg-type]
 
 
-async def test_seconds_in_which_the_machine_did_not_let_it_run_do_not_count() -> None:
-    run = Clock((0.0, "/temperature", TYPE), (4.0, TOPIC, TYPE), message_at=4.5, cpu_wait_s=2.0)
+async def test_cpu_wait_of_the_node_does_not_count() -> None:
+    run = FakeRun((0.0, "/temperature", TYPE), (4.0, TOPIC, TYPE), message_at=4.5, cpu_wait_s=2.0)
     assert await wait_for_message(run, TOPIC, TYPE)  # type: ignore[arg-type]

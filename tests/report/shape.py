@@ -1,4 +1,4 @@
-"""The shape of the JSON report, as programs that read it rely on it."""
+"""The shape of the reports, as programs that read them rely on it."""
 
 from __future__ import annotations
 
@@ -61,11 +61,11 @@ JUNIT = {
     "error": ({"type", "message"}, set()),
     "skipped": ({"message"}, set()),
 }
-"""Element, its attributes, its children: a part of Jenkins's junit-10.xsd that GitLab and GitHub's reporters read."""
+"""Element -> (attributes, children): the part of Jenkins's junit-10.xsd that GitLab and GitHub's reporters read."""
 
 
 def assert_junit(root: Element) -> None:
-    """Fail unless `root` is what readers of JUnit files know, and its counts are true."""
+    """Fail unless readers of JUnit files understand `root`, and its counts are right."""
     assert root.tag == "testsuites"
     for element in root.iter():
         attributes, children = JUNIT[element.tag]

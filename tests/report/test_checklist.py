@@ -1,4 +1,4 @@
-"""The checklist: what is evidence for an item, and the documents made of it."""
+"""The checklist: what counts as evidence for an item, and the documents made from it."""
 
 from __future__ import annotations
 
@@ -81,29 +81,29 @@ def test_a_criterion_that_passed_is_evidence_even_if_the_exercise_did_not() -> N
     assert evidence(COURSE, done, "launch") == ()
 
 
-def test_what_the_skeleton_passes_is_evidence_only_when_the_exercise_has_passed() -> None:
+def test_a_criterion_that_the_skeleton_passes_is_evidence_only_once_the_exercise_has_passed() -> None:
     early = failed("shutdown")
     assert evidence(COURSE, progress(i2_1=exercise(early)), "end") == ()
     done = progress(i2_1=exercise(early, passed("defaults", "validation", "shutdown"), best=Status.PASSED))
     assert evidence(COURSE, done, "end") == (Evidence("i2.1", "shutdown", LATER),)
 
 
-def test_where_no_criterion_shows_an_item_the_whole_exercise_does() -> None:
+def test_the_whole_exercise_is_evidence_for_an_item_that_no_criterion_covers() -> None:
     done = progress(i2_2=exercise(passed("defaults", "validation"), best=Status.PASSED))
     assert evidence(COURSE, done, "launch") == (Evidence("i2.2", "", LATER),)
     assert evidence(COURSE, progress(i2_2=exercise(failed("defaults"))), "launch") == ()
 
 
-def test_the_latest_comes_first_and_a_pass_long_ago_still_counts() -> None:
+def test_the_latest_evidence_comes_first_and_an_old_pass_still_counts() -> None:
     done = progress(
         i2_1=exercise(failed("defaults")),
-        i2_2=exercise(failed("defaults", at=LATER), best=Status.PASSED),  # its attempt is not kept any more
+        i2_2=exercise(failed("defaults", at=LATER), best=Status.PASSED),  # its passing attempt is no longer kept
     )
     assert [each.exercise for each in evidence(COURSE, done, "declare")] == ["i2.2", "i2.1", "i2.2"]
     assert evidence(COURSE, done, "declare")[-1] == Evidence("i2.2", "validation", "")
 
 
-def test_what_could_show_an_item_is_known() -> None:
+def test_sources_of_possible_evidence() -> None:
     sources = {each.id: each.sources for each in assess(COURSE, Progress()).items}
     assert sources["declare"] == (
         Source("i2.1", ("defaults", "validation")),
@@ -115,7 +115,7 @@ def test_what_could_show_an_item_is_known() -> None:
     assert describe_sources(sources["launch"]) == ["i2.2"]
 
 
-def test_days_are_said_as_people_say_them() -> None:
+def test_days_are_formatted_for_people() -> None:
     today = date.fromisoformat(calendar_day(NOON))
     assert near_day(NOON, today) == "today"
     assert near_day(NOON, date.fromordinal(today.toordinal() + 1)) == "yesterday"
@@ -123,7 +123,7 @@ def test_days_are_said_as_people_say_them() -> None:
     assert near_day("long ago", today) == calendar_day("long ago") == "long ago"
 
 
-def test_evidence_is_said_in_one_phrase_for_each_exercise_and_day() -> None:
+def test_evidence_is_one_phrase_per_exercise_and_day() -> None:
     found = [
         Evidence("i2.1", "defaults", LATER),
         Evidence("i2.1", "timer", LATER),
@@ -147,9 +147,9 @@ HALF = progress("declare gone", i2_1=PASSED)
 ALL = progress("declare validate end launch judge", i2_1=PASSED)
 
 
-def test_ready_is_who_has_ticked_everything() -> None:
+def test_ready_means_that_every_item_is_ticked() -> None:
     assert not assess(COURSE, HALF).ready
-    assert assess(COURSE, HALF).ticked == 1  # a tick for an item that the course does not have is not a tick
+    assert assess(COURSE, HALF).ticked == 1  # a tick for an item that the course does not have is ignored
     assert assess(COURSE, ALL).ready
     assert not assess(Course(LESSONS, Checklist()), ALL).ready
 
@@ -168,7 +168,7 @@ def test_markdown_is_a_task_list_for_github_with_a_table_of_the_exercises() -> N
     assert "## Ready?\n\nYes, go \\<on\\>.\n" in render_checklist(assess(COURSE, ALL), "markdown", at=NOON)
 
 
-def test_json_has_a_schema_and_everything() -> None:
+def test_json_has_a_schema_and_all_items() -> None:
     document = json.loads(render_checklist(assess(COURSE, HALF), "json", at=NOON))
     assert list(document) == ["schema", "exported_at", "ticked", "total", "ready", "groups", "exercises"]
     assert (document["schema"], document["exported_at"]) == ("ros-tutor/checklist/1", NOON)
@@ -197,7 +197,7 @@ def test_json_has_a_schema_and_everything() -> None:
 
 
 class Page(HTMLParser):
-    """The elements of a page. Fails where an element is closed that is not open."""
+    """The elements and texts of a page. Fails if elements are not closed in order."""
 
     VOID = frozenset({"meta", "input"})
 
@@ -222,44 +222,44 @@ class Page(HTMLParser):
         if data.strip():
             self.words.append((self.open[-1] if self.open else "", data.strip()))
 
-    def said(self, tag: str) -> list[str]:
+    def texts_in(self, tag: str) -> list[str]:
         return [words for where, words in self.words if where == tag]
 
 
-def test_html_is_one_page_that_loads_nothing() -> None:
+def test_html_is_a_single_page_that_loads_nothing() -> None:
     text = render_checklist(assess(COURSE, ALL), "html", at=NOON)
     page = Page(text)
     assert not {tag for tag, _ in page.elements} & {"script", "link", "img", "iframe", "object", "a"}
     for _, attributes in page.elements:
         assert not {"src", "href", "style", "onclick"} & attributes.keys()
-    (style,) = page.said("style")
+    (style,) = page.texts_in("style")
     assert "url(" not in style
     assert "@import" not in style
     assert "prefers-color-scheme: dark" in style
     assert "@media print" in style
 
 
-def test_html_can_be_heard() -> None:
+def test_html_is_accessible_to_screen_readers() -> None:
     page = Page(render_checklist(assess(COURSE, ALL), "html", at=NOON))
-    assert page.said("h1") == page.said("title") == ["Self-assessment checklist"]
-    assert page.said("h2") == ["Ready?", "Group <1> @all", "Two", "Exercises"]
-    assert "Yes, go <on>." in page.said("p")
-    assert page.said("small") == ["3 of 3", "2 of 2", "1 of 2 passed"]
+    assert page.texts_in("h1") == page.texts_in("title") == ["Self-assessment checklist"]
+    assert page.texts_in("h2") == ["Ready?", "Group <1> @all", "Two", "Exercises"]
+    assert "Yes, go <on>." in page.texts_in("p")
+    assert page.texts_in("small") == ["3 of 3", "2 of 2", "1 of 2 passed"]
     ids = {attributes["id"] for _, attributes in page.elements if "id" in attributes}
     assert {a["aria-labelledby"] for tag, a in page.elements if tag == "section"} == ids
     boxes = [attributes for tag, attributes in page.elements if tag == "input"]
     assert len(boxes) == 5
     assert all("checked" in box for box in boxes)
-    assert "Refuse *bad* values" in page.said("label")
-    assert "i2.1 validation passed, 2026-01-03" in page.said("span")
+    assert "Refuse *bad* values" in page.texts_in("label")
+    assert "i2.1 validation passed, 2026-01-03" in page.texts_in("span")
     assert ("html", {"lang": "en"}) in page.elements
     headers = [attributes["scope"] for tag, attributes in page.elements if tag == "th"]
     assert headers == ["col"] * 6 + ["row"] * 2
 
 
-def test_html_says_nothing_of_ready_before_everything_is_ticked() -> None:
+def test_html_does_not_mention_ready_before_everything_is_ticked() -> None:
     page = Page(render_checklist(assess(COURSE, HALF), "html", at=NOON))
-    assert "Ready?" not in page.said("h2")
+    assert "Ready?" not in page.texts_in("h2")
     assert ["checked" in attributes for tag, attributes in page.elements if tag == "input"] == [True] + [False] * 4
 
 
@@ -285,5 +285,5 @@ def test_no_text_breaks_a_document(text: str) -> None:
     ("name", "format"),
     [("a.md", "markdown"), ("a.HTML", "html"), ("a.htm", "html"), ("b.json", "json"), ("c.txt", None), ("md", None)],
 )
-def test_a_suffix_says_the_format(name: str, format: str | None) -> None:
+def test_the_suffix_determines_the_format(name: str, format: str | None) -> None:
     assert format_of(Path(name)) == format

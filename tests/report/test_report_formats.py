@@ -1,4 +1,4 @@
-"""Every format tells the same, and nothing a learner's process writes can break one."""
+"""Every format reports the same, and nothing that a learner's process writes can break one."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def mixed() -> Report:
     )
 
 
-def test_json_is_what_the_contract_says(mixed: Report) -> None:
+def test_json_follows_the_contract(mixed: Report) -> None:
     document = json.loads(render(mixed, "json"))
     assert_report_shape(document)
     assert document["verdict"] == "failed"
@@ -68,7 +68,7 @@ def test_json_is_what_the_contract_says(mixed: Report) -> None:
     }
 
 
-def test_text_says_every_status_in_a_word_and_what_to_do(mixed: Report) -> None:
+def test_text_has_a_word_for_every_status_and_the_next_step(mixed: Report) -> None:
     text = render(mixed, "text", width=100)
     lines = text.splitlines()
     assert lines[0] == "i1.1 Sensor Publisher  FAILED  1 of 4 passed, bonus 0 of 1, 4.0 s"
@@ -85,7 +85,7 @@ def test_text_says_every_status_in_a_word_and_what_to_do(mixed: Report) -> None:
     assert lines[-2:] == ["✗ failed  in 4.2 s", "ROS 2 jazzy (bundled), rmw_fastrtps_cpp, ros-tutor 0.1.0"]
 
 
-def test_the_code_of_a_next_step_is_not_broken_in_a_file(mixed: Report) -> None:
+def test_the_code_of_a_next_step_is_not_wrapped(mixed: Report) -> None:
     code = "self.rate = self.declare_parameter('publish_rate', 2.0).get_parameter_value().double_value  # " + "x " * 40
     criterion = next(each for each in mixed.exercises[0].criteria if each.verdict.hint)
     changed = replace(criterion, verdict=replace(criterion.verdict, hint=f"line 12 becomes: {code.strip()}"))
@@ -106,7 +106,7 @@ def test_text_keeps_to_the_width_and_loses_no_word(mixed: Report, width: int) ->
         assert word in words
 
 
-def test_colour_is_only_there_when_asked_for(mixed: Report) -> None:
+def test_text_has_colour_only_on_request(mixed: Report) -> None:
     colored = render(mixed, "text", color=True, width=100)
     assert "\x1b[31m" in colored
     plain = re.sub(r"\x1b\[[0-9;]*m", "", colored)
@@ -154,15 +154,15 @@ def test_markdown_of_several_exercises_begins_with_an_overview() -> None:
     assert "\nnot started; \\`ros-tutor start i2.1\\` makes it\n" in text
 
 
-def test_what_was_not_handed_in_is_failed_in_every_format() -> None:
+def test_a_missing_submission_fails_in_every_format() -> None:
     one = report(criterion("a", passed("", ""))).exercises[0]
-    it = Report(ENVIRONMENT, (one, missing("i2.1")), 1.0)
-    assert it.verdict is Status.FAILED
-    assert "i2.1 Sensor Publisher  FAILED\n  not started; `ros-tutor start i2.1` makes it\n" in render(it, "text")
-    document = json.loads(render(it, "json"))
+    both = Report(ENVIRONMENT, (one, missing("i2.1")), 1.0)
+    assert both.verdict is Status.FAILED
+    assert "i2.1 Sensor Publisher  FAILED\n  not started; `ros-tutor start i2.1` makes it\n" in render(both, "text")
+    document = json.loads(render(both, "json"))
     assert_report_shape(document)
     assert [(c["status"], c["cause"]) for c in document["exercises"][1]["criteria"]] == [("skipped", "not started")] * 2
-    suite = ElementTree.fromstring(render(it, "junit"))[1]
+    suite = ElementTree.fromstring(render(both, "junit"))[1]
     assert [suite.get(name) for name in ("tests", "failures", "skipped")] == ["2", "1", "1"]
 
 
@@ -178,7 +178,7 @@ NASTY = [
 
 
 @pytest.mark.parametrize("text", NASTY)
-def test_junit_holds_what_xml_cannot(text: str) -> None:
+def test_junit_copes_with_text_that_xml_cannot_hold(text: str) -> None:
     root = ElementTree.fromstring(render(nasty_report(text), "junit"))
     assert_junit(root)
     failure = root.find("testsuite/testcase/failure")
@@ -189,7 +189,7 @@ def test_junit_holds_what_xml_cannot(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", NASTY)
-def test_markdown_shows_what_a_learner_wrote_as_text(text: str) -> None:
+def test_markdown_shows_a_learners_output_as_plain_text(text: str) -> None:
     rendered = render(nasty_report(text), "markdown")
     lines = rendered.splitlines()
     fences = [line for line in lines if line.startswith("```")]
@@ -236,18 +236,18 @@ nasty = st.text(st.sampled_from("\x00\x07\x1b\x7f\x9b\r\n\t\ud800\ufffe<>&\"'|`*
 @settings(max_examples=40, deadline=None)
 @given(nasty, nasty, st.sampled_from(list(Status)))
 def test_no_text_from_a_learner_breaks_a_format(text: str, line: str, status: Status) -> None:
-    it = report(criterion("x", Verdict(status, text, text, text, text, (line, text))))
+    hostile = report(criterion("x", Verdict(status, text, text, text, text, (line, text))))
     for format in FORMATS:
-        rendered = render(it, format)
+        rendered = render(hostile, format)
         rendered.encode("utf-8")
         assert rendered.endswith("\n")
         assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", rendered)
-    assert_report_shape(json.loads(render(it, "json")))
-    assert_junit(ElementTree.fromstring(render(it, "junit")))
+    assert_report_shape(json.loads(render(hostile, "json")))
+    assert_junit(ElementTree.fromstring(render(hostile, "junit")))
 
 
 def test_the_code_of_a_next_step_keeps_its_lines() -> None:
-    """Anyone who follows the step copies it: without its lines and their indentation, it is not Python."""
+    """Learners copy the code: without its line breaks and indentation, it is not Python."""
     step = "begin tick (line 3) with:\nif not self.on:\n    return"
     one = report(criterion("rate", failed("1 Hz", "2 Hz", Cause("wrong rate", "too fast", step))))
     for kind in ("text", "markdown", "junit"):

@@ -24,11 +24,11 @@ print("emptied" if not log.stat().st_size else "as it was", flush=True)
 
 
 @pytest.mark.parametrize("ours", [True, False])
-async def test_log_files_are_kept_small_in_our_own_folder_only(
+async def test_log_files_are_limited_only_in_our_own_folder(
     ours: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(private_folders, "base", lambda: tmp_path / "ours")
-    monkeypatch.setattr(log_folder, "limit", lambda path: _limit(path))
+    monkeypatch.setattr(log_folder, "limit", _limit_to_150_kb)
     logs = tmp_path / ("ours" if ours else "theirs") / "log"
     logs.mkdir(parents=True)
     program = LOGS if ours else LOGS.replace("+ 20", "+ 1")
@@ -38,8 +38,8 @@ async def test_log_files_are_kept_small_in_our_own_folder_only(
     assert [line.text for line in node.state.lines] == ["emptied" if ours else "as it was"]
 
 
-_limit_of_the_app = log_folder.limit
+_original_limit = log_folder.limit
 
 
-async def _limit(path: Path) -> None:
-    await _limit_of_the_app(path, most=150_000)
+async def _limit_to_150_kb(path: Path) -> None:
+    await _original_limit(path, most=150_000)
