@@ -1,96 +1,89 @@
-"""What each lesson says can be seen in the app, seen: its words, our solution, real nodes on a domain of their own."""
+"""Plays what each lesson says can be seen in the app, with our solution and real nodes on a domain of their own."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from pathlib import Path
 
 import pytest
 
-from tests.ros.users_domain import users_domain
-from tests.tui.conftest import Learner, at
-from tutor.content import load_course
+from tests.tui.conftest import Learner, open_app
 from tutor.session import Session
-from tutor.workspace import AppState, Workspace
+from tutor.workspace import AppState
 
 pytestmark = pytest.mark.timeout(300)
 
 
-@pytest.fixture
-def session(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Session]:
-    """A workspace in which nothing has been done yet, on a domain that nobody else uses."""
-    with users_domain() as domain:
-        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-        yield Session(load_course(), Workspace(tmp_path / "ws"))
-
-
 class Reader(Learner):
-    """Somebody who does what the lesson says."""
+    """A learner who does what the lesson says."""
 
     limit_s = 45.0
 
     def reads(self, *phrases: str) -> None:
-        """The lesson says so, however its lines are broken."""
+        """Assert that the lesson contains these phrases, wherever its lines are broken."""
         text = " ".join(self.main.model.lesson.body.split())
         missing = [phrase for phrase in phrases if phrase not in text]
         assert not missing, f"the lesson no longer says {missing}"
 
-    async def rate(self, hz: float) -> None:
-        """See a rate near this one."""
+    async def sees_rate(self, hz: float) -> None:
+        """Wait until a rate within 10 % of this one is on the screen."""
 
         def near() -> bool:
-            found = re.findall(r"([0-9.]+) Hz · jitter", self.screen())
-            return any(abs(float(each) - hz) < 0.1 * hz for each in found)
+            rates = re.findall(r"([0-9.]+) Hz · jitter", self.screen())
+            return any(abs(float(rate) - hz) < 0.1 * hz for rate in rates)
 
         await self.until(near, f"{hz} Hz")
+
+    async def until_field_focused(self) -> None:
+        """Wait until a field of a form has the focus; fields have no id."""
+        await self.until(lambda: self.app.focused is not None and not self.app.focused.id, "a field has the focus")
 
 
 @asynccontextmanager
 async def reading(session: Session, exercise: str) -> AsyncIterator[Reader]:
+    """A reader of this exercise, whose workspace holds our solution."""
     lesson = session.course.find(exercise)
     session.start(lesson)
     for file in lesson.files:
         session.path(file).write_bytes(file.solution.read_bytes())
     session.keep(AppState(lesson=lesson.id))
-    async with at(session, (180, 48)) as opened:
-        me = Reader(opened.app, opened.pilot, session)
+    async with open_app(session, (180, 48)) as learner:
+        me = Reader(learner.app, learner.pilot, session)
         await me.sees(f"{lesson.id.upper()}  {lesson.title}", "Objective")
         yield me
 
 
 async def test_i1_1(session: Session) -> None:
     async with reading(session, "i1.1") as me:
-        me.reads("Run your node with `r`, and turn to Live with `4`")
+        me.reads("Run your node with `r`, and switch to Live with `4`")
         await me.press("r")
         await me.sees("thermometer_1 publishes 2.0")
         await me.press("4")
         me.reads("A timer of 0.5 s gives 2.00 Hz", "two dashed lines at 20 and 30", "a dot for each message")
         await me.sees("/sensor/temperature  std_msgs/Float64", "data: 2", "asked: 20 to 30", "╌╌", "•")
-        await me.rate(2.0)
-        me.reads("**Parameters** (`P`): both of yours", "The node says *accepted*, and yet goes on as before")
+        await me.sees_rate(2.0)
+        me.reads("**Parameters** (`P`): both of yours", "The node says *accepted*, yet goes on as before")
         await me.press("P")
         await me.sees("publish_rate", "sensor_name", "double", "string")
         await me.press("down", "enter", "ctrl+u", *"roof", "enter")
         await me.sees("sensor_name = roof  accepted")
-        me.reads("**Graph** (`G`): your node, the topic, and that nobody listens yet")
+        me.reads("**Graph** (`G`): your node and the topic, and that nobody subscribes yet")
         await me.press("escape", "G")
         await me.sees("/temperature_publisher", "/sensor/temperature", "nobody listens")
-        me.reads("write `publish_rate:=5.0` and `sensor_name:=kitchen` in two lines, and press F5")
+        me.reads("write `publish_rate:=5.0` and `sensor_name:=kitchen` on two lines, and press F5")
         await me.press("o")
         await me.sees("F5 runs")
         await me.press(*"publish_rate:=5.0", "enter", *"sensor_name:=kitchen", "f5")
-        me.reads("The rate is now 5.00 Hz, and the log speaks of the kitchen")
+        me.reads("The rate is now 5.00 Hz, and the log mentions the kitchen")
         await me.sees("kitchen: ")
         await me.press("T")
-        await me.rate(5.0)
+        await me.sees_rate(5.0)
 
 
 async def test_i1_2(session: Session) -> None:
     async with reading(session, "i1.2") as me:
-        me.reads("Run it with `r`, then press `b`: that starts a talker beside it", "`[` and `]` turn from one log")
+        me.reads("Run it with `r`, then press `b`: that starts a talker beside it", "`[` and `]` switch from one log")
         await me.press("r")
         await me.sees("Waiting for messages")
         await me.press("b")
@@ -98,15 +91,13 @@ async def test_i1_2(session: Session) -> None:
         me.reads("`/chatter` with 1.00 Hz, one publisher (Pub) and one subscriber (Sub), and the messages")
         await me.press("T")
         await me.sees("data: 'Hello World: ")
-        await me.rate(1.0)
+        await me.sees_rate(1.0)
         row = next(line for line in me.screen().splitlines() if "●  /chatter" in line)
         assert re.search(r"/chatter .* 1 +1 +std_msgs/String", row)
         me.reads("`M` publishes a message by hand. Send `Hello World: 99`", "your node has a gap to report")
         await me.press("M")
         await me.sees("Publish a message", "data string")
-        await me.until(
-            lambda: me.app.focused is not None and not me.app.focused.id, "the message's field has the focus"
-        )
+        await me.until_field_focused()
         await me.press(*"Hello World: 99", "enter")
         await me.sees("✓ published once on /chatter")
         await me.press("3", "left_square_bracket")
@@ -141,15 +132,15 @@ async def test_i1_3(session: Session) -> None:
         await me.sees(
             "/add", "/subtract", "/multiply", "/divide", "example_interfaces/AddTwoInts", "/calculator_server"
         )
-        me.reads("Enter, fill in `a` and `b`, and Enter again")
+        me.reads("press Enter, fill in `a` and `b`, and press Enter again")
         await me.press("enter")
-        await me.until(lambda: me.app.focused is not None and not me.app.focused.id, "the first field has the focus")
+        await me.until_field_focused()
         await me.press("ctrl+u", *"10", "tab", "ctrl+u", *"5", "enter")
         await me.sees("/add a=10, b=5", "answered in", "sum: 15")
-        me.reads("Choose `/divide` in the list, and try 0 for `b`", "an error in the log of the server")
+        me.reads("Choose `/divide` in the list, and try 0 for `b`", "an error in the server's log")
         await me.press("escape", "down", "enter")
         await me.sees("/divide  example_interfaces/AddTwoInts")
-        await me.until(lambda: me.app.focused is not None and not me.app.focused.id, "the first field has the focus")
+        await me.until_field_focused()
         await me.press("ctrl+u", *"1", "enter")
         await me.sees("/divide a=1, b=0", "sum: 0")
         await me.press("escape", "3", "left_square_bracket", "left_square_bracket")
@@ -165,15 +156,15 @@ async def test_i2_1(session: Session) -> None:
         await me.sees("enabled", "message_prefix", "publish_rate", "boolean", "string", "double")
         await me.press("down", "enter", "ctrl+u", *"Ahoy", "enter")
         await me.sees("message_prefix = Ahoy  accepted")
-        me.reads("A rate of `0.0` is to be *rejected*, with your reason beside it")
+        me.reads("A rate of `0.0` should be *rejected*, with your reason beside it")
         await me.press("down", "enter", "ctrl+u", *"0.0", "enter")
         await me.sees("publish_rate = 0.0  rejected", "publish_rate must be")
         await me.press("enter", "ctrl+u", *"10.0", "enter")
         await me.sees("publish_rate = 10.0  accepted")
-        me.reads("the messages begin with it", "After a rate of 10.0, the **Rate** goes up to 10.0 Hz")
+        me.reads("the messages begin with it", "If you set a rate of 10.0, the **Rate** goes up to 10.0 Hz")
         await me.press("escape", "T")
         await me.sees("data: 'Ahoy")
-        await me.rate(10.0)
+        await me.sees_rate(10.0)
         me.reads("while `enabled` is false, the topic is *silent*")
         await me.press("P", "up", "up", "enter", "ctrl+u", *"false", "enter")
         await me.sees("enabled = false  accepted")
@@ -193,7 +184,7 @@ async def test_i2_2(session: Session) -> None:
         await me.press("r")
         await me.sees("I heard: ", "Publishing: ")
         me.reads(
-            "`b` starts one of our listeners on `/chatter`. It hears your publisher while the topic's name is `chatter`"
+            "`b` starts one of our listeners on `/chatter`. It hears your publisher while the topic is called `chatter`"
         )
         await me.press("b")
         await me.sees("● running  listener", "I heard: [Hello World: ")
@@ -205,23 +196,23 @@ async def test_i2_2(session: Session) -> None:
         me.reads("`/robot1/minimal_publisher`, `/robot1/my_topic` and `/robot1/minimal_subscriber`, with arrows")
         await me.press("G")
         await me.sees("/robot1/minimal_publisher", "/robot1/my_topic", "/robot1/minimal_subscriber", "──▶")
-        me.reads("`/robot1/my_topic` is followed by itself, with 2.00 Hz")
+        me.reads("`/robot1/my_topic` is followed automatically, with 2.00 Hz")
         await me.press("T")
         await me.sees("/robot1/my_topic  std_msgs/String", "data: 'Hello World: ")
-        await me.rate(2.0)
+        await me.sees_rate(2.0)
 
 
 async def test_i2_3(session: Session) -> None:
     async with reading(session, "i2.3") as me:
-        me.reads("turn to Live with `4`, and to its services with `S`. The form of `/slow_add` is open: Enter, fill in")
+        me.reads("switch to Live with `4`, and to its services with `S`. The form for `/slow_add` is open")
         await me.press("r")
         await me.sees("Ready: /slow_add")
         await me.press("4", "S")
         await me.sees("/slow_add", "a int64")
         await me.press("enter")
-        await me.until(lambda: me.app.focused is not None and not me.app.focused.id, "the first field has the focus")
+        await me.until_field_focused()
         await me.press("ctrl+u", *"5", "tab", "ctrl+u", *"3", "enter")
-        me.reads("It says *waiting* for three seconds, then the answer and the time that it took")
+        me.reads("It says *waiting* for three seconds, then shows the answer and the time it took")
         await me.sees("/slow_add  waiting")
         await me.sees("sum: 8", "answered in 3")
         me.reads("`b` calls `/slow_add` three times at once, and logs how long each answer took: 3 seconds each")
@@ -229,6 +220,6 @@ async def test_i2_3(session: Session) -> None:
         await me.sees(
             "Called /slow_add 3 times at once", "5 + 1 = 6, answered after 3.", "5 + 3 = 8, answered after 3."
         )
-        me.reads("Meanwhile the ticks in the log must go on. It stands beside Live where your terminal is wide enough")
+        me.reads("Meanwhile the ticks in the log must continue. The log is beside Live if your terminal is wide enough")
         await me.press("3", "left_square_bracket")
         await me.sees("Tick ")

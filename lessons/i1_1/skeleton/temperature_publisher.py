@@ -9,7 +9,7 @@ from rclpy.node import Node
 
 
 class TemperaturePublisher(Node):
-    """A thermometer that makes its readings up."""
+    """A thermometer that makes up its readings."""
 
     def __init__(self) -> None:
         super().__init__("temperature_publisher")

@@ -10,7 +10,7 @@ from std_msgs.msg import Float64
 
 
 class TemperaturePublisher(Node):
-    """A thermometer that makes its readings up."""
+    """A thermometer that makes up its readings."""
 
     def __init__(self) -> None:
         super().__init__("temperature_publisher")
@@ -19,7 +19,7 @@ class TemperaturePublisher(Node):
         self.sensor_name = self.declare_parameter("sensor_name", "thermometer_1").value
 
         self.publisher = self.create_publisher(Float64, "/sensor/temperature", 10)
-        # A timer wants the seconds between two calls, and a rate is calls per second: one is 1 / the other.
+        # A timer takes the seconds between two calls, a rate is calls per second: each is 1 / the other.
         self.timer = self.create_timer(1.0 / rate, self.timer_callback)
         self.get_logger().info(f"{self.sensor_name} publishes {rate} readings per second")
 
@@ -40,7 +40,7 @@ def main() -> None:
         pass  # Ctrl+C, or someone shut ROS down: both are a normal end.
     finally:
         node.destroy_node()
-        rclpy.try_shutdown()  # Not shutdown(): after Ctrl+C, rclpy has shut down already.
+        rclpy.try_shutdown()  # Not shutdown(): after Ctrl+C, rclpy has already shut down.
 
 
 if __name__ == "__main__":

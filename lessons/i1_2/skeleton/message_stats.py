@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exercise I1.2: count what comes on /chatter, and sum it up."""
+"""Exercise I1.2: count the messages on /chatter, and log summaries."""
 
 # TODO 1: import time, and dataclass from dataclasses.
 
@@ -13,7 +13,7 @@ from std_msgs.msg import String
 
 
 class MessageStatsNode(Node):
-    """Listens to a talker and keeps statistics of it."""
+    """Listens to a talker and keeps statistics on its messages."""
 
     def __init__(self) -> None:
         super().__init__("message_stats")
@@ -29,7 +29,7 @@ class MessageStatsNode(Node):
         self.get_logger().info("Waiting for messages on /chatter")
 
     def on_message(self, message: String) -> None:
-        """Take in one message. rclpy calls this for each."""
+        """Handle one message. rclpy calls this for each."""
         # TODO 4: if it is the first one, keep its content and the time.
 
         # TODO 5: count it, keep its content as the last one, and

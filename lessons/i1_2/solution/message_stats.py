@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Counts what comes on /chatter, sums up every ten messages, and notices gaps."""
+"""Counts the messages on /chatter, logs a summary every ten messages, and notices gaps."""
 
 import time
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ EVERY = 10
 
 @dataclass
 class MessageStats:
-    """What is known of the messages so far."""
+    """What is known about the messages so far."""
 
     total_count: int = 0
     first_message: str = ""
@@ -25,7 +25,7 @@ class MessageStats:
 
 
 class MessageStatsNode(Node):
-    """Listens to a talker and keeps statistics of it."""
+    """Listens to a talker and keeps statistics on its messages."""
 
     def __init__(self) -> None:
         super().__init__("message_stats")
@@ -35,7 +35,7 @@ class MessageStatsNode(Node):
         self.get_logger().info("Waiting for messages on /chatter")
 
     def on_message(self, message: String) -> None:
-        """Take in one message."""
+        """Handle one message."""
         stats = self.stats
         # A monotonic clock: the wall clock may be set while the node runs.
         now = time.monotonic()
@@ -55,11 +55,11 @@ class MessageStatsNode(Node):
             self.log_summary()
 
     def look_for_gap(self, text: str) -> None:
-        """Compare N of "Hello World: N" with the one before."""
+        """Compare the N of "Hello World: N" with the previous one."""
         try:
             number = int(text.rpartition(":")[2])
         except ValueError:
-            return  # A message of another form has no number, and that is no reason to crash.
+            return  # A message in another format has no number, and that is no reason to crash.
         last, self.last_number = self.last_number, number
         if last is None:
             return
@@ -71,7 +71,7 @@ class MessageStatsNode(Node):
             self.get_logger().warning(f"{missed} messages are missing between {last} and {number}")
 
     def log_summary(self) -> None:
-        """Say how it stands."""
+        """Log the current statistics."""
         stats = self.stats
         self.get_logger().info(
             f"{stats.total_count} messages, {stats.messages_per_second:.2f} per second, {stats.missed} missed; "
@@ -89,7 +89,7 @@ def main() -> None:
         pass  # Ctrl+C, or someone shut ROS down: both are a normal end.
     finally:
         node.destroy_node()
-        rclpy.try_shutdown()  # Not shutdown(): after Ctrl+C, rclpy has shut down already.
+        rclpy.try_shutdown()  # Not shutdown(): after Ctrl+C, rclpy has already shut down.
 
 
 if __name__ == "__main__":

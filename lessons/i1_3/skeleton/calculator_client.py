@@ -17,7 +17,7 @@ class CalculatorClient(Node):
         super().__init__("calculator_client")
 
     def run(self) -> bool:
-        """Make all calls. Returns whether every one was answered."""
+        """Make all calls. Return whether every call was answered."""
         # TODO 6: for each of add, subtract, multiply and divide (and
         #         once more divide, by zero):
         #         - create a client for the service,

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Calls the four services of the calculator, shows the results, and ends."""
+"""Calls the four services of the calculator, shows the results, then ends."""
 
 import sys
 
@@ -25,16 +25,16 @@ class CalculatorClient(Node):
         super().__init__("calculator_client")
 
     def run(self) -> bool:
-        """Make all calls. Returns whether every one was answered."""
+        """Make all calls. Return whether every call was answered."""
         return all(self.call(name, a, b) for name, a, b in EXAMPLES)
 
     def call(self, name: str, a: int, b: int) -> bool:
-        """Call one service and log its result. Returns whether there was an answer."""
+        """Call one service and log its result. Return whether there was an answer."""
         client = self.create_client(AddTwoInts, name)
         if not client.wait_for_service(timeout_sec=WAIT_S):
             self.get_logger().error(f"There is no service {name}: is calculator_server.py running?")
             return False
-        # call_async() returns at once, with a promise of the answer: a future. The answer arrives while the node spins.
+        # call_async() returns a future at once: a promise of the answer. The answer arrives while the node spins.
         future = client.call_async(AddTwoInts.Request(a=a, b=b))
         rclpy.spin_until_future_complete(self, future, timeout_sec=WAIT_S)
         if not future.done():

@@ -33,18 +33,18 @@ class CalculatorServer(Node):
         return self.answer(f"{request.a} * {request.b}", request.a * request.b, response)
 
     def divide(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
-        """Answer with a // b, or with 0 and an error in the log where b is 0."""
+        """Answer with a // b; if b is 0, log an error and answer with 0."""
         if request.b == 0:
-            # The response has no field for an error, so the log says it. The caller still gets an answer.
+            # The response has no field for an error, so log it. The caller still gets an answer.
             self.get_logger().error(f"Cannot divide {request.a} by zero")
             response.sum = 0
             return response
-        # Two slashes: one slash makes a float, and the field is an int64.
+        # Two slashes: a single slash gives a float, and the field is an int64.
         return self.answer(f"{request.a} / {request.b}", request.a // request.b, response)
 
     def answer(self, question: str, result: int, response: AddTwoInts.Response) -> AddTwoInts.Response:
-        """Log the result and put it into the response, or the nearest number that an int64 can hold."""
-        # Python's numbers have no end, but an int64 has: a larger one would raise OverflowError and end the node.
+        """Log the result, and put it, or the nearest number that fits into an int64, into the response."""
+        # Python's integers have no limit, but an int64 has: a larger result would raise OverflowError and end the node.
         response.sum = max(INT64_MIN, min(result, INT64_MAX))
         if response.sum == result:
             self.get_logger().info(f"{question} = {result}")
@@ -63,7 +63,7 @@ def main() -> None:
         pass  # Ctrl+C, or someone shut ROS down: both are a normal end.
     finally:
         node.destroy_node()
-        rclpy.try_shutdown()  # Not shutdown(): after Ctrl+C, rclpy has shut down already.
+        rclpy.try_shutdown()  # Not shutdown(): after Ctrl+C, rclpy has already shut down.
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from std_msgs.msg import String
 class ParameterizedPublisher(Node):
     """Publishes "Hello #0", "Hello #1", ... once a second.
 
-    So far nothing about it can be changed.
+    So far, nothing about it can be changed.
     """
 
     def __init__(self) -> None:
@@ -46,7 +46,7 @@ class ParameterizedPublisher(Node):
 def main() -> None:
     """Run the node until Ctrl+C. This part is complete.
 
-    Only the bonus criterion launch-validation adds to it.
+    Only the bonus criterion launch-validation needs a change here.
     """
     rclpy.init()
     node = ParameterizedPublisher()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Exercise I2.2: one command that starts a publisher and a subscriber.
 
-It can be told where they talk.
+Its arguments set their topic and namespace.
 """
 
 from launch import LaunchDescription
@@ -9,7 +9,7 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Describe what is to be started. Launch calls this.
+    """Describe what to start. Launch calls this.
 
     So far it is one node, which nobody listens to.
     """
@@ -31,6 +31,6 @@ def generate_launch_description() -> LaunchDescription:
     # TODO 1: start minimal_subscriber in the same way. Once the
     #         publisher has them, it needs TODO 3 and TODO 5, too.
 
-    # Only what is in this list is started; the arguments belong in it
-    # as well.
+    # Launch starts only what is in this list. The arguments belong in
+    # it as well.
     return LaunchDescription([publisher])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exercise I2.2: one command that starts a publisher and a subscriber, and can be told where they talk."""
+"""Exercise I2.2: one command that starts a publisher and a subscriber, with arguments for topic and namespace."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
@@ -8,11 +8,11 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Describe what is to be started. Launch calls this."""
+    """Describe what to start. Launch calls this."""
     topic_argument = DeclareLaunchArgument("topic", default_value="chatter", description="Topic that both nodes use")
     namespace_argument = DeclareLaunchArgument("namespace", default_value="", description="Namespace of both nodes")
 
-    # These stand for the values, which are known only when the launch runs.
+    # These stand for the values, which are known only once the launch runs.
     topic = LaunchConfiguration("topic")
     namespace = LaunchConfiguration("namespace")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Calls /slow_add three times at once, says how long each answer took, and ends."""
+"""Calls /slow_add three times at once, says how long each answer took, then ends."""
 
 import sys
 import time
@@ -15,14 +15,14 @@ ANSWERS_WITHIN_S = 15.0
 
 
 class SlowAddCallers(Node):
-    """Three callers in one: it asks for three sums without waiting for the first."""
+    """Three callers in one: asks for three sums without waiting for the first."""
 
     def __init__(self) -> None:
         super().__init__("slow_add_callers")
         self.waited_for = self.create_client(AddTwoInts, "slow_add")
 
     def run(self) -> bool:
-        """Make all calls. Returns whether every one was answered."""
+        """Make all calls. Return whether every call was answered."""
         log = self.get_logger()
         if not self.waited_for.wait_for_service(timeout_sec=WAIT_S):
             log.error("There is no service /slow_add: is your node running?")

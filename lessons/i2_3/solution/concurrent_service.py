@@ -19,8 +19,7 @@ class ConcurrentService(Node):
 
     def __init__(self) -> None:
         super().__init__("concurrent_service")
-        # Reentrant: calls of the service may overlap each other. The timer has a group of its own, so that no call can
-        # hold it up.
+        # Reentrant: calls to the service may overlap. The timer has its own group, so that no call can hold it up.
         self.service_group = ReentrantCallbackGroup()
         self.timer_group = ReentrantCallbackGroup()
         self.stopping = threading.Event()
@@ -30,17 +29,17 @@ class ConcurrentService(Node):
         self.get_logger().info("Ready: /slow_add")
 
     def slow_add(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
-        """Answer with a + b after three seconds. Several threads may be in here, so nothing is kept in self."""
+        """Answer with a + b after three seconds. Several threads may be in here, so keep nothing in self."""
         self.get_logger().info(f"Working on {request.a} + {request.b}")
-        # Like time.sleep(WORK_S), but it returns at once when the node is told to stop.
+        # Like time.sleep(WORK_S), but returns at once when the node has to stop.
         if not self.stopping.wait(WORK_S):
             self.answer(request, response)
         return response
 
     def answer(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> None:
-        """Log the sum and put it into the response, or the nearest number that an int64 can hold."""
+        """Log the sum, and put it, or the nearest number that fits into an int64, into the response."""
         result = request.a + request.b
-        # Python's numbers have no end, but an int64 has: a larger one would raise OverflowError and end the node.
+        # Python's integers have no limit, but an int64 has: a larger result would raise OverflowError and end the node.
         response.sum = max(INT64_MIN, min(result, INT64_MAX))
         question = f"{request.a} + {request.b}"
         if response.sum == result:
@@ -59,7 +58,7 @@ def main() -> None:
     """Run the node until Ctrl+C."""
     rclpy.init()
     node = ConcurrentService()
-    # Enough threads for some slow calls at once, with one left over for the timer.
+    # Enough threads for several slow calls at once, with one left over for the timer.
     executor = MultiThreadedExecutor(num_threads=8)
     executor.add_node(node)
     try:
@@ -67,8 +66,8 @@ def main() -> None:
     except (KeyboardInterrupt, ExternalShutdownException):
         pass  # Ctrl+C, or someone shut ROS down: both are a normal end.
     finally:
-        node.stopping.set()  # Python ends only when the threads have: wake those that are still waiting.
-        rclpy.try_shutdown()  # Not shutdown(): after Ctrl+C, rclpy has shut down already.
+        node.stopping.set()  # Python ends only when all threads have ended: wake those that still wait.
+        rclpy.try_shutdown()  # Not shutdown(): after Ctrl+C, rclpy has already shut down.
 
 
 if __name__ == "__main__":
