@@ -1,4 +1,4 @@
-"""Judges one test submission as the terminal app would, and compares with what it must be judged as."""
+"""Judge a test submission as the terminal app does, and compare the result with its expect.yaml."""
 
 from __future__ import annotations
 
@@ -18,15 +18,16 @@ from tutor.judge.verdict import Status
 
 ROOT = Path(__file__).parent / "submissions"
 LIMIT_S = 180.0
-LEFT_LIMIT_S = 60.0
-"""Longer than any check takes, and so than anything that it ends itself."""
+LEFTOVERS_LIMIT_S = 60.0
+"""Longer than any check takes, so that whatever a check still ends itself has gone by then."""
 
 
 @dataclass
 class Outcome:
-    """What one run of one case gave. `wrong` says in words what is not as expected; empty where all is.
+    """The outcome of one run of one case. `wrong` describes each deviation from what is expected; empty if none.
 
-    `verdict` is what came out, criterion by criterion: the same each time, unless the submission or we are flaky.
+    `verdict` lists the statuses by criterion, such as "a:passed b:failed": the same on every run, unless the
+    submission or the check is flaky.
     """
 
     case: Case
@@ -38,7 +39,7 @@ class Outcome:
 
 
 def find(wanted: Sequence[str] = ()) -> tuple[list[Case], list[ContentError]]:
-    """The cases whose name begins with one of `wanted` (all, without any), and those that cannot be read."""
+    """Return the cases whose names start with one of `wanted` (all if empty), and the errors of unreadable ones."""
     cases: list[Case] = []
     broken: list[ContentError] = []
     for file in sorted(ROOT.glob(f"*/*/*/{EXPECT}")):
@@ -46,49 +47,49 @@ def find(wanted: Sequence[str] = ()) -> tuple[list[Case], list[ContentError]]:
             cases.append(read_case(file.parent))
         except ContentError as error:
             broken.append(error)
-    return [case for case in cases if not wanted or any(str(case).startswith(each) for each in wanted)], broken
+    return [case for case in cases if not wanted or any(str(case).startswith(prefix) for prefix in wanted)], broken
 
 
 def holds_here(case: Case) -> bool:
-    """Whether the case is about the ROS that is used here."""
+    """Return whether the case applies to the ROS installation in use (bundled or system)."""
     from tutor.ros.environment import detect
 
     return case.expected.ros in ("", detect().kind)
 
 
 class NoVerdict(Exception):
-    """A check that gave none: why."""
+    """A check ended without a verdict; the message says why."""
 
 
 async def judge(case: Case) -> Outcome:
-    """Check the submission as the terminal app does, in a process of its own, and compare."""
+    """Check the submission as the terminal app does, in a separate process, and compare with what is expected."""
     started = time.monotonic()
     try:
-        result, err = await _checked(case.exercise, case.folder)
+        result, stderr = await _run_engine(case.exercise, case.folder)
     except NoVerdict as error:
         return Outcome(case, [str(error)], took_s=time.monotonic() - started)
     took = time.monotonic() - started
     outcome = compare(case, result)
     outcome.took_s = took
-    if err and case.kind != "hostile":  # some write there themselves, past us
-        outcome.wrong.append(f"stderr: {err[-300:]}")
-    outcome.wrong += [f"left behind: {line}" for line in await _left(case.expected.gone)]
+    if stderr and case.kind != "hostile":  # some hostile submissions write to our stderr directly
+        outcome.wrong.append(f"stderr: {stderr[-300:]}")
+    outcome.wrong += [f"left behind: {command}" for command in await _find_leftovers(case.expected.gone)]
     return outcome
 
 
 async def check_folder(exercise: str, folder: Path) -> ExerciseResult:
-    """Check the files in a folder, in a process of its own. Raises NoVerdict where there is no verdict."""
-    return (await _checked(exercise, folder))[0]
+    """Check the files in a folder, in a separate process. Raises NoVerdict if the check gives no verdict."""
+    return (await _run_engine(exercise, folder))[0]
 
 
-async def _checked(exercise: str, folder: Path) -> tuple[ExerciseResult, str]:
-    """The verdict, and what was written to stderr."""
+async def _run_engine(exercise: str, folder: Path) -> tuple[ExerciseResult, str]:
+    """Return the result, and what was written to stderr. Raises NoVerdict if there is no result."""
     process = await asyncio.create_subprocess_exec(
         *(sys.executable, "-m", "tutor.engine", exercise, str(folder)),
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.PIPE,
         stdin=asyncio.subprocess.DEVNULL,
-        env=dict(os.environ),  # a copy: pytest writes to the real one while, in another thread, this is started
+        env=dict(os.environ),  # a copy: pytest changes os.environ in another thread while this process starts
         limit=2**24,
     )
     try:
@@ -98,7 +99,7 @@ async def _checked(exercise: str, folder: Path) -> tuple[ExerciseResult, str]:
         await process.communicate()
         raise NoVerdict(f"no verdict in {LIMIT_S:g} s") from None
     except asyncio.CancelledError:
-        process.terminate()  # it ends what it started
+        process.terminate()  # the engine then ends everything it started
         await process.communicate()
         raise
     results = [e.result for e in map(decode, out.decode().splitlines()) if isinstance(e, ExerciseJudged)]
@@ -108,12 +109,12 @@ async def _checked(exercise: str, folder: Path) -> tuple[ExerciseResult, str]:
 
 
 def compare(case: Case, result: ExerciseResult) -> Outcome:
-    """Hold the result against what is expected (see tests/submissions/README.md)."""
+    """Compare the result with what the case expects (see tests/submissions/README.md)."""
     expected = case.expected
     outcome = Outcome(case, verdict=" ".join(f"{c.id}:{c.verdict.status.value}" for c in result.criteria))
     some_failed = any(c.verdict.status is Status.FAILED for c in result.criteria)
     for criterion in result.criteria:
-        _compare(criterion, expected, some_failed, outcome)
+        _compare_criterion(criterion, expected, some_failed, outcome)
     any_of = expected.fails_any
     if any_of and not any(c.id in any_of and c.verdict.status is Status.FAILED for c in result.criteria):
         outcome.wrong.append(f"one of {', '.join(sorted(any_of))} should fail")
@@ -121,61 +122,61 @@ def compare(case: Case, result: ExerciseResult) -> Outcome:
     return outcome
 
 
-def _compare(criterion: CriterionResult, expected: Expected, some_failed: bool, outcome: Outcome) -> None:
+def _compare_criterion(criterion: CriterionResult, expected: Expected, some_failed: bool, outcome: Outcome) -> None:
     status, cause = criterion.verdict.status, criterion.verdict.cause
-    told = f"{criterion.id} {status.value}: {criterion.verdict.observed} | {cause}"
+    described = f"{criterion.id} {status.value}: {criterion.verdict.observed} | {cause}"
     must_fail = criterion.id in (*expected.fails, *expected.bonus_failed)
     if status is Status.ERROR and expected.exit == 3:
         pass
     elif status is Status.ERROR:
-        outcome.wrong.append(f"not judged: {told}")
+        outcome.wrong.append(f"not judged: {described}")
     elif must_fail and status is not Status.FAILED:
-        outcome.wrong.append(f"should fail: {told}")
+        outcome.wrong.append(f"should fail: {described}")
         outcome.false_pass |= status is Status.PASSED
     elif must_fail or criterion.id in expected.fails_any:
         if status is Status.FAILED:
-            outcome.wrong += _wrong_words("cause", expected.causes, expected, criterion.id, cause)
-            outcome.wrong += _wrong_words("step", expected.steps, expected, criterion.id, criterion.verdict.hint)
+            outcome.wrong += _check_words("cause", expected.causes, expected, criterion.id, cause)
+            outcome.wrong += _check_words("step", expected.steps, expected, criterion.id, criterion.verdict.hint)
     elif criterion.id in expected.not_passed:
         if status is Status.PASSED:
-            outcome.wrong.append(f"should not pass: {told}")
+            outcome.wrong.append(f"should not pass: {described}")
             outcome.false_pass = True
-    elif criterion.id not in expected.either and not _fine(status, some_failed):
-        outcome.wrong.append(f"should pass: {told}")
+    elif criterion.id not in expected.either and not _is_acceptable(status, some_failed):
+        outcome.wrong.append(f"should pass: {described}")
         outcome.false_failure = True
 
 
-def _fine(status: Status, some_failed: bool) -> bool:
-    """Whether a criterion that no key names may end so: what is skipped needs a failed one to be skipped for."""
+def _is_acceptable(status: Status, some_failed: bool) -> bool:
+    """Return whether this status is fine for a criterion that no key names: skipping needs a failed criterion."""
     return status is Status.PASSED or (status is Status.SKIPPED and some_failed)
 
 
-def _wrong_words(
-    what: str, all_texts: Mapping[str, tuple[str, ...]], expected: Expected, criterion: str, said: str
+def _check_words(
+    what: str, all_texts: Mapping[str, tuple[str, ...]], expected: Expected, criterion: str, actual: str
 ) -> list[str]:
     general = () if criterion in expected.bonus_failed else all_texts.get("", ())
     texts = all_texts.get(criterion, general)
-    if not texts or any(text.casefold() in said.casefold() for text in texts):
+    if not texts or any(text.casefold() in actual.casefold() for text in texts):
         return []
-    return [f"{criterion}: {what} is “{said}”, not {' or '.join(texts)}"]
+    return [f"{criterion}: {what} is “{actual}”, not {' or '.join(texts)}"]
 
 
-async def _left(text: str) -> list[str]:
-    """The commands with this text that go on for as long as nothing ends them.
+async def _find_leftovers(text: str) -> list[str]:
+    """Return the command lines containing `text` that outlive every check.
 
-    Others judge their submissions beside us, and what they have started goes when their checks are over.
+    Other submissions are judged at the same time; their processes end with their own checks.
     """
-    left = _running(text)
-    ends = time.monotonic() + LEFT_LIMIT_S
-    while left and time.monotonic() < ends:
+    left = _find_commands(text)
+    deadline = time.monotonic() + LEFTOVERS_LIMIT_S
+    while left and time.monotonic() < deadline:
         await asyncio.sleep(0.2)
-        there = _running(text)
-        left = {pid: command for pid, command in left.items() if there.get(pid) == command}
+        running = _find_commands(text)
+        left = {pid: command for pid, command in left.items() if running.get(pid) == command}
     return list(left.values())
 
 
-def _running(text: str) -> dict[str, str]:
-    """The processes whose command line has this text, by pid; none where there is no text."""
+def _find_commands(text: str) -> dict[str, str]:
+    """Return the command lines that contain `text`, by pid; nothing for an empty `text`."""
     found: dict[str, str] = {}
     for path in Path("/proc").glob("[0-9]*/cmdline") if text else ():
         try:

@@ -1,4 +1,4 @@
-"""Waiting for what is to be seen. A crowded machine is given back the time for which it kept us from looking."""
+"""Wait for conditions, with a timeout that does not count the time for which a busy machine kept us from running."""
 
 from __future__ import annotations
 
@@ -8,21 +8,22 @@ from collections.abc import Callable
 
 from tutor.process.cpu_wait import own_cpu_time
 
-LOOK_AFTER_S = 0.01
-LOOK_EVERY_S = 0.1
-"""Between two looks, at most: one at a whole screen takes as long as a node needs the core for, to get there."""
+FIRST_PAUSE_S = 0.01
+LONGEST_PAUSE_S = 0.1
+"""Longest pause between polls. Polling a whole screen takes so much CPU that polling faster would slow the node."""
 
 
 async def seen_within(seen: Callable[[], bool], limit_s: float) -> bool:
-    """Whether it is there within `limit_s` seconds; those in which we were able to run, but not let, do not count.
+    """Wait until `seen()`, for at most `limit_s` seconds, and return whether it came true.
 
-    A process that looks this often, and sleeps this little in between, waits for the CPU as long as any on the machine.
+    Time in which we were runnable but got no CPU does not count. Polling this often, we wait for the CPU about as long
+    as any process on the machine.
     """
-    began, waited, pause = time.monotonic(), own_cpu_time().waited_s, LOOK_AFTER_S
+    began, waited, pause = time.monotonic(), own_cpu_time().waited_s, FIRST_PAUSE_S
     while not seen():
         took = time.monotonic() - began
         if took > limit_s and took - (own_cpu_time().waited_s - waited) > limit_s:
             return False
         await asyncio.sleep(pause)
-        pause = min(1.5 * pause, LOOK_EVERY_S)
+        pause = min(1.5 * pause, LONGEST_PAUSE_S)
     return True

@@ -1,11 +1,11 @@
-"""Follow the next steps of failing checks literally, as a beginner would, and see whether they lead on.
+"""Follow the next steps of failing checks literally, as a beginner would, and see whether they lead to a pass.
 
     uv run python -m tests.repairs [EXERCISE[/wrong[/NAME]] | FOLDER ...] [--jobs N] [--steps N] [--every N]
 
-For each wrong submission: the next step of the first failed required criterion is done word for word in a copy, which
-is checked again, two times at most. stdout has a row for each submission whose first failed criterion does not pass
-then, with the step that did not help, and a table at the end. A step that has no code to be put anywhere is one "in
-words": it may help a person, and is not followed. FOLDER has submissions that are called like i1_2_anything.
+For each wrong submission, the next step of the first failed required criterion is applied word for word to a copy,
+which is checked again, at most twice. stdout has a row for each submission whose first failed criterion still does not
+pass, with the steps that did not help, and a table at the end. A step without code to insert is "in words": it may help
+a person, but is not followed. FOLDER has submissions with names like i1_2_anything.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ __all__ = ["NotAnEdit", "apply_step", "repair_all", "table"]
 
 @dataclass
 class Repair:
-    """How a submission fared: its first failed criterion, the steps followed, and how many of them made it pass."""
+    """The outcome for a submission: its first failed criterion, the steps followed, and how many made it pass."""
 
     name: str
     criterion: str = ""
@@ -41,32 +41,32 @@ class Repair:
     trouble: str = ""
 
 
-async def repair(name: str, exercise: str, folder: Path, most: int) -> Repair:
-    """Check the submission, and follow the next step of its first failed criterion, `most` times."""
-    told = Repair(name)
+async def repair(name: str, exercise: str, folder: Path, max_steps: int) -> Repair:
+    """Check the submission, and follow the next step of its first failed criterion, up to `max_steps` times."""
+    outcome = Repair(name)
     with tempfile.TemporaryDirectory(prefix="repair-") as temporary:
         copy = Path(shutil.copytree(folder, Path(temporary) / "submission"))
-        for turn in range(most + 1):
+        for turn in range(max_steps + 1):
             result = await check_folder(exercise, copy)
             failed = _first_failed(result)
-            if failed is None and not told.criterion:
-                told.trouble = "nothing required fails"
-                return told
-            told.criterion = told.criterion or (failed.id if failed else "")
-            if failed is None or _passes(result, told.criterion):
-                told.fixed_after = turn
-                return told
-            if turn == most:
-                return told
-            told.steps.append(failed.verdict.hint)
+            if failed is None and not outcome.criterion:
+                outcome.trouble = "nothing required fails"
+                return outcome
+            outcome.criterion = outcome.criterion or (failed.id if failed else "")
+            if failed is None or _passes(result, outcome.criterion):
+                outcome.fixed_after = turn
+                return outcome
+            if turn == max_steps:
+                return outcome
+            outcome.steps.append(failed.verdict.hint)
             files = {file.name: file.read_text(errors="replace") for file in sorted(copy.glob("*.py"))}
             try:
                 for file, text in apply_step(failed.verdict.hint, files).items():
                     (copy / file).write_text(text)
             except NotAnEdit:
-                told.in_words = True
-                return told
-    return told
+                outcome.in_words = True
+                return outcome
+    return outcome
 
 
 def _first_failed(result: ExerciseResult) -> CriterionResult | None:
@@ -77,25 +77,25 @@ def _passes(result: ExerciseResult, criterion: str) -> bool:
     return any(c.id == criterion and c.verdict.status is Status.PASSED for c in result.criteria)
 
 
-async def repair_all(chosen: Sequence[tuple[str, str, Path]], jobs: int, most: int) -> list[Repair]:
-    """Follow the steps of each, `jobs` at a time, telling of each on stderr."""
-    free = asyncio.Semaphore(jobs)
+async def repair_all(chosen: Sequence[tuple[str, str, Path]], jobs: int, max_steps: int) -> list[Repair]:
+    """Follow the steps of each submission, `jobs` at a time, reporting each on stderr."""
+    slots = asyncio.Semaphore(jobs)
     done: list[Repair] = []
 
-    async def one(name: str, exercise: str, folder: Path) -> None:
-        async with free:
+    async def repair_one(name: str, exercise: str, folder: Path) -> None:
+        async with slots:
             try:
-                found = await repair(name, exercise, folder, most)
-            except Exception as error:  # told in the table; the others go on
+                found = await repair(name, exercise, folder, max_steps)
+            except Exception as error:  # counted in the table; the others continue
                 found = Repair(name, trouble=repr(error))
         done.append(found)
-        print(f"{len(done)}/{len(chosen)} {name} {_outcome(found)}", file=sys.stderr, flush=True)
+        print(f"{len(done)}/{len(chosen)} {name} {_describe(found)}", file=sys.stderr, flush=True)
 
-    await asyncio.gather(*(one(*each) for each in chosen))
+    await asyncio.gather(*(repair_one(*each) for each in chosen))
     return sorted(done, key=lambda each: each.name)
 
 
-def _outcome(each: Repair) -> str:
+def _describe(each: Repair) -> str:
     if each.trouble:
         return each.trouble
     if each.fixed_after is not None:
@@ -104,7 +104,7 @@ def _outcome(each: Repair) -> str:
 
 
 def table(done: Sequence[Repair]) -> str:
-    """How many of each exercise pass after one step and after two, have steps in words, and are not fixed."""
+    """Count, for each exercise, the submissions fixed after one or two steps, with steps in words, and not fixed."""
     rows: list[tuple[str, ...]] = [
         ("exercise", "submissions", "after one", "after two", "in words", "not fixed", "not followed")
     ]
@@ -116,7 +116,7 @@ def table(done: Sequence[Repair]) -> str:
                 str(len(some)),
                 str(sum(each.fixed_after == 1 for each in some)),
                 str(sum(each.fixed_after in (1, 2) for each in some)),
-                *(str(sum(_outcome(each) == outcome for each in some)) for outcome in ("in words", "not fixed")),
+                *(str(sum(_describe(each) == outcome for each in some)) for outcome in ("in words", "not fixed")),
                 str(sum(bool(each.trouble) for each in some)),
             )
         )
@@ -124,29 +124,29 @@ def table(done: Sequence[Repair]) -> str:
 
 
 def main() -> int:
-    """Exit code 0, whatever was fixed; 2 where there is nothing to follow."""
+    """Return exit code 0 whatever was fixed, 2 if no submission matches."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
-    parser.add_argument("--jobs", type=int, default=2, help="this many at a time")
-    parser.add_argument("--steps", type=int, default=2, help="follow this many steps, one after another")
-    parser.add_argument("--every", type=int, default=1, help="take each Nth submission only")
+    parser.add_argument("--jobs", type=int, default=2, help="submissions checked in parallel")
+    parser.add_argument("--steps", type=int, default=2, help="follow at most this many steps, one after another")
+    parser.add_argument("--every", type=int, default=1, help="take only every Nth submission")
     arguments = parser.parse_args()
     folders = [Path(each) for each in arguments.wanted if Path(each).is_dir()]
     names = [each for each in arguments.wanted if not Path(each).is_dir()]
     cases = [] if folders and not names else find(names)[0]
     chosen = [(str(case), case.exercise, case.folder) for case in cases if case.kind == WRONG]
     for folder in folders:
-        each_of = [folder] if re.match(r"i\d_\d_", folder.name) else sorted(folder.glob("i?_?_*"))
-        chosen += [(each.name, each.name[:4].replace("_", "."), each) for each in each_of]
+        submissions = [folder] if re.match(r"i\d_\d_", folder.name) else sorted(folder.glob("i?_?_*"))
+        chosen += [(each.name, each.name[:4].replace("_", "."), each) for each in submissions]
     chosen = chosen[:: arguments.every]
     if not chosen:
-        print("no submission is called so", file=sys.stderr)
+        print("no submission has this name", file=sys.stderr)
         return 2
     done = asyncio.run(repair_all(chosen, arguments.jobs, arguments.steps))
     for each in done:
         if each.fixed_after is None:
             steps = "".join("\n    " + step.replace("\n", "\n    ") + "\n    --" for step in each.steps)
-            print(f"{_outcome(each)}: {each.name} {each.criterion}{steps}")
+            print(f"{_describe(each)}: {each.name} {each.criterion}{steps}")
     print(table(done))
     return 0
 

@@ -1,4 +1,4 @@
-"""What runs on this machine, as /proc tells it."""
+"""Which processes run on this machine, according to /proc."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 def runs(file: Path) -> bool:
-    """Whether a process has been started with this file."""
+    """Return whether a running process has this file on its command line."""
     for folder in Path("/proc").glob("[0-9]*"):
         try:
             if str(file).encode() in (folder / "cmdline").read_bytes().split(b"\0"):

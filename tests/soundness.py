@@ -2,12 +2,12 @@
 
     uv run python -m tests.soundness [EXERCISE[/right|wrong[/NAME]] ...] [--changed] [--times N] [--jobs N] [--busy]
 
-`--changed` judges those that differ from the branch main, all of an exercise whose check differs, and, where what all
-checks share does, the sample of the tests.
+`--changed` judges the submissions that differ from the branch main, all of an exercise whose check differs, and the
+tests' sample if code that all checks share differs.
 
-tells of each run on stderr. At the end, on stdout: each verdict that is not as expected, the submissions that are not
-judged the same each time, and a table: for each exercise how many right and wrong ones were judged right, the false
-passes and false failures, and how long a verdict took.
+Reports each run on stderr. At the end, stdout has each verdict that is not as expected, the submissions whose verdict
+varies, and a table: for each exercise how many right and wrong ones were judged as expected, the false passes and false
+failures, and how long a verdict took.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from tests.judging import Outcome, find, holds_here, judge
 from tests.sampling import changed
 from tutor.content.submissions import Case
 
-# Ends by itself when its owner is gone, however that happened: before its first instruction, too, so it is told who
-# that is instead of asking. It has an end of its own as well, should it ever be wrong about that.
-BUSY = """
+# A busy loop that ends when its owner is gone. The owner may be killed before the loop's first instruction, so its pid
+# is an argument rather than os.getppid(). A time limit ends the loop should that ever go wrong.
+BUSY_LOOP = """
 import os, sys, time
 owner, until = int(sys.argv[1]), time.monotonic() + float(sys.argv[2])
 while os.getppid() == owner and time.monotonic() < until:
@@ -42,20 +42,20 @@ TIMES = ("min s", "median", "max s")
 
 
 async def judge_all(chosen: Sequence[Case], jobs: int) -> list[Outcome]:
-    """Judge the cases, `jobs` at a time, telling of each on stderr. Cancelled, it gives what there is so far."""
-    free = asyncio.Semaphore(jobs)
+    """Judge the cases, `jobs` at a time, reporting each on stderr. On SIGINT or SIGTERM, return the outcomes so far."""
+    slots = asyncio.Semaphore(jobs)
     outcomes: list[Outcome] = []
 
-    async def one(case: Case) -> None:
-        async with free:
+    async def judge_one(case: Case) -> None:
+        async with slots:
             outcome = await judge(case)
         outcomes.append(outcome)
         mark = "! " if outcome.wrong else "  "
         count = f"{len(outcomes)}/{len(chosen)}"
-        said = [f"{mark}{count:>9}{outcome.took_s:7.1f} s  {case}", *outcome.wrong]
-        print("\n        ".join(said), file=sys.stderr, flush=True)
+        lines = [f"{mark}{count:>9}{outcome.took_s:7.1f} s  {case}", *outcome.wrong]
+        print("\n        ".join(lines), file=sys.stderr, flush=True)
 
-    tasks = [asyncio.ensure_future(one(case)) for case in chosen]
+    tasks = [asyncio.ensure_future(judge_one(case)) for case in chosen]
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, lambda: [task.cancel() for task in tasks])
@@ -68,7 +68,7 @@ async def judge_all(chosen: Sequence[Case], jobs: int) -> list[Outcome]:
 @contextmanager
 def busy_cores(count: int) -> Iterator[None]:
     """Keep this many cores busy, at normal priority."""
-    command = [sys.executable, "-I", "-S", "-c", BUSY, str(os.getpid()), str(BUSY_LIMIT_S)]
+    command = [sys.executable, "-I", "-S", "-c", BUSY_LOOP, str(os.getpid()), str(BUSY_LIMIT_S)]
     loops = [subprocess.Popen(command) for _ in range(count)]
     try:
         yield
@@ -80,7 +80,7 @@ def busy_cores(count: int) -> Iterator[None]:
 
 
 def table(outcomes: Sequence[Outcome]) -> str:
-    """One line for each exercise and kind, and one for all."""
+    """Format one line for each exercise and kind, and one for all."""
     groups = sorted({(o.case.exercise, o.case.kind) for o in outcomes})
     rows = [(*group, *_figures([o for o in outcomes if (o.case.exercise, o.case.kind) == group])) for group in groups]
     rows.append(("all", "", *_figures(outcomes)))
@@ -110,7 +110,7 @@ def _figures(outcomes: Sequence[Outcome]) -> tuple[str, ...]:
 
 
 def flaky(outcomes: Sequence[Outcome]) -> list[str]:
-    """The submissions that were not judged the same each time, each with what differed and how often it came."""
+    """List the submissions whose verdict varied, each with what differed and how often it occurred."""
     lines = []
     for name in sorted({str(outcome.case) for outcome in outcomes}):
         verdicts = Counter(outcome.verdict for outcome in outcomes if str(outcome.case) == name)
@@ -124,8 +124,8 @@ def flaky(outcomes: Sequence[Outcome]) -> list[str]:
     return lines
 
 
-def _paths_changed() -> list[str]:
-    """The files that differ from the branch main, and those that are not committed."""
+def _find_changed_paths() -> list[str]:
+    """Return the files that differ from the branch main, and the untracked ones."""
     git = ("git", "-C", os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     differing = subprocess.check_output([*git, "diff", "--name-only", "--merge-base", "main"], text=True)
     untracked = subprocess.check_output([*git, "ls-files", "--others", "--exclude-standard"], text=True)
@@ -133,28 +133,28 @@ def _paths_changed() -> list[str]:
 
 
 def main() -> int:
-    """Exit code 0 where every verdict is as expected, 1 where not, 2 where there is nothing to judge."""
+    """Return exit code 0 if every verdict is as expected, 1 if not, 2 if there is nothing to judge."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
-    parser.add_argument("--times", type=int, default=1, help="judge each this many times")
-    parser.add_argument("--jobs", type=int, default=3, help="this many at a time")
-    parser.add_argument("--changed", action="store_true", help="only what a difference from main may concern")
-    parser.add_argument("--busy", action="store_true", help="with a busy loop beside it for each core")
-    parser.add_argument("--json", action="store_true", help="print the wrong ones as JSON, too")
+    parser.add_argument("--times", type=int, default=1, help="judge each submission this many times")
+    parser.add_argument("--jobs", type=int, default=3, help="submissions judged in parallel")
+    parser.add_argument("--changed", action="store_true", help="only what a difference from main may affect")
+    parser.add_argument("--busy", action="store_true", help="run a busy loop on each core meanwhile")
+    parser.add_argument("--json", action="store_true", help="also print the wrong ones as JSON")
     arguments = parser.parse_args()
     found, broken = find(arguments.wanted)
     for error in broken:
         print(f"! {error}", file=sys.stderr)
     here = [case for case in found if holds_here(case)]
     if len(here) < len(found):
-        print(f"{len(found) - len(here)} are about another ROS than this, and left out", file=sys.stderr)
+        print(f"{len(found) - len(here)} are skipped: they are about another ROS than this", file=sys.stderr)
     if arguments.changed:
-        here = changed(here, _paths_changed())
+        here = changed(here, _find_changed_paths())
         if not here:
-            print("nothing that differs from main concerns a submission", file=sys.stderr)
+            print("no difference from main affects a submission", file=sys.stderr)
             return 0
     if not here:
-        print(f"no submission is called {' or '.join(arguments.wanted) or 'anything'}", file=sys.stderr)
+        print(f"no submission is named {' or '.join(arguments.wanted) or 'anything'}", file=sys.stderr)
         return 2
     with busy_cores(len(os.sched_getaffinity(0)) if arguments.busy else 0):
         outcomes = asyncio.run(judge_all(here * arguments.times, arguments.jobs))

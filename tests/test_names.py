@@ -13,7 +13,7 @@ MODULES = sorted([*ROOT.glob("tutor/**/*.py"), *ROOT.glob("checks/**/*.py")])
 
 @pytest.mark.parametrize("package", ["tutor", "checks"])
 def test_no_module_shares_its_name_with_a_function_or_class_in_it(package: str) -> None:
-    """`next_wake.next_wake`: an import of the one hides the other."""
+    """With `next_wake.next_wake`, importing one hides the other."""
     shared = []
     for module in MODULES:
         name = module.parent.name if module.stem == "__init__" else module.stem

@@ -1,4 +1,4 @@
-"""Temporary files of ours lie where no other user of the machine can have prepared anything."""
+"""Our temporary files lie where no other user of the machine can have prepared anything."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 
 from tutor import private_folders
 
-KEEPS_TWO = """
+HOLD_TWO_FOLDERS = """
 import sys, tempfile, time
 from tutor import private_folders
 tempfile.tempdir = sys.argv[1]
@@ -30,7 +30,7 @@ def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_the_users_folder_is_made_once_and_closed_to_others(temporary: Path) -> None:
+def test_the_base_folder_is_created_once_and_private_to_the_user(temporary: Path) -> None:
     assert private_folders.base() == private_folders.base() == temporary / f"ros-tutor-{os.getuid()}"
     assert private_folders.base().stat().st_mode & 0o777 == 0o700
     private_folders.base().chmod(0o777)
@@ -39,18 +39,18 @@ def test_the_users_folder_is_made_once_and_closed_to_others(temporary: Path) -> 
     assert private_folders.logs({"ROS_LOG_DIR": "/x"}) == Path("/x")
 
 
-def prove_it_goes_elsewhere(temporary: Path) -> None:
-    found = private_folders.base()
-    assert found == private_folders.base() != temporary / f"ros-tutor-{os.getuid()}"
-    assert found.stat().st_mode & 0o777 == 0o700
+def assert_base_is_elsewhere(temporary: Path) -> None:
+    base = private_folders.base()
+    assert base == private_folders.base() != temporary / f"ros-tutor-{os.getuid()}"
+    assert base.stat().st_mode & 0o777 == 0o700
     with private_folders.temporary("run") as made:
-        assert made.parent == found
+        assert made.parent == base
 
 
-def test_a_planted_link_is_not_followed(temporary: Path) -> None:
+def test_a_planted_symlink_is_not_followed(temporary: Path) -> None:
     (temporary / "theirs").mkdir()
     (temporary / f"ros-tutor-{os.getuid()}").symlink_to(temporary / "theirs")
-    prove_it_goes_elsewhere(temporary)
+    assert_base_is_elsewhere(temporary)
     assert not any((temporary / "theirs").iterdir())
 
 
@@ -59,12 +59,12 @@ def test_a_folder_of_another_user_is_not_used(temporary: Path) -> None:
     theirs = temporary / f"ros-tutor-{os.getuid()}"
     theirs.mkdir()
     os.chown(theirs, 65534, 65534)
-    prove_it_goes_elsewhere(temporary)
+    assert_base_is_elsewhere(temporary)
     assert not any(theirs.iterdir())
 
 
-def test_what_a_killed_process_has_left_goes_at_the_next_start_and_a_living_ones_stays(temporary: Path) -> None:
-    command = [sys.executable, "-c", KEEPS_TWO, str(temporary)]
+def test_folders_of_killed_processes_are_removed_and_those_of_running_ones_kept(temporary: Path) -> None:
+    command = [sys.executable, "-c", HOLD_TWO_FOLDERS, str(temporary)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as other:
         assert other.stdout is not None
         left = [Path(other.stdout.readline().strip()) for _ in range(2)]
@@ -77,9 +77,7 @@ def test_what_a_killed_process_has_left_goes_at_the_next_start_and_a_living_ones
         assert not any(path.exists() for path in left)
 
 
-def test_where_nothing_can_be_written_the_message_says_what_to_do(
-    temporary: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_a_writable_folder_the_error_says_what_to_do(temporary: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def nowhere() -> str:
         raise FileNotFoundError(2, "No usable temporary directory found")
 

@@ -1,7 +1,7 @@
-"""Submissions under tests/submissions are judged as their expect.yaml says: a sample, so that the tests end in minutes.
+"""Judge a sample of tests/submissions against their expect.yaml files, small enough to end in minutes.
 
-Which ones, `tests.sampling` says; `python -m tests.soundness` judges all. With them the hostile ones, whose cost
-`python -m tests.hostile` shows, but for those in `NOT_HERE`.
+`tests.sampling` chooses the sample; `python -m tests.soundness` judges all. The hostile submissions are judged with it
+(`python -m tests.hostile` shows what they cost), except those in `EXCLUDED`.
 """
 
 from __future__ import annotations
@@ -29,55 +29,57 @@ from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
 
 JOBS = 6
-EVERY, BROKEN = find()
-NOT_HERE = {
+ALL_CASES, BROKEN = find()
+EXCLUDED = {
     "i1.1/hostile/joins-them-all",  # tests/hostile/test_beside.py judges it
-    # Long and costly: tests/engine/test_bounded_bytes.py shows the same.
+    # Slow and expensive; tests/engine/test_bounded_bytes.py covers them.
     "i2.1/hostile/fifty-megabytes-on-the-topic",
     "i2.1/hostile/megabytes-on-the-topic",
     "i2.1/hostile/parameters-of-megabytes",
 }
-_HERE = [case for case in [*sample(EVERY), *find_hostile()] if holds_here(case) and str(case) not in NOT_HERE]
-ALL = sorted(sorted(_HERE, key=lambda case: case.exercise, reverse=True), key=lambda case: not case.expected.keeps_busy)
-"""Those first that take all of the CPU, which are judged one after the other, among the others; then the longest."""
+_SELECTED = [case for case in [*sample(ALL_CASES), *find_hostile()] if holds_here(case) and str(case) not in EXCLUDED]
+ORDERED_CASES = sorted(
+    sorted(_SELECTED, key=lambda case: case.exercise, reverse=True), key=lambda case: not case.expected.keeps_busy
+)
+"""First the CPU hogs, which are judged one at a time alongside the others; then the longest."""
 
 
 @pytest.fixture(scope="module")
 def outcomes(request: pytest.FixtureRequest) -> Iterator[dict[str, Future[Outcome]]]:
-    """The outcome of each selected case, as it comes: several are judged at a time, since a check mostly waits."""
+    """Futures of the selected cases' outcomes; several cases are judged in parallel, since a check mostly waits."""
     items = [item for item in request.session.items if isinstance(item, pytest.Function)]
     params = [item.callspec.params["case"] for item in items if "outcomes" in item.fixturenames]
     selected = [case for case in params if isinstance(case, Case)]
     futures: dict[str, Future[Outcome]] = {str(case): Future() for case in selected}
 
-    async def one(case: Case) -> None:
+    async def judge_one(case: Case) -> None:
         try:
-            with tempfile.TemporaryDirectory() as folder:  # some change or remove their own
+            with tempfile.TemporaryDirectory() as folder:  # a copy: some submissions change or remove their own files
                 copy = shutil.copytree(case.folder, Path(folder) / case.folder.name)
                 futures[str(case)].set_result(await judge(replace(case, folder=copy)))
         except Exception as error:
-            futures[str(case)].set_exception(error)  # for its own test: the others go on
+            futures[str(case)].set_exception(error)  # raised in that case's test; the others continue
 
-    async def everything() -> None:
-        free = asyncio.Semaphore(JOBS - 1)
+    async def judge_all() -> None:
+        slots = asyncio.Semaphore(JOBS - 1)
 
-        async def those_that_keep_busy() -> None:
+        async def judge_cpu_hogs() -> None:
             for case in selected:
                 if case.expected.keeps_busy:
-                    await one(case)
-            free.release()
+                    await judge_one(case)
+            slots.release()
 
-        async def other(case: Case) -> None:
-            async with free:
-                await one(case)
+        async def judge_when_free(case: Case) -> None:
+            async with slots:
+                await judge_one(case)
 
-        others = (other(case) for case in selected if not case.expected.keeps_busy)
-        await asyncio.gather(those_that_keep_busy(), *others)
+        others = (judge_when_free(case) for case in selected if not case.expected.keeps_busy)
+        await asyncio.gather(judge_cpu_hogs(), *others)
 
     loop = asyncio.new_event_loop()
-    task = loop.create_task(everything())
+    task = loop.create_task(judge_all())
 
-    def run() -> None:
+    def run_loop() -> None:
         try:
             loop.run_until_complete(task)
         except asyncio.CancelledError:
@@ -85,7 +87,7 @@ def outcomes(request: pytest.FixtureRequest) -> Iterator[dict[str, Future[Outcom
         finally:
             loop.close()
 
-    thread = threading.Thread(target=run)
+    thread = threading.Thread(target=run_loop)
     thread.start()
     yield futures
     if thread.is_alive():
@@ -94,7 +96,7 @@ def outcomes(request: pytest.FixtureRequest) -> Iterator[dict[str, Future[Outcom
 
 
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize("case", ALL, ids=str)
+@pytest.mark.parametrize("case", ORDERED_CASES, ids=str)
 def test_a_submission_is_judged_as_expected(case: Case, outcomes: dict[str, Future[Outcome]]) -> None:
     assert outcomes[str(case)].result(timeout=590).wrong == []
 
@@ -116,12 +118,12 @@ def _case(name: str = "a", kind: str = "wrong", exercise: str = "x1.1", **keys: 
     return Case(exercise, kind, Path(name), Expected("made", **keys))  # type: ignore[arg-type]
 
 
-def test_every_submission_can_be_read() -> None:
+def test_every_expect_file_can_be_read() -> None:
     assert [str(error) for error in BROKEN] == []
 
 
-def test_a_false_pass_and_a_false_failure_are_told() -> None:
-    """The comparison itself can fail: else every submission would be as expected."""
+def test_false_passes_and_false_failures_are_detected() -> None:
+    """A comparison that never fails would call every submission as expected."""
     mixed = _result(a=Status.FAILED, b=Status.PASSED, bonus=Status.PASSED)
     assert compare(_case(fails=("a",), causes={"": ("Broke",)}), mixed).wrong == []
     assert compare(_case(fails=("b",)), mixed).false_pass
@@ -137,7 +139,7 @@ def test_a_false_pass_and_a_false_failure_are_told() -> None:
     assert compare(_case(not_passed=("a",)), _result(a=Status.PASSED)).false_pass
 
 
-def test_the_sample_has_right_ones_and_each_criterion_and_cause() -> None:
+def test_the_sample_has_right_submissions_and_each_criterion_and_cause() -> None:
     cases = [
         _case("r1", "right"),
         _case("r2", "right"),
@@ -148,18 +150,18 @@ def test_the_sample_has_right_ones_and_each_criterion_and_cause() -> None:
         *(_case(name, fails=("a",), exercise="x1.2") for name in ("five", "six", "seven")),
     ]
     names = [case.folder.name for case in sample(cases)]
-    assert names == ["r1", "two", "three", "four", "five"]  # "one" shows nothing that "two" does not
+    assert names == ["r1", "two", "three", "four", "five"]  # "one" adds nothing to "two"
     assert sample(cases[::-1]) == sample(cases)[::-1]
 
 
-def test_the_real_sample_leaves_nothing_out() -> None:
-    chosen = sample(EVERY)
-    assert set().union(*map(shows, chosen)) == set().union(*map(shows, EVERY))
-    right = [[case.exercise for case in cases if case.kind == "right"] for cases in (chosen, EVERY)]
+def test_the_real_sample_covers_every_criterion_and_cause() -> None:
+    chosen = sample(ALL_CASES)
+    assert set().union(*map(shows, chosen)) == set().union(*map(shows, ALL_CASES))
+    right = [[case.exercise for case in cases if case.kind == "right"] for cases in (chosen, ALL_CASES)]
     assert all(10 * right[0].count(each) >= right[1].count(each) - 9 for each in set(right[1]))
 
 
-def test_of_what_changed_only_what_it_concerns_is_judged() -> None:
+def test_only_submissions_affected_by_a_change_are_judged() -> None:
     cases = [_case("r1", "right"), _case("one"), _case("two"), _case("three", exercise="x1.2")]
 
     def names(*paths: str) -> list[str]:
@@ -172,17 +174,17 @@ def test_of_what_changed_only_what_it_concerns_is_judged() -> None:
     assert names("tutor/judge/rates.py") == [case.folder.name for case in sample(cases)]
 
 
-def test_a_changed_file_concerns_those_that_link_to_it() -> None:
+def test_a_changed_file_affects_submissions_that_link_to_it() -> None:
     path = "tests/submissions/i1_3/right/client-thread-call/calculator_server.py"
-    assert {case.folder.name for case in changed(EVERY, [path])} == {
+    assert {case.folder.name for case in changed(ALL_CASES, [path])} == {
         "client-thread-call",
         "client-best-effort",
         "client-os-exit",
     }
 
 
-def test_no_client_or_server_is_there_twice() -> None:
-    """Where two submissions of i1.3 differ in one program only, the second links to the other program of the first."""
+def test_no_client_or_server_file_is_duplicated() -> None:
+    """Two submissions of i1.3 that differ in one program only share the other one through a symlink."""
     first: dict[tuple[str, bytes], Path] = {}
     for file in sorted(ROOT.glob("i1_3/*/*/*.py")):
         if not file.is_symlink():
@@ -194,7 +196,7 @@ def _outcome(name: str, verdict: str, took_s: float, *wrong: str) -> Outcome:
     return Outcome(_case(name), list(wrong), took_s=took_s, verdict=verdict, false_pass=bool(wrong))
 
 
-def test_the_table_counts_and_the_flaky_are_named() -> None:
+def test_the_table_counts_runs_and_flaky_submissions_are_listed() -> None:
     outcomes = [
         _outcome("steady", "a:failed b:passed", 1.0),
         _outcome("steady", "a:failed b:passed", 2.0),
@@ -208,22 +210,22 @@ def test_the_table_counts_and_the_flaky_are_named() -> None:
     assert soundness.flaky(outcomes) == ["x1.1/wrong/shaky:", "    1 times a:failed", "    1 times a:passed"]
 
 
-BUSY_AND_KILLED = """
+START_LOOPS_AND_DIE = """
 import os, signal
 from tests import soundness
 from tests.hostile import find_hostile
-soundness.BUSY_LIMIT_S = 60.0  # should this fail, nothing is left for long
+soundness.BUSY_LIMIT_S = 60.0  # if this test fails, the loops end soon all the same
 with soundness.busy_cores(2):
     os.kill(os.getpid(), signal.SIGKILL)
 """
 
 
 @pytest.mark.timeout(100)
-def test_busy_loops_end_even_where_their_owner_is_killed_before_they_begin() -> None:
+def test_busy_loops_end_even_if_their_owner_is_killed_before_they_begin() -> None:
     started = time.monotonic()
     killed = subprocess.run(
-        [sys.executable, "-c", BUSY_AND_KILLED],
-        stdout=subprocess.PIPE,  # at its end, nobody holds it any more: neither the owner nor the loops
+        [sys.executable, "-c", START_LOOPS_AND_DIE],
+        stdout=subprocess.PIPE,  # EOF shows that the owner and all loops are gone
         cwd=Path(__file__).parents[1],
         check=False,
     )

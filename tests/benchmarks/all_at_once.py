@@ -1,9 +1,9 @@
-"""How long `check all --solution` takes, beside its slowest exercise alone.
+"""How long `check all --solution` takes, compared with its slowest exercise alone.
 
     uv run python -m tests.benchmarks.all_at_once [--times 3]
 
-At most 1.3 times the slowest and 2 s are allowed. Prints, too, what the CPU was used for: our own process (which
-watches), and what it started (learners' processes and their supervisors). On a machine that is busy they say little.
+At most 1.3 times the slowest exercise plus 2 s is allowed. Also prints the CPU time of our own process (which observes)
+and of its children (learners' processes and their supervisors). The figures mean little on a busy machine.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 from tutor.content import load_course
 
-# The engine's CPU time is told apart from that of what it started by the one who has both: itself.
+# Only the engine's own process can tell its CPU time from that of its children, so it prints both.
 PROGRAM = """
 import json, resource, sys
 from tutor.cli import main
@@ -31,16 +31,16 @@ sys.exit(code)
 
 
 @dataclass(frozen=True)
-class Taken:
-    """One run: the clock and the CPU time, in seconds."""
+class Timing:
+    """One run: wall-clock time, and CPU time of the engine and of its children, in seconds."""
 
     wall_s: float
     ours_s: float
     started_s: float
 
 
-def take(exercise: str) -> Taken:
-    """Check our own solution. Raises SystemExit where it does not pass: its time would mean nothing."""
+def time_check(exercise: str) -> Timing:
+    """Check our own solution. Raises SystemExit if it does not pass: its time would mean nothing."""
     began = time.perf_counter()
     ended = subprocess.run(
         [sys.executable, "-c", PROGRAM, "check", exercise, "--solution", "--format", "json"],
@@ -52,11 +52,11 @@ def take(exercise: str) -> Taken:
     if ended.returncode != 0:
         raise SystemExit(f"{exercise} did not pass:\n{ended.stdout}\n{ended.stderr}")
     ours, started = json.loads(ended.stderr.splitlines()[-1])
-    return Taken(took, ours, started)
+    return Timing(took, ours, started)
 
 
 def main() -> int:
-    """Print a line for each exercise alone, and for all at once. Exit code 1 where all take too long."""
+    """Print a line for each exercise alone, and for all at once. Return exit code 1 if all take too long."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--times", type=int, default=3)
     times: int = parser.parse_args().times
@@ -65,10 +65,10 @@ def main() -> int:
     print(f"{'':<10}{'clock':>8}{'CPU: ours':>12}{'started':>10}")
     median_s: dict[str, float] = {}
     for name in [*(lesson.id for lesson in load_course().lessons), "all"]:
-        taken = [take(name) for _ in range(times)]
-        median_s[name] = statistics.median(each.wall_s for each in taken)
-        ours = statistics.median(each.ours_s for each in taken)
-        started = statistics.median(each.started_s for each in taken)
+        timings = [time_check(name) for _ in range(times)]
+        median_s[name] = statistics.median(each.wall_s for each in timings)
+        ours = statistics.median(each.ours_s for each in timings)
+        started = statistics.median(each.started_s for each in timings)
         print(f"{name:<10}{median_s[name]:>8.2f}{ours:>12.2f}{started:>10.2f}", flush=True)
     slowest = max(value for name, value in median_s.items() if name != "all")
     allowed = 1.3 * slowest + 2

@@ -1,11 +1,11 @@
-"""The live page with a fast topic in view: from a key to the screen, counts against what was sent, CPU and memory.
+"""The live page with a fast topic in view: key-to-screen latency, counted against sent messages, CPU and memory.
 
     uv run python -m tests.benchmarks.live [--rates 1000 10000] [--seconds 20]
 
-The whole app runs in a terminal of its own (a pty), with a lesson, its criteria and the list of lessons around the live
-page. A key is written to it, and the clock stops when the bytes that show its effect have come out. Three keys take
-turns: pause, zoom, turn a tab. The machine's load is printed beside: on a busy one the figures are those of a busy one,
-and the time for which no core was free is told apart. Where `ros2` is installed, `ros2 topic hz` is run on the same
+The whole app runs in its own terminal (a pty), with a lesson, its criteria and the list of lessons around the live
+page. A key is written to it, and the clock stops when the output that shows its effect has arrived. Three kinds of keys
+take turns: pause, zoom, switch tabs. The machine's load is printed as well, since a busy machine affects the figures;
+the time for which no core was free is reported separately. If `ros2` is installed, `ros2 topic hz` is run on the same
 topic.
 """
 
@@ -24,7 +24,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from tests.benchmarks.terminal import Terminal, child_of, kept_waiting, use_of
+from tests.benchmarks.terminal import Terminal, cpu_wait_s, find_watcher, read_usage
 from tests.live.world import METRONOME, World, world
 from tutor.content import load_course
 from tutor.live.updates import TopicUpdate
@@ -42,61 +42,61 @@ KEYS = (
     (b"]", b"Allowed"),
     (b"[", b"Unfollow"),
 )
-"""A key, and what is drawn only then."""
+"""A key, and the text that is drawn only after it."""
 
 
-def measure(around: World, rate: int, seconds: float) -> bool:
-    """One rate; whether the target was met and every message was counted."""
+def measure(ros_world: World, rate: int, seconds: float) -> bool:
+    """Measure one rate; return whether the target was met and every message counted."""
     with tempfile.TemporaryDirectory() as folder:
-        return measure_in(Path(folder), around, rate, seconds)
+        return _measure_in(Path(folder), ros_world, rate, seconds)
 
 
-def measure_in(folder: Path, around: World, rate: int, seconds: float) -> bool:
-    """The same, with a folder to be untidy in."""
+def _measure_in(folder: Path, ros_world: World, rate: int, seconds: float) -> bool:
+    """Measure as `measure` does, with a temporary folder for the report and the workspace."""
     report, workspace = folder / "counts.json", Workspace(folder / "ws")
     start(load_course().lessons[0], workspace)
     run = [sys.executable, "-m", "tests.benchmarks.live", "--app", str(report), str(workspace.root)]
-    app = Terminal(run, around.environ)
+    app = Terminal(run, ros_world.environ)
     app.until(b"of 6 passed")
     app.press(b"4")
     app.until(b"No node runs")
-    publisher = around.run(METRONOME, str(rate), str(int(rate * (seconds + 5))))
+    publisher = ros_world.run(METRONOME, str(rate), str(int(rate * (seconds + 5))))
     app.until(b"/ticks")
-    app.press(b"\x1b[B")  # from the topic of the lesson
+    app.press(b"\x1b[B")  # move on from the lesson's topic
     app.until(b"Not followed")
     app.press(b"\r")
     app.until(b"jitter")
     app.drain(1.0)
-    pids = app.pid, child_of(app.pid)
-    before, began = [use_of(pid) for pid in pids], time.perf_counter()
+    pids = app.pid, find_watcher(app.pid)
+    before, began = [read_usage(pid) for pid in pids], time.perf_counter()
     took: list[float] = []
     waits: list[float] = []
     while time.perf_counter() - began < seconds:
         for key, effect in KEYS:
             app.drain(random.uniform(0.1, 0.3))
-            waited, pressed = kept_waiting(app.pid, os.getpid()), time.perf_counter()
+            waited, pressed = cpu_wait_s(app.pid, os.getpid()), time.perf_counter()
             app.press(key)
             took.append((app.until(effect) - pressed) * 1000)
-            waits.append((kept_waiting(app.pid, os.getpid()) - waited) * 1000)
+            waits.append((cpu_wait_s(app.pid, os.getpid()) - waited) * 1000)
     lasted = time.perf_counter() - began
-    after = [use_of(pid) for pid in pids]
-    hz = topic_hz(around)
-    sent, _, needed = around.said(publisher).partition(" ")
+    after = [read_usage(pid) for pid in pids]
+    hz = topic_hz(ros_world)
+    sent, _, needed = ros_world.read_line(publisher).partition(" ")
     app.drain(1.5)
     app.close()
     found = json.loads(report.read_text())
-    around.end(publisher)
+    ros_world.end(publisher)
     p95 = statistics.quantiles(took, n=20)[-1]
     own = [max(0.0, whole - wait) for whole, wait in zip(took, waits, strict=True)]
     print(
         f"{rate:>6} Hz  key to screen p50 {statistics.median(took):5.1f} ms, p95 {p95:5.1f} ms, "
-        f"worst {max(took):5.1f} ms ({len(took)} keys; p95 under {TARGETS_MS.get(rate, 100.0):.0f} ms is wanted)\n"
-        f"           without the time that a core was waited for: p50 {statistics.median(own):.1f} ms, "
+        f"worst {max(took):5.1f} ms ({len(took)} keys; target: p95 under {TARGETS_MS.get(rate, 100.0):.0f} ms)\n"
+        f"           without waiting for a free core: p50 {statistics.median(own):.1f} ms, "
         f"p95 {statistics.quantiles(own, n=20)[-1]:.1f} ms\n"
         f"           sent {int(sent):,} in {float(needed):.2f} s, counted {found['count']:,}, "
-        f"said to be lost {found['lost']}"
+        f"reported lost {found['lost']}"
     )
-    for name, a, b in zip(("app", "watching child"), before, after, strict=True):
+    for name, a, b in zip(("app", "watcher process"), before, after, strict=True):
         print(f"           {name}: {(b.cpu_s - a.cpu_s) / lasted:6.1%} CPU, {b.memory_mb:.0f} MB")
     print(
         f"           {hz}\n           load of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores",
@@ -105,39 +105,39 @@ def measure_in(folder: Path, around: World, rate: int, seconds: float) -> bool:
     return p95 < TARGETS_MS.get(rate, 100.0) and found["count"] == int(sent)
 
 
-def topic_hz(around: World) -> str:
-    """What `ros2 topic hz` says and uses meanwhile, where it is installed."""
+def topic_hz(ros_world: World) -> str:
+    """Return what `ros2 topic hz` prints and the resources it uses, if it is installed."""
     if (ros2 := shutil.which("ros2")) is None:
         return "ros2 topic hz: not installed here"
     process = subprocess.Popen(
         [ros2, "topic", "hz", "/ticks"],
-        env=around.environ,
+        env=ros_world.environ,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
     )
     assert process.stdout is not None
-    said = next((line.strip() for line in process.stdout if "average rate" in line), "nothing")
-    used = use_of(process.pid)
+    answer = next((line.strip() for line in process.stdout if "average rate" in line), "nothing")
+    used = read_usage(process.pid)
     process.send_signal(signal.SIGINT)
     process.communicate()
-    return f"ros2 topic hz: {said}, {used.cpu_s:.1f} s CPU until then, {used.memory_mb:.0f} MB"
+    return f"ros2 topic hz: {answer}, {used.cpu_s:.1f} s CPU until then, {used.memory_mb:.0f} MB"
 
 
 class WatchedApp(TutorApp):
-    """The app, and what it has counted when it is left."""
+    """The app, which keeps its message count when it is left."""
 
     counted: TopicUpdate | None = None
 
     def leave(self) -> None:
-        """Keep the count, and begin to leave."""
+        """Save the count, then leave."""
         if self.main is not None and (live := self.main.pages.live) is not None:
             self.counted = live.state.topics["/ticks"].update if "/ticks" in live.state.topics else None
         super().leave()
 
 
 def run_app(report: Path, workspace: Path) -> None:
-    """The app that is measured."""
+    """Run the app under test, and write its counts to `report`."""
     app = WatchedApp(Session(load_course(), Workspace(workspace)))
     app.run()
     assert app.counted is not None
@@ -145,7 +145,7 @@ def run_app(report: Path, workspace: Path) -> None:
 
 
 def main() -> int:
-    """Print the figures of each rate. Exit code 1 where a target was missed."""
+    """Print the figures for each rate. Return exit code 1 if a target was missed."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rates", type=int, nargs="+", default=[1000, 10000])
     parser.add_argument("--seconds", type=float, default=20.0)
@@ -154,8 +154,8 @@ def main() -> int:
     if arguments.app is not None:
         run_app(*arguments.app)
         return 0
-    with world() as around:
-        met = [measure(around, rate, arguments.seconds) for rate in arguments.rates]
+    with world() as ros_world:
+        met = [measure(ros_world, rate, arguments.seconds) for rate in arguments.rates]
     return 0 if all(met) else 1
 
 

@@ -1,4 +1,4 @@
-"""A program in a terminal of its own (a pty), and what it uses."""
+"""A program in its own terminal (a pty), and its resource use."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SIZE = (36, 120)
 LIMIT_S = 30.0
 
 _ESCAPES = re.compile(rb"\x1b\[[0-9;?<>=]*[ -/]*[@-~]|\x1b[@-_]|\x1b\][^\x07]*\x07")
-_TAKES_TERMINAL = b"\x1b[?1049h"
+_ENTER_ALTERNATE_SCREEN = b"\x1b[?1049h"
 _TICK = os.sysconf("SC_CLK_TCK")
 
 
@@ -39,12 +39,14 @@ class Terminal:
         os.write(self._fd, key)
 
     def until(self, text: bytes, limit_s: float = LIMIT_S, *, resumed: bool = False) -> float:
-        """Read until this text has come out; the time then (`perf_counter`).
+        """Read until this text has been drawn; return the time (`perf_counter`).
 
-        `resumed`: since the last key the app has given the terminal away, and the text comes after it got it back.
+        With `resumed`, only text after the app took the terminal back counts: it had handed it over after the last key.
         """
         deadline = time.perf_counter() + limit_s
-        while text not in _ESCAPES.sub(b"", self._seen.partition(_TAKES_TERMINAL)[2] if resumed else self._seen):
+        while text not in _ESCAPES.sub(
+            b"", self._seen.partition(_ENTER_ALTERNATE_SCREEN)[2] if resumed else self._seen
+        ):
             left = deadline - time.perf_counter()
             if left <= 0:
                 raise TimeoutError(f"{text!r} is not drawn: {_ESCAPES.sub(b'', self._seen)[-3000:]!r}")
@@ -52,19 +54,19 @@ class Terminal:
         return time.perf_counter()
 
     def read(self, for_s: float) -> None:
-        """Take what comes within that time, at most once."""
+        """Read once, waiting at most `for_s` seconds for output."""
         if select.select([self._fd], [], [], for_s)[0]:
             self._seen += os.read(self._fd, 1 << 16)
 
     def drain(self, for_s: float) -> None:
-        """Let it draw."""
+        """Read and discard output for this long."""
         deadline = time.perf_counter() + for_s
         while (left := deadline - time.perf_counter()) > 0:
             self.read(left)
             self._seen = b""
 
     def kill(self) -> None:
-        """SIGKILL. The terminal itself stays open, as the learner's would; `detach` closes it."""
+        """Send SIGKILL. The terminal itself stays open, as the learner's would; `detach` closes it."""
         os.kill(self.pid, signal.SIGKILL)
         os.waitpid(self.pid, 0)
 
@@ -75,7 +77,7 @@ class Terminal:
         self._fd = -1
 
     def ended(self, limit_s: float = LIMIT_S) -> bool:
-        """Whether it ends within that time by itself; what it draws until then is taken."""
+        """Return whether the app exits on its own within that time; its output is read meanwhile."""
         deadline = time.perf_counter() + limit_s
         while time.perf_counter() < deadline:
             if os.waitpid(self.pid, os.WNOHANG)[0]:
@@ -84,13 +86,13 @@ class Terminal:
                 if self._fd >= 0:
                     self.read(0.02)
                     continue
-            except OSError:  # it has closed its end
+            except OSError:  # the app has closed its end
                 pass
             time.sleep(0.02)
         return False
 
     def close(self) -> None:
-        """Quit, and wait for it. Raises TimeoutError where it does not end in time; it is killed then."""
+        """Quit the app and wait for its exit. Raises TimeoutError if it does not exit in time, after killing it."""
         self.press(b"\x11")
         try:
             if not self.ended():
@@ -101,25 +103,25 @@ class Terminal:
 
 
 @dataclass(frozen=True, slots=True)
-class Use:
-    """What a process has used so far: CPU seconds, and memory in MB."""
+class Usage:
+    """The resource use of a process so far: CPU seconds, and resident memory in MB."""
 
     cpu_s: float
     memory_mb: float
 
 
-def kept_waiting(*pids: int) -> float:
-    """For how many seconds these processes have been ready to run, and no core was free."""
+def cpu_wait_s(*pids: int) -> float:
+    """Return for how many seconds the threads of these processes have been runnable without a free core."""
     tasks = [task for pid in pids for task in Path(f"/proc/{pid}/task").glob("*/schedstat")]
     return sum(int(task.read_text().split()[1]) for task in tasks) / 1e9
 
 
-def use_of(pid: int) -> Use:
+def read_usage(pid: int) -> Usage:
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     pages = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
-    return Use((int(fields[11]) + int(fields[12])) / _TICK, pages * os.sysconf("SC_PAGE_SIZE") / 1e6)
+    return Usage((int(fields[11]) + int(fields[12])) / _TICK, pages * os.sysconf("SC_PAGE_SIZE") / 1e6)
 
 
-def child_of(pid: int) -> int:
-    """The watching process of the app."""
+def find_watcher(pid: int) -> int:
+    """Return the pid of the app's watcher process."""
     return int(Path(f"/proc/{pid}/task/{pid}/children").read_text().split()[0])

@@ -1,11 +1,12 @@
-"""How soon a learner is told: the first failed criterion and the whole verdict, over the submissions of the tests.
+"""How soon a learner gets feedback: the first failed criterion and the whole verdict, over the test submissions.
 
     uv run python -m tests.benchmarks.verdicts [EXERCISE[/wrong[/NAME]] ...] [--sample] [--jobs 2] [--times 1]
 
-For each exercise, its solution, alone, and its wrong submissions, each from the start of its process. "told" is when
-the first final failed criterion comes, "whole" when the check has ended; half of the checks stay within p50, and nine
-of ten within p90. "times sol." is the median of the wrong ones in times of the solution's; "within" is the share of
-them that end within twice the solution's time and 4 s. CPU seconds for a check: of the engine, and of all it started.
+For each exercise: its solution, alone, and its wrong submissions, each timed from the start of its process. "told" is
+when the first final failed criterion comes, "whole" when the check has ended; half of the checks stay within p50, nine
+of ten within p90. "times sol." is the median of the wrong submissions relative to the solution's time; "within" is the
+share of them that end within twice the solution's time plus 4 s. CPU is in seconds per check: of the engine, and of its
+children.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from tutor.judge.verdict import Status
 
 LIMIT_S = 180.0
 
-# The engine's CPU time is told apart from that of what it started by the one who has both: itself.
+# Only the engine's own process can tell its CPU time from that of its children, so it prints both.
 PROGRAM = """
 import json, resource, sys
 from tutor.engine.__main__ import main
@@ -43,8 +44,8 @@ sys.exit(code)
 
 
 @dataclass(frozen=True)
-class Taken:
-    """One check: its times on the clock and of the CPU, in seconds. `told_s` is None where nothing failed."""
+class Timing:
+    """One check: its wall-clock and CPU times, in seconds. `told_s` is None if no criterion failed."""
 
     name: str
     exercise: str
@@ -56,8 +57,8 @@ class Taken:
     started_s: float
 
 
-async def take(name: str, exercise: str, kind: str, folder: Path) -> Taken:
-    """Check the files in a folder. Raises SystemExit where there is no verdict."""
+async def time_check(name: str, exercise: str, kind: str, folder: Path) -> Timing:
+    """Check the files in a folder. Raises SystemExit if there is no verdict."""
     began = time.perf_counter()
     process = await asyncio.create_subprocess_exec(
         *(sys.executable, "-c", PROGRAM, exercise, str(folder)),
@@ -84,89 +85,89 @@ async def take(name: str, exercise: str, kind: str, folder: Path) -> Taken:
         if process.returncode is None:
             process.terminate()
             await process.wait()
-    whole_s, said = time.perf_counter() - began, (await stderr).decode()
+    whole_s, errors = time.perf_counter() - began, (await stderr).decode()
     if not verdict:
-        raise SystemExit(f"{name} was not judged:\n{said}")
-    ours_s, started_s = json.loads(said.splitlines()[-1])
-    return Taken(name, exercise, kind, verdict, told_s, whole_s, ours_s, started_s)
+        raise SystemExit(f"{name} was not judged:\n{errors}")
+    ours_s, started_s = json.loads(errors.splitlines()[-1])
+    return Timing(name, exercise, kind, verdict, told_s, whole_s, ours_s, started_s)
 
 
-async def take_all(wanted: Sequence[tuple[str, str, str, Path]], jobs: int) -> list[Taken]:
-    """Check all, this many at a time; report each on stderr."""
-    free, taken = asyncio.Semaphore(jobs), []
+async def time_all(wanted: Sequence[tuple[str, str, str, Path]], jobs: int) -> list[Timing]:
+    """Check all, `jobs` at a time; report each on stderr."""
+    slots, timings = asyncio.Semaphore(jobs), []
 
-    async def one(name: str, exercise: str, kind: str, folder: Path) -> None:
-        async with free:
-            each = await take(name, exercise, kind, folder)
-        taken.append(each)
+    async def check_one(name: str, exercise: str, kind: str, folder: Path) -> None:
+        async with slots:
+            each = await time_check(name, exercise, kind, folder)
+        timings.append(each)
         told = f"{each.told_s:6.2f}" if each.told_s is not None else "      "
-        print(f"{len(taken):>5}/{len(wanted)} {told} {each.whole_s:6.2f} s  {name}", file=sys.stderr, flush=True)
+        print(f"{len(timings):>5}/{len(wanted)} {told} {each.whole_s:6.2f} s  {name}", file=sys.stderr, flush=True)
 
     async with asyncio.TaskGroup() as tasks:
         for each in wanted:
-            tasks.create_task(one(*each))
-    return taken
+            tasks.create_task(check_one(*each))
+    return timings
 
 
 def quantile(values: Sequence[float], share: float) -> float:
-    """The value that this share of the values (0 to 1) stays within; NaN where there are none."""
+    """Return the value that this share (0 to 1) of the values stays within; NaN if there are none."""
     ordered = sorted(values)
     return ordered[min(len(ordered) - 1, int(share * len(ordered)))] if ordered else float("nan")
 
 
-def row(name: str, taken: Sequence[Taken], solution_s: float | None) -> str:
-    """The figures of some checks. `solution_s`: how long that of the solution takes."""
-    told = [each.told_s for each in taken if each.told_s is not None]
-    whole = [each.whole_s for each in taken]
+def format_row(name: str, timings: Sequence[Timing], solution_s: float | None) -> str:
+    """Format the figures of some checks. `solution_s` is the duration of the solution's check."""
+    told = [each.told_s for each in timings if each.told_s is not None]
+    whole = [each.whole_s for each in timings]
     shares = ""
     if solution_s is not None and whole:
         within = sum(each <= 2 * solution_s + 4 for each in whole) / len(whole)
         shares = f"{quantile(whole, 0.5) / solution_s:>8.2f}{within:>9.0%}"
-    cpu = f"{statistics.mean(t.ours_s for t in taken):>7.2f}{statistics.mean(t.started_s for t in taken):>9.2f}"
-    figures = "".join(f"{quantile(of, share):>7.2f}" for of in (told, whole) for share in (0.5, 0.9, 1.0))
-    return f"{name:<16}{len(taken):>5}{figures}{cpu}{shares}"
+    cpu = f"{statistics.mean(t.ours_s for t in timings):>7.2f}{statistics.mean(t.started_s for t in timings):>9.2f}"
+    figures = "".join(f"{quantile(times, share):>7.2f}" for times in (told, whole) for share in (0.5, 0.9, 1.0))
+    return f"{name:<16}{len(timings):>5}{figures}{cpu}{shares}"
 
 
 def main() -> int:
-    """Print a line for each exercise's solution and for its wrong submissions, and one for all of these."""
+    """Print a line for each exercise's solution and wrong submissions, and one for all wrong submissions."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
     parser.add_argument("--sample", action="store_true", help="only the submissions that the tests judge")
-    parser.add_argument("--jobs", type=int, default=2, help="this many submissions at a time")
+    parser.add_argument("--jobs", type=int, default=2, help="submissions checked in parallel")
     parser.add_argument("--times", type=int, default=1, help="check each submission this many times")
     parser.add_argument("--solution-times", type=int, default=3, help="check each solution this many times, alone")
-    parser.add_argument("--csv", type=Path, help="write every check to this file, too")
+    parser.add_argument("--csv", type=Path, help="also write every check to this file")
     arguments = parser.parse_args()
     cases = find(arguments.wanted)[0]
     cases = [case for case in (sample(cases) if arguments.sample else cases) if case.kind == WRONG]
     if not cases:
-        parser.error("no wrong submission of this name")
+        parser.error("no wrong submission has this name")
     lessons = [lesson for lesson in load_course().lessons if any(case.exercise == lesson.id for case in cases)]
     print(f"{len(os.sched_getaffinity(0))} cores, load {os.getloadavg()[0]:.1f}; seconds")
     print(f"{'':<16}{'':>5}{'told':>7}{'':>14}{'whole':>7}{'':>14}{'CPU':>7}{'':>9}{'times':>8}")
     heads = "".join(f"{head:>7}" for head in ("p50", "p90", "max") * 2)
     print(f"{'':<16}{'n':>5}{heads}{'ours':>7}{'started':>9}{'sol.':>8}{'within':>9}")
-    taken: list[Taken] = []
+    timings: list[Timing] = []
     solution_s: dict[str, float] = {}
     for lesson in lessons:
         folder = lesson.folder / "solution"
         own = [(f"{lesson.id} solution", lesson.id, "solution", folder)] * arguments.solution_times
-        solutions = asyncio.run(take_all(own, 1))
+        solutions = asyncio.run(time_all(own, 1))
         solution_s[lesson.id] = statistics.median(each.whole_s for each in solutions)
-        print(row(f"{lesson.id} solution", solutions, None), flush=True)
-        taken += solutions
+        print(format_row(f"{lesson.id} solution", solutions, None), flush=True)
+        timings += solutions
     for lesson in lessons:
         mine = [case for case in cases if case.exercise == lesson.id]
         wrong = [(str(case), lesson.id, WRONG, case.folder) for case in mine] * arguments.times
-        found = asyncio.run(take_all(wrong, arguments.jobs))
-        print(row(f"{lesson.id} wrong", found, solution_s[lesson.id]), flush=True)
-        taken += found
-    print(row("all wrong", [each for each in taken if each.kind == WRONG], None))
+        found = asyncio.run(time_all(wrong, arguments.jobs))
+        print(format_row(f"{lesson.id} wrong", found, solution_s[lesson.id]), flush=True)
+        timings += found
+    print(format_row("all wrong", [each for each in timings if each.kind == WRONG], None))
     if arguments.csv:
         with arguments.csv.open("w", newline="") as file:
             writer = csv.writer(file)
-            names = list(Taken.__dataclass_fields__)
-            writer.writerows([names, *([getattr(each, name) for name in names] for each in taken)])
+            names = list(Timing.__dataclass_fields__)
+            writer.writerows([names, *([getattr(each, name) for name in names] for each in timings)])
     return 0
 
 

@@ -1,4 +1,4 @@
-"""The engine in this process, on real processes and real DDS; ROS's variables are put back afterwards."""
+"""Run the engine in this process, on real processes and real DDS, and restore ROS's variables afterwards."""
 
 from __future__ import annotations
 
@@ -15,26 +15,26 @@ from tutor.ros import process_setup
 from tutor.ros.environment import RosEnvironment, detect
 
 
-@pytest.fixture(scope="module")  # "package" would last as long as the session: this folder is no package
+@pytest.fixture(scope="module")  # "package" would mean the session: this folder is no package
 def ros() -> Iterator[RosEnvironment]:
-    """ROS, chosen and isolated as for a check; `import rclpy` works from here on."""
+    """The ROS installation, chosen and isolated as for a check; `import rclpy` works from here on."""
     path = list(sys.path)
-    chosen = detect()
+    environment = detect()
     with process_setup.environment_restored():
-        process_setup.prepare_for_rclpy(chosen, isolated=True)
+        process_setup.prepare_for_rclpy(environment, isolated=True)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of what ROS itself imports
+            warnings.simplefilter("ignore")  # from ROS's own imports
             importlib.import_module("rosidl_generator_py")
             importlib.import_module("tutor.engine.runner")
-        yield chosen
+        yield environment
     sys.path[:] = path
 
 
 @pytest.fixture
 async def scene(ros: RosEnvironment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> AsyncIterator[Scene]:
-    """A place for learners' scripts; after the test no process of theirs is left, nor a domain of ours reserved."""
+    """Runs learners' scripts; after the test none of their processes may be left, and no domain reserved."""
     scene = Scene(ros, tmp_path, monkeypatch)
     yield scene
-    left = scene.left()
-    assert not left
-    assert not scene.held
+    leftovers = scene.leftovers()
+    assert not leftovers
+    assert not scene.reserved_domains

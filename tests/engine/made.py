@@ -1,4 +1,4 @@
-"""Tiny checks, tiny lessons and tiny learners."""
+"""Minimal checks, lessons and learners' programs for the engine's tests."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from tutor.process.supervisor import processes
 from tutor.ros import domain
 from tutor.ros.environment import RosEnvironment
 
-if TYPE_CHECKING:  # they bring in rclpy, which must find its environment chosen
+if TYPE_CHECKING:  # it imports rclpy, which needs a prepared environment
     from tutor.engine.bench import RosBench
 
 FILE = "node.py"
 
-# A learner that needs no ROS.
+# A learner's program that needs no ROS.
 WAITS = "import time\nprint('up', flush=True)\ntime.sleep(1000)\n"
 
-# `{}` is what the node does when it has been made.
+# `{}` runs once the node has been created.
 NODE = """
 import sys, threading, time
 import rclpy
@@ -51,9 +51,9 @@ finally:
 """
 
 
-def node(*does: str) -> str:
-    """A learner's node."""
-    return NODE.format("\n".join(does))
+def node(*setup: str) -> str:
+    """Return the source of a learner's node that runs `setup` before it spins."""
+    return NODE.format("\n".join(setup))
 
 
 PUBLISHES = """
@@ -63,44 +63,44 @@ node.create_timer(0.05, lambda: publisher.publish(String(data=node.get_name())))
 
 
 class Scene:
-    """Learners' scripts in a folder, and what is left of them."""
+    """Runs learners' scripts in a folder, and tracks their processes and domains."""
 
     def __init__(self, ros: RosEnvironment, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         self.ros = ros
         self.folder = folder
         self.events: list[Event] = []
-        self.held: set[int] = set()
-        self.domains: list[int] = []
+        self.reserved_domains: set[int] = set()
+        self.seen_domains: list[int] = []
         self.token = uuid.uuid4().hex
         monkeypatch.setenv("TEST_TOKEN", self.token)
-        self._watch_domains(monkeypatch)
+        self._track_domains(monkeypatch)
 
-    def _watch_domains(self, monkeypatch: pytest.MonkeyPatch) -> None:
+    def _track_domains(self, monkeypatch: pytest.MonkeyPatch) -> None:
         import tutor.engine.bench as live
 
         @contextmanager
-        def watched() -> Iterator[int]:
+        def tracked() -> Iterator[int]:
             with domain.reserve_domain() as reserved:
-                self.held.add(reserved)
-                self.domains.append(reserved)
+                self.reserved_domains.add(reserved)
+                self.seen_domains.append(reserved)
                 try:
                     yield reserved
                 finally:
-                    self.held.remove(reserved)
+                    self.reserved_domains.remove(reserved)
 
-        monkeypatch.setattr(live, "reserve_domain", watched)
+        monkeypatch.setattr(live, "reserve_domain", tracked)
 
     def submission(self, **sources: str) -> Submission:
-        """A submission of the given files (`node="..."` is node.py)."""
+        """Write a submission of the given files (`node="..."` becomes node.py)."""
         for name, source in sources.items():
             (self.folder / f"{name}.py").write_text(source)
         return Submission("t1", {f"{name}.py": self.folder / f"{name}.py" for name in sources})
 
     def bench(self, source: str) -> RosBench:
-        """A bench on which this script is node.py."""
+        """Return a bench with this script as node.py."""
         from tutor.engine.bench import RosBench
 
-        return RosBench(self.submission(node=source), self.ros, nothing_shared, lambda fraction, text: None)
+        return RosBench(self.submission(node=source), self.ros, refuse_facts, lambda fraction, text: None)
 
     async def judge(
         self,
@@ -110,31 +110,31 @@ class Scene:
         on_event: Callable[[Event], None] | None = None,
         first: bool = False,
     ) -> ExerciseResult:
-        """Run a check of these criteria on a script; its events are kept in `events`."""
+        """Run a check of these criteria on a script; its events are appended to `events`."""
         from tutor.engine.runner import Runner
 
-        def hear(event: Event) -> None:
+        def record(event: Event) -> None:
             self.events.append(event)
             if on_event is not None:
                 on_event(event)
 
         check = Check("t1", criteria)
         submission = self.submission(node=source)
-        return await Runner(check, lesson(check), submission, self.ros, only, hear, first=first).run()
+        return await Runner(check, lesson(check), submission, self.ros, only, record, first=first).run()
 
-    def left(self) -> list[int]:
-        """The living processes that were started by this test."""
+    def leftovers(self) -> list[int]:
+        """Return the pids of living processes that this test has started."""
         mark = f"TEST_TOKEN={self.token}".encode()
         return sorted(pid for pid, p in processes().items() if p.alive and pid != os.getpid() and mark in _environ(pid))
 
 
-async def nothing_shared(scenario: Scenario[Any]) -> Any:
-    """For a bench whose scenario asks for the facts of no other one."""
+async def refuse_facts(scenario: Scenario[Any]) -> Any:
+    """Serve as `bench.facts` for a scenario that must not ask for another scenario's facts."""
     raise AssertionError("no other scenario")
 
 
 def lesson(check: Check) -> Lesson:
-    """A lesson for a check; every criterion has a text but the last."""
+    """Return a lesson for a check; every criterion but the last has a text."""
     return Lesson(
         id=check.exercise,
         title="Made",
@@ -151,12 +151,12 @@ def lesson(check: Check) -> Lesson:
 
 
 def criterion(name: str, *facts: Scenario[Any], judge: Callable[..., Verdict] | None = None, **more: Any) -> Criterion:
-    """A criterion that passes, unless `judge` says otherwise."""
+    """Return a criterion that passes unless `judge` says otherwise."""
     return Criterion(name, judge or (lambda *facts: passed("all", str(facts))), facts, **more)
 
 
-def plain(result: ExerciseResult) -> Mapping[str, str]:
-    """Each criterion's status."""
+def statuses(result: ExerciseResult) -> Mapping[str, str]:
+    """Return each criterion's status by id."""
     return {each.id: each.verdict.status.value for each in result.criteria}
 
 

@@ -1,4 +1,4 @@
-"""However large what a node sends is, little of it is held: real nodes, real DDS."""
+"""Memory stays bounded however large a node's messages are: real nodes, real DDS."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from tests.engine.made import FILE, PUBLISHES, Scene, node
 from tutor.judge.bench import Run
 
 CHATTER = {"/chatter": "std_msgs/msg/String"}
-UP_S = 30.0
+STARTUP_S = 30.0
 MB = 1_000_000
 
-RELIABLY = """
+PUBLISHES_RELIABLY = """
 publisher = node.create_publisher(String, "chatter", 10)
 node.create_timer(0.2, lambda: publisher.publish({}))
 """
@@ -28,35 +28,35 @@ node.declare_parameter("name", "thermometer")
 
 
 def resident_mb() -> float:
-    """The memory that this process has now."""
+    """Return the resident memory of this process."""
     return int(Path("/proc/self/statm").read_text().split()[1]) * 4 / 1024
 
 
-async def _received(scene: Scene, message: str, *, count: int) -> list[str]:
+async def _receive_texts(scene: Scene, message: str, *, count: int) -> list[str]:
     from tutor.ros.observer import Observer
     from tutor.ros_model import QoS
 
-    async with scene.bench(node(RELIABLY.format(message))).start(FILE) as run:
+    async with scene.bench(node(PUBLISHES_RELIABLY.format(message))).start(FILE) as run:
         observer = Observer(run._domain_id)  # type: ignore[attr-defined]
         try:
             observer.watch("/chatter", CHATTER["/chatter"], QoS("reliable", "volatile"))
-            assert await run.until(lambda: len(observer.samples["/chatter"]) >= count, UP_S)
+            assert await run.until(lambda: len(observer.samples["/chatter"]) >= count, STARTUP_S)
             return [sample.message["data"] for sample in observer.samples["/chatter"]]
         finally:
             observer.close()
 
 
-async def test_a_message_that_is_too_large_to_be_looked_into_is_counted(scene: Scene) -> None:
-    texts = await _received(scene, 'String(data="x" * 3_000_000)', count=3)
+async def test_messages_too_large_to_decode_are_counted(scene: Scene) -> None:
+    texts = await _receive_texts(scene, 'String(data="x" * 3_000_000)', count=3)
     assert set(texts) == {"(a message of 3.0 MB, too large to decode)"}
 
 
-async def test_bytes_that_are_no_message_are_no_fault_of_ours(scene: Scene) -> None:
-    texts = await _received(scene, "bytes([0, 1, 0, 0, 255, 255, 255, 127])", count=2)
+async def test_undecodable_bytes_are_not_reported_as_our_fault(scene: Scene) -> None:
+    texts = await _receive_texts(scene, "bytes([0, 1, 0, 0, 255, 255, 255, 127])", count=2)
     assert set(texts) == {"(8 bytes that are not a valid String)"}
 
 
-async def test_a_flood_of_what_is_too_large_is_left_and_others_are_heard_on(scene: Scene) -> None:
+async def test_a_flood_of_oversized_messages_is_dropped_and_other_nodes_are_still_received(scene: Scene) -> None:
     flood = node(
         'publisher = node.create_publisher(String, "chatter", 10)',
         'message = String(data="x" * 100_000_000)',
@@ -64,23 +64,23 @@ async def test_a_flood_of_what_is_too_large_is_left_and_others_are_heard_on(scen
     )
     bench = replace(scene.bench(flood), submission=scene.submission(node=flood, quiet=node(PUBLISHES)))
     async with bench.start("quiet.py", watch=CHATTER) as quiet:
-        await _heard(quiet, 5)
-        before, most = resident_mb(), 0.0
+        await _wait_for_samples(quiet, 5)
+        before, peak = resident_mb(), 0.0
         async with bench.start(FILE, watch=CHATTER) as loud:
-            assert await loud.until(lambda: bool(loud.graph.publishers), UP_S)
+            assert await loud.until(lambda: bool(loud.graph.publishers), STARTUP_S)
             for _ in range(100):
-                await asyncio.sleep(0.03)  # the pace of looking
-                most = max(most, resident_mb())
+                await asyncio.sleep(0.03)  # about how often the observer takes samples
+                peak = max(peak, resident_mb())
             assert not loud.samples_on("/chatter")
-            await _heard(quiet, len(quiet.samples_on("/chatter")) + 20)
-    assert most - before < 100
+            await _wait_for_samples(quiet, len(quiet.samples_on("/chatter")) + 20)
+    assert peak - before < 100
 
 
-async def _heard(run: Run, count: int) -> None:
-    assert await run.until(lambda: len(run.samples_on("/chatter")) >= count, UP_S)
+async def _wait_for_samples(run: Run, count: int) -> None:
+    assert await run.until(lambda: len(run.samples_on("/chatter")) >= count, STARTUP_S)
 
 
-async def test_what_is_too_large_of_the_parameters_is_said_and_the_others_are_read(
+async def test_oversized_parameters_are_reported_and_the_others_read(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from tutor.ros import memory_guard
@@ -88,7 +88,7 @@ async def test_what_is_too_large_of_the_parameters_is_said_and_the_others_are_re
     monkeypatch.setattr(memory_guard, "MOST_BYTES", 4 * MB)
     async with scene.bench(node(LARGE_PARAMETERS)).start(FILE) as run:
         assert await run.until(
-            lambda: any(s.name == "/learner/set_parameters_atomically" for s in run.graph.services), UP_S
+            lambda: any(s.name == "/learner/set_parameters_atomically" for s in run.graph.services), STARTUP_S
         )
         before = resident_mb()
         declared = await run.parameters(30.0)

@@ -1,4 +1,4 @@
-"""What `tutor.engine.check` leaves behind, and brings along, in the process that calls it."""
+"""What `tutor.engine.check` imports and leaves behind in the process that calls it."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ async def check_twice_at_once():
 
 for checks in (check, check_twice_at_once):
     asyncio.run(checks())
-    # What the user runs from this process next is no part of a check.
+    # Programs that the user starts from this process next must not inherit a check's environment.
     assert dict(os.environ) == before, set(os.environ.items()) ^ set(before.items())
 """
 
 
-def test_further_checks_in_the_same_process() -> None:
+def test_checks_can_be_repeated_in_one_process() -> None:
     ran = subprocess.run(
         [sys.executable, "-c", CHECKS_TWICE],
         capture_output=True,
@@ -63,8 +63,8 @@ print(*{name.partition(".")[0] for name in set(sys.modules) - early} - {"tutor",
 """
 
 
-def test_nothing_of_ros_is_imported_while_a_learners_program_runs() -> None:
-    """It would be refused where its file changes meanwhile, be it that another environment is linked to it."""
+def test_no_ros_module_is_imported_while_a_learners_program_runs() -> None:
+    """A late import is refused if the file changes meanwhile, even if only a hard link to it is added."""
     ran = subprocess.run(
         [sys.executable, "-c", NOTES_LATE_IMPORTS],
         capture_output=True,

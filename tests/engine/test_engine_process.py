@@ -1,4 +1,4 @@
-"""`python -m tutor.engine`: what it writes, how it ends, and that it leaves nothing."""
+"""`python -m tutor.engine`: what it writes, how it ends, and that it leaves no process behind."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ SOLUTION = Path(__file__).parents[2] / "lessons" / "i1_1" / "solution"
 
 
 class Engine:
-    """One run of the engine, and what was started by it."""
+    """One run of the engine, and the processes that it starts."""
 
     def __init__(self, *arguments: str | Path) -> None:
-        self._known: set[int] = set()
+        self._known_pids: set[int] = set()
         self._mark = f"TEST_TOKEN={uuid.uuid4().hex}"
         self._process = subprocess.Popen(
             [sys.executable, "-m", "tutor.engine", *map(str, arguments)],
@@ -38,37 +38,37 @@ class Engine:
             text=True,
         )
 
-    def left(self) -> list[int]:
-        """What runs of it, itself included."""
-        self._known |= {self._process.pid, *(each.pid for each in descendants(self._process.pid))}
-        found = []
+    def running(self) -> list[int]:
+        """Return the pids of the engine and its descendants that are still alive."""
+        self._known_pids |= {self._process.pid, *(each.pid for each in descendants(self._process.pid))}
+        pids = []
         for pid, process in processes().items():
             try:
                 mine = self._mark.encode() in Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
-            except OSError:  # it has ended, or is one of our own, which do not let everybody read it
+            except OSError:  # it has ended, or is one of ours, which not everybody may read
                 mine = False
-            if process.alive and (mine or pid in self._known):
-                found.append(pid)
-        return found
+            if process.alive and (mine or pid in self._known_pids):
+                pids.append(pid)
+        return pids
 
-    def until(self, kind: type[Event]) -> Event:
-        """The next event of this kind."""
+    def read_until(self, kind: type[Event]) -> Event:
+        """Read up to the next event of this kind, and return it."""
         assert self._process.stdout is not None
         for line in self._process.stdout:
             if isinstance(event := decode(line), kind):
                 return event
         raise AssertionError(f"no {kind.__name__}: {self._process.communicate()}")
 
-    def send(self, number: int) -> None:
+    def send_signal(self, number: int) -> None:
         self._process.send_signal(number)
 
-    def hang_up(self) -> None:
-        """Go away, as a front end that was killed."""
+    def close_stdout(self) -> None:
+        """Close stdout, as a front end does when it is killed."""
         assert self._process.stdout is not None
         self._process.stdout.close()
 
-    def end(self) -> tuple[int, list[Event], str]:
-        """The exit code, the events that are left to read, and stderr."""
+    def wait(self) -> tuple[int, list[Event], str]:
+        """Wait for the exit; return the exit code, the events not yet read, and stderr."""
         assert self._process.stdout is not None
         out = "" if self._process.stdout.closed else self._process.stdout.read()
         _, err = self._process.communicate(timeout=LIMIT_S) if out else ("", "")
@@ -76,7 +76,7 @@ class Engine:
         return code, [decode(line) for line in out.splitlines()], err
 
     def kill(self) -> None:
-        for pid in self.left():
+        for pid in self.running():
             os.kill(pid, signal.SIGKILL)
         self._process.wait()
         for stream in (self._process.stdout, self._process.stderr):
@@ -89,15 +89,15 @@ def engine(*arguments: str | Path) -> Iterator[Engine]:
     started = Engine(*arguments)
     try:
         yield started
-        end = time.monotonic() + 20
-        while left := started.left():
-            assert time.monotonic() < end, left
+        deadline = time.monotonic() + 20
+        while pids := started.running():
+            assert time.monotonic() < deadline, pids
             time.sleep(0.01)
     finally:
         started.kill()
 
 
-def ran(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+def run_engine(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-m", "tutor.engine", *map(str, arguments)],
         capture_output=True,
@@ -107,9 +107,9 @@ def ran(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     )
 
 
-def test_nothing_but_events_on_stdout() -> None:
+def test_stdout_has_only_events() -> None:
     with engine("i1.1", SOLUTION, "--criterion", "publishes") as started:
-        code, events, err = started.end()
+        code, events, err = started.wait()
     assert (code, err) == (0, "")
     assert events[0] == CheckStarted("i1.1", ("publishes",))
     (judged,) = (event for event in events if isinstance(event, CriterionJudged))
@@ -121,22 +121,22 @@ def test_nothing_but_events_on_stdout() -> None:
     assert exercise.result.criteria == (judged.result,)
 
 
-def test_a_failure_is_an_answer_too(tmp_path: Path) -> None:
+def test_a_failed_check_exits_with_0(tmp_path: Path) -> None:
     (tmp_path / "temperature_publisher.py").write_text("raise SystemExit(3)")
     with engine("i1.1", tmp_path, "--criterion", "publishes") as started:
-        code, events, err = started.end()
+        code, events, err = started.wait()
     assert (code, err) == (0, "")
     finished = events[-1]
     assert isinstance(finished, CheckFinished)
     assert finished.report.verdict is Status.FAILED
 
 
-def test_an_untouched_skeleton_is_told_what_is_missing_and_with_first_its_check_ends_there() -> None:
+def test_a_skeletons_check_reports_what_is_missing_and_with_first_ends_at_the_first_failure() -> None:
     with engine("i1.1", SOLUTION.with_name("skeleton"), "--first") as started:
-        code, events, err = started.end()
+        code, events, err = started.wait()
     assert (code, err) == (0, "")
-    known = [event.so_far for event in events if isinstance(event, Progress) and event.criterion == "publishes"]
-    assert any("no publisher on /sensor/temperature yet, /temperature_publisher is up" in each for each in known)
+    reported = [event.so_far for event in events if isinstance(event, Progress) and event.criterion == "publishes"]
+    assert any("no publisher on /sensor/temperature yet, /temperature_publisher is up" in each for each in reported)
     (exercise,) = (event.result for event in events if isinstance(event, ExerciseJudged))
     statuses = {each.id: each.verdict.status for each in exercise.criteria}
     assert [id for id, status in statuses.items() if status is Status.FAILED] == ["publishes"]
@@ -145,48 +145,48 @@ def test_an_untouched_skeleton_is_told_what_is_missing_and_with_first_its_check_
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_interrupted_it_cleans_up(tmp_path: Path, number: int) -> None:
+def test_an_interrupted_engine_cleans_up(tmp_path: Path, number: int) -> None:
     (tmp_path / "temperature_publisher.py").write_text(WAITS)
     with engine("i1.1", tmp_path) as started:
-        started.until(CheckStarted)
-        end = time.monotonic() + 20
-        while len(started.left()) < 3:  # itself, a supervisor and a learner
-            assert time.monotonic() < end
+        started.read_until(CheckStarted)
+        deadline = time.monotonic() + 20
+        while len(started.running()) < 3:  # itself, a supervisor and a learner
+            assert time.monotonic() < deadline
             time.sleep(0.01)
-        started.send(number)
-        code, events, err = started.end()
+        started.send_signal(number)
+        code, events, err = started.wait()
         assert (code, err) == (130, "")
         assert not any(isinstance(event, CheckFinished) for event in events)
 
 
-def test_killed_it_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("TMPDIR", str(tmp_path))  # nobody is left to clear away the folders of its logs
+def test_a_killed_engine_leaves_no_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TMPDIR", str(tmp_path))  # nobody removes the log folders of a killed engine
     (tmp_path / "temperature_publisher.py").write_text(WAITS)
     with engine("i1.1", tmp_path) as started:
-        started.until(CheckStarted)
-        end = time.monotonic() + 20
-        while len(started.left()) < 3:
-            assert time.monotonic() < end
+        started.read_until(CheckStarted)
+        deadline = time.monotonic() + 20
+        while len(started.running()) < 3:
+            assert time.monotonic() < deadline
             time.sleep(0.01)
-        started.send(signal.SIGKILL)
+        started.send_signal(signal.SIGKILL)
 
 
-def test_without_a_reader_it_ends(tmp_path: Path) -> None:
+def test_the_engine_ends_when_its_reader_is_gone(tmp_path: Path) -> None:
     with engine("i1.1", SOLUTION) as started:
-        started.until(CheckStarted)
-        started.hang_up()
-        code, _, _ = started.end()
+        started.read_until(CheckStarted)
+        started.close_stdout()
+        code, _, _ = started.wait()
     assert code != 0
 
 
-def test_wrong_usage_is_told_in_one_line(tmp_path: Path) -> None:
+def test_wrong_usage_gets_an_error_without_a_traceback(tmp_path: Path) -> None:
     for arguments, word in [
         (("i9.9", tmp_path), "i9.9"),
         (("i1.1", tmp_path), "temperature_publisher.py"),
         (("i1.1", tmp_path / "nothing.py"), "nothing.py"),
         (("i1.1", SOLUTION, "--lessons", tmp_path), str(tmp_path)),
     ]:
-        answer = ran(*arguments)
+        answer = run_engine(*arguments)
         assert (answer.returncode, answer.stdout) == (2, ""), answer
         assert word in answer.stderr
         assert "Traceback" not in answer.stderr

@@ -1,4 +1,4 @@
-"""Two checks never meet, not even on one domain id."""
+"""Two checks never discover each other, not even on one domain id."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from tutor.ros.environment import learner_env
 
 TYPE = "std_msgs/msg/String"
 
-# Publishes on /other, and says whom it sees: itself only, or others, too.
-OTHERS = node(
+# Publishes on /other, and prints the nodes and topics that it discovers.
+OTHER_NODE = node(
     PUBLISHES.replace('"chatter"', '"other"').replace("node.get_name()", "'from the other check'"),
     """
 def look():
@@ -26,13 +26,15 @@ heard = node.create_subscription(String, "chatter", lambda message: print("HEARD
 
 
 @asynccontextmanager
-async def others_node(scene: Scene, folder: Path, domain_id: int, group: str) -> AsyncIterator[asyncio.StreamReader]:
-    """A node as another check starts it; gives what it writes."""
-    (folder / "others_node.py").write_text(OTHERS)
+async def other_checks_node(
+    scene: Scene, folder: Path, domain_id: int, group: str
+) -> AsyncIterator[asyncio.StreamReader]:
+    """Start a node as another check does; yield its stdout."""
+    (folder / "other_checks_node.py").write_text(OTHER_NODE)
     env = learner_env(scene.ros, domain_id=domain_id, log_dir=folder, package_root=None, isolated=True)
     process = await asyncio.create_subprocess_exec(
         scene.ros.python,
-        folder / "others_node.py",
+        folder / "other_checks_node.py",
         env={**env, "ROS_TUTOR_GROUP": group},
         stdout=asyncio.subprocess.PIPE,
     )
@@ -44,20 +46,20 @@ async def others_node(scene: Scene, folder: Path, domain_id: int, group: str) ->
         await process.communicate()
 
 
-async def test_on_one_domain_id_they_do_not_see_each_other(scene: Scene, tmp_path: Path) -> None:
+async def test_checks_on_one_domain_id_do_not_discover_each_other(scene: Scene, tmp_path: Path) -> None:
     watch = {"/chatter": TYPE, "/other": TYPE}
     async with scene.bench(node(PUBLISHES)).start(FILE, watch=watch) as run:
         assert await run.until(lambda: bool(run.samples_on("/chatter")), 20), run.trace()
-        (domain_id,) = scene.domains
-        async with others_node(scene, tmp_path, domain_id, "239.1.2.3") as said:
+        (domain_id,) = scene.seen_domains
+        async with other_checks_node(scene, tmp_path, domain_id, "239.1.2.3") as stdout:
             seen: list[str] = []
             while not seen or "/other" not in seen[-1]:  # it is up, and discovery is running
-                seen.append((await asyncio.wait_for(said.readline(), 20)).decode())
-            already = len(run.samples_on("/chatter"))
-            # Both go on for longer than either needs to find a node that it can find.
-            assert await run.until(lambda: len(run.samples_on("/chatter")) >= already + 20, 20)
+                seen.append((await asyncio.wait_for(stdout.readline(), 20)).decode())
+            received = len(run.samples_on("/chatter"))
+            # Both run on for longer than discovery takes.
+            assert await run.until(lambda: len(run.samples_on("/chatter")) >= received + 20, 20)
             while len(seen) < 20:
-                seen.append((await asyncio.wait_for(said.readline(), 20)).decode())
+                seen.append((await asyncio.wait_for(stdout.readline(), 20)).decode())
             graph = run.graph
     assert run.samples_on("/other") == []
     assert graph.nodes == ("/learner",)
@@ -66,12 +68,12 @@ async def test_on_one_domain_id_they_do_not_see_each_other(scene: Scene, tmp_pat
     assert all(line.count("'learner'") == 1 for line in seen), "itself only"
 
 
-async def test_two_nodes_of_one_check_do_see_each_other(scene: Scene, tmp_path: Path) -> None:
-    """So the test above could fail."""
+async def test_two_nodes_of_one_check_discover_each_other(scene: Scene, tmp_path: Path) -> None:
+    """Shows that the test above can fail."""
     async with scene.bench(node(PUBLISHES)).start(FILE, watch={"/other": TYPE}) as run:
-        (domain_id,) = scene.domains
-        async with others_node(scene, tmp_path, domain_id, os.environ["ROS_TUTOR_GROUP"]) as said:
+        (domain_id,) = scene.seen_domains
+        async with other_checks_node(scene, tmp_path, domain_id, os.environ["ROS_TUTOR_GROUP"]) as stdout:
             line = ""
             while line.count("'learner'") != 2:
-                line = (await asyncio.wait_for(said.readline(), 20)).decode()
+                line = (await asyncio.wait_for(stdout.readline(), 20)).decode()
             assert await run.until(lambda: bool(run.samples_on("/other")), 20)

@@ -1,4 +1,4 @@
-"""A course from elsewhere, given with --lessons: tests/courses/greeting, whose check is a package of modules."""
+"""A course from outside the package, given with --lessons: tests/courses/greeting, whose check is a package."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from tutor.interpreter import module_command
 COURSE = Path(__file__).parents[1] / "courses" / "greeting"
 
 
-def checked(course: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+def run_check(course: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     command = module_command("tutor", "check", "h1.1", "--lessons", str(course), *arguments)
     return subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
 
 
-def test_its_check_is_loaded_with_modules_and_dataclasses_of_its_own() -> None:
-    answer = checked(COURSE, "--solution", "--format", "json")
+def test_an_outside_check_is_loaded_with_its_own_modules_and_dataclasses() -> None:
+    answer = run_check(COURSE, "--solution", "--format", "json")
     (exercise,) = json.loads(answer.stdout)["exercises"]
     assert (answer.returncode, exercise["verdict"]) == (0, "passed")
 
 
 @pytest.mark.parametrize("place", ["package", "module"])
-def test_where_its_check_is_broken_the_authors_file_is_named(tmp_path: Path, place: str) -> None:
+def test_an_error_in_an_outside_check_names_the_authors_file(tmp_path: Path, place: str) -> None:
     course = shutil.copytree(COURSE, tmp_path / "course")
     file = course / "checks" / "h1_1" / ("__init__.py" if place == "package" else "judges.py")
     file.write_text(file.read_text() + "\nimport no_such_module\n")
-    answer = checked(course, "--solution")
+    answer = run_check(course, "--solution")
     assert answer.returncode == 3, answer
     assert str(file) in answer.stdout + answer.stderr

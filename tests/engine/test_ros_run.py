@@ -1,4 +1,4 @@
-"""What can be done to a live node, and what is seen of it."""
+"""What a run can do to a live node, and what it observes."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from tutor.ros_model import QoS
 
 CHATTER = {"/chatter": "std_msgs/msg/String"}
 ADD = "example_interfaces/srv/AddTwoInts"
-UP_S = 20.0
-"""A node on a busy machine may take this long to be seen."""
+STARTUP_S = 20.0
+"""Limit for the discovery of a node on a busy machine."""
 
 SERVES = """
 def add(request, response):
@@ -56,8 +56,8 @@ node.add_on_set_parameters_callback(judge)
 """
 
 
-# Tells of each Ctrl+C, and ends at the first one a moment later: a second one would be told, too.
-COUNTS = """
+# Reports each SIGINT, and ends shortly after the first one, so that a second one would be reported as well.
+COUNTS_INTERRUPTS = """
 import signal, sys, threading
 def count(*_):
     print("interrupted", flush=True)
@@ -77,27 +77,27 @@ def generate_launch_description():
 """
 
 
-LATER = """
+PUBLISHES_LATER = """
 import threading
 publisher = node.create_publisher(String, "later", 10)
 threading.Timer(2.5, lambda: publisher.publish(String(data="at last"))).start()
 """
-PARTNER = """
+STARTS_CHILD = """
 import subprocess, sys
 subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)"])
 """
 LONG_S = 60.0
 
 
-async def publishing(run: Run, topic: str = "/chatter") -> None:
-    assert await run.until(lambda: bool(run.samples_on(topic)), UP_S), run.trace()
+async def wait_for_samples(run: Run, topic: str = "/chatter") -> None:
+    assert await run.until(lambda: bool(run.samples_on(topic)), STARTUP_S), run.trace()
 
 
-async def there(run: Run, service: str) -> None:
-    assert await run.until(lambda: any(s.name == service for s in run.graph.servers), UP_S), run.trace()
+async def wait_for_service(run: Run, service: str) -> None:
+    assert await run.until(lambda: any(s.name == service for s in run.graph.servers), STARTUP_S), run.trace()
 
 
-async def test_a_node_is_watched_from_its_first_message_to_its_end(scene: Scene) -> None:
+async def test_a_node_is_observed_from_its_first_message_to_its_exit(scene: Scene) -> None:
     source = node(
         PUBLISHES,
         "node.get_logger().warning('hot')",
@@ -105,10 +105,10 @@ async def test_a_node_is_watched_from_its_first_message_to_its_end(scene: Scene)
         "node.create_subscription(Float64, 'in', print, 10)",
     )
     async with scene.bench(source).start(FILE, watch=CHATTER, parameters={"a": 1, "b": True, "c": "x"}) as run:
-        await publishing(run)
-        assert await run.until(lambda: bool(run.logs) and bool(run.output), UP_S)
+        await wait_for_samples(run)
+        assert await run.until(lambda: bool(run.logs) and bool(run.output), STARTUP_S)
         echo = await run.echo("/chatter", samples=2, limit_s=10)
-        nothing = await run.echo("/nothing", samples=1, limit_s=0.2)
+        silent = await run.echo("/nothing", samples=1, limit_s=0.2)
         before = run.trace()
         ending = await run.interrupt()
         after = run.trace()
@@ -128,26 +128,26 @@ async def test_a_node_is_watched_from_its_first_message_to_its_end(scene: Scene)
     assert before.exit is None
     assert (echo.types, echo.qos) == ((CHATTER["/chatter"],), QoS("reliable", "volatile"))
     assert [each.message for each in echo.samples[:2]] == [{"data": "learner"}] * 2
-    assert (nothing.types, nothing.samples) == ((), ())
+    assert (silent.types, silent.samples) == ((), ())
     assert ending.exit is not None
     assert (ending.exit.code, ending.exit.signal) == (0, None)
     assert 0 < ending.took_s < 5
     assert after.exit == ending.exit
-    assert after.graph.nodes == ("/learner",), "the last that was seen of it"
+    assert after.graph.nodes == ("/learner",), "the last graph seen before the exit"
 
 
-async def test_a_publisher_that_keeps_messages_but_sends_best_effort_is_heard(scene: Scene) -> None:
+async def test_a_transient_local_best_effort_publisher_is_received(scene: Scene) -> None:
     qos = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, reliability=ReliabilityPolicy.BEST_EFFORT)"
     imported = "from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy"
     async with scene.bench(node(imported, PUBLISHES.replace(", 10)", f", {qos})"))).start(FILE) as run:
-        assert await run.until(lambda: bool(run.graph.publishers), UP_S)
+        assert await run.until(lambda: bool(run.graph.publishers), STARTUP_S)
         assert run.watch("/chatter", CHATTER["/chatter"])
-        await publishing(run)
+        await wait_for_samples(run)
 
 
 async def test_parameters_are_read_and_set(scene: Scene) -> None:
     async with scene.bench(node(DECLARES)).start(FILE, parameters={"name": "mine"}) as run:
-        await there(run, "/learner/set_parameters_atomically")
+        await wait_for_service(run, "/learner/set_parameters_atomically")
         declared = await run.parameters(10)
         assert declared is not None
         mine = {p.name: p for p in declared if p.name in ("rate", "name", "count", "loud", "fixed", "unset")}
@@ -180,27 +180,27 @@ async def test_parameters_are_read_and_set(scene: Scene) -> None:
         assert (nobody.answered, nobody.successful) == (False, False)
 
 
-async def test_of_two_nodes_the_one_that_answers_is_heard(scene: Scene) -> None:
+async def test_parameters_are_read_from_the_node_that_answers(scene: Scene) -> None:
     source = node("node.declare_parameter('rate', 1.0)", "other = Node('deaf')  # nobody spins it")
     async with scene.bench(source).start(FILE) as run:
-        await there(run, "/learner/list_parameters")
-        await there(run, "/deaf/list_parameters")
+        await wait_for_service(run, "/learner/list_parameters")
+        await wait_for_service(run, "/deaf/list_parameters")
         declared = await run.parameters(1.0)
     assert declared is not None
     assert {p.node for p in declared} == {"/learner"}
     assert "rate" in {p.name for p in declared}
 
 
-async def test_a_node_that_never_answers(scene: Scene) -> None:
+async def test_parameters_of_a_node_that_never_answers_are_unknown(scene: Scene) -> None:
     async with scene.bench(node("while True: time.sleep(1)")).start(FILE) as run:
-        await there(run, "/learner/list_parameters")
+        await wait_for_service(run, "/learner/list_parameters")
         assert await run.parameters(0.3) is None
         assert not (await run.set_parameters("/learner", {"rate": 2.0}, limit_s=0.3)).answered
 
 
-async def test_services_are_called_and_a_stuck_one_is_located(scene: Scene) -> None:
+async def test_services_are_called_and_a_stuck_callback_is_located(scene: Scene) -> None:
     async with scene.bench(node(SERVES)).start(FILE) as run:
-        await there(run, "/stuck")
+        await wait_for_service(run, "/stuck")
         answer = await run.call("/add", ADD, {"a": 2, "b": -5}, limit_s=10)
         assert (answer.response, answer.request) == ({"sum": -3}, {"a": 2, "b": -5})
         assert 0 < answer.took_s < 10
@@ -215,18 +215,18 @@ async def test_services_are_called_and_a_stuck_one_is_located(scene: Scene) -> N
         assert await run.dump_stacks() == ()
 
 
-async def test_an_answer_is_not_waited_for_when_the_node_is_gone(scene: Scene) -> None:
+async def test_waiting_for_a_response_ends_when_the_node_exits(scene: Scene) -> None:
     source = node("import os", "node.create_service(AddTwoInts, 'die', lambda request, response: os._exit(3))")
     async with scene.bench(source).start(FILE) as run:
-        await there(run, "/die")
-        asked = time.monotonic()
+        await wait_for_service(run, "/die")
+        began = time.monotonic()
         answer = await run.call("/die", ADD, {"a": 1, "b": 1}, limit_s=60)
         assert answer.response is None
-        assert time.monotonic() - asked < 20
+        assert time.monotonic() - began < 20
         assert run.exit is not None
         assert run.exit.code == 3
         assert not await run.until(lambda: False, 60)
-        assert time.monotonic() - asked < 25
+        assert time.monotonic() - began < 25
 
 
 WAITS_IN_CALLBACK = """
@@ -244,19 +244,19 @@ node.create_service(AddTwoInts, "late", late)
 """
 
 
-async def test_an_answer_is_not_waited_for_when_the_node_waits_forever(scene: Scene) -> None:
+async def test_waiting_for_a_response_ends_when_the_node_blocks_forever(scene: Scene) -> None:
     async with scene.bench(node(WAITS_IN_CALLBACK)).start(FILE) as run:
-        await there(run, "/never")
-        await there(run, "/late")
+        await wait_for_service(run, "/never")
+        await wait_for_service(run, "/late")
         late = await run.call("/late", ADD, {"a": 1, "b": 1}, limit_s=60)
         assert late.response == {"sum": 7}
-        asked = time.monotonic()
+        began = time.monotonic()
         answered, parameters, ended = await asyncio.gather(
             run.call("/never", ADD, {"a": 1, "b": 1}, limit_s=60),
             run.parameters(60),
             run.wait_for_exit(60, all_sent=lambda: True),
         )
-        assert time.monotonic() - asked < 40
+        assert time.monotonic() - began < 40
         assert (answered.response, parameters, ended, run.exit) == (None, None, False, None)
 
 
@@ -272,7 +272,7 @@ publisher.publish(String(data="once"))
 ENDS = "import os; node.create_timer(1.0, lambda: os._exit(0))\n"
 
 
-async def test_echo_waits_for_nothing_that_will_not_come(scene: Scene) -> None:
+async def test_echo_stops_when_no_message_can_come(scene: Scene) -> None:
     async def echo(program: str) -> Echo:
         async with scene.bench(node(program)).start(FILE) as run:
             assert await run.until(lambda: any(each.topic == "/chatter" for each in run.graph.publishers), 20)
@@ -297,60 +297,60 @@ sys.exit(0)
 """
 
 
-async def test_our_servers_answer_a_client_and_remember_it(scene: Scene) -> None:
+async def test_our_server_answers_a_client_and_records_the_call(scene: Scene) -> None:
     def add(request: Mapping[str, Any]) -> Mapping[str, Any]:
         return {"sum": request["a"] + request["b"]}
 
     async with scene.bench(node(CALLS)).start(FILE) as run:
         run.serve("/add", ADD, add)
-        assert await run.until(lambda: run.exit is not None, UP_S)
+        assert await run.until(lambda: run.exit is not None, STARTUP_S)
         trace, served = run.trace(), tuple(run.served)
     assert [line.text for line in trace.output if line.stream == "stdout"] == ["sum 9"]
     assert [(s.service, s.request, s.response) for s in served] == [("/add", {"a": 4, "b": 5}, {"sum": 9})]
     assert trace.graph.servers == () or all(s.node == "/learner" for s in trace.graph.servers)
 
 
-async def test_a_server_of_ours_that_breaks_is_our_fault(scene: Scene) -> None:
+async def test_an_exception_in_our_server_is_an_engine_error(scene: Scene) -> None:
     def broken(request: Mapping[str, Any]) -> Mapping[str, Any]:
         raise ZeroDivisionError("ours")
 
     async with scene.bench(node(CALLS)).start(FILE) as run:
         run.serve("/add", ADD, broken)
         with pytest.raises(EngineError, match="ours"):
-            await run.until(lambda: run.exit is not None, UP_S)
+            await run.until(lambda: run.exit is not None, STARTUP_S)
 
 
-async def test_no_word_is_said_of_a_client_that_left_before_its_answer(scene: Scene) -> None:
+async def test_a_client_that_left_before_its_response_causes_no_warning(scene: Scene) -> None:
     def answer_too_late(request: Mapping[str, Any]) -> Mapping[str, Any]:
-        # What rclpy says when it sends such an answer; a warning is an error in the tests, and would end the executor.
+        # As rclpy warns when it sends such a response. Tests turn warnings into errors, which would end the executor.
         warnings.warn("failed to send response (timeout): client will not receive response", RuntimeWarning, 1)
         return {"sum": 9}
 
     async with scene.bench(node(CALLS)).start(FILE) as run:
         run.serve("/add", ADD, answer_too_late)
-        assert await run.until(lambda: run.exit is not None, UP_S)
+        assert await run.until(lambda: run.exit is not None, STARTUP_S)
 
 
-async def test_a_process_that_ignores_ctrl_c_is_still_there_and_then_gone(scene: Scene) -> None:
+async def test_a_process_that_ignores_ctrl_c_is_killed_when_the_run_ends(scene: Scene) -> None:
     source = "import signal, time\nsignal.signal(2, signal.SIG_IGN)\nprint('up', flush=True)\ntime.sleep(1000)"
     async with scene.bench(source).start(FILE) as run:
-        assert await run.until(lambda: bool(run.output), UP_S)
+        assert await run.until(lambda: bool(run.output), STARTUP_S)
         ending = await run.interrupt(0.3)
         assert (ending.exit, ending.limit_s) == (None, 0.3)
-        assert scene.left()
-    assert not scene.left()
+        assert scene.leftovers()
+    assert not scene.leftovers()
 
 
-async def test_two_runs_at_once_never_see_each_other(scene: Scene) -> None:
+async def test_two_runs_at_once_do_not_discover_each_other(scene: Scene) -> None:
     bench = scene.bench(node(PUBLISHES.replace("node.get_name()", "sys.argv[-1]")))
     async with (
         bench.start(FILE, watch=CHATTER, parameters={"me": 1}) as one,
         bench.start(FILE, watch=CHATTER, parameters={"me": 2}) as two,
     ):
-        await asyncio.gather(publishing(one), publishing(two))
-        seen = [len(one.samples_on("/chatter")), len(two.samples_on("/chatter"))]
-        assert await one.until(lambda: len(one.samples_on("/chatter")) >= seen[0] + 10, UP_S)
-        assert await two.until(lambda: len(two.samples_on("/chatter")) >= seen[1] + 10, UP_S)
+        await asyncio.gather(wait_for_samples(one), wait_for_samples(two))
+        received = [len(one.samples_on("/chatter")), len(two.samples_on("/chatter"))]
+        assert await one.until(lambda: len(one.samples_on("/chatter")) >= received[0] + 10, STARTUP_S)
+        assert await two.until(lambda: len(two.samples_on("/chatter")) >= received[1] + 10, STARTUP_S)
         for run, me in ((one, "me:=1"), (two, "me:=2")):
             assert {sample.message["data"] for sample in run.samples_on("/chatter")} == {me}
             assert run.graph.nodes == ("/learner",)
@@ -367,22 +367,22 @@ threading.Thread(target=flood, daemon=True).start()
 """
 
 
-async def test_a_flood_neither_hangs_nor_grows_without_bound(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_a_flood_of_messages_and_output_is_bounded(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     from tutor.ros import intake
 
-    most = 500
-    monkeypatch.setattr(intake, "MOST_SAMPLES", most)
+    limit = 500
+    monkeypatch.setattr(intake, "MOST_SAMPLES", limit)
     async with scene.bench(node(FLOODS)).start(FILE, watch=CHATTER) as run:
-        assert await run.until(lambda: len(run.samples_on("/chatter")) >= most and len(run.logs) >= most, UP_S)
-        assert await run.until(lambda: run.trace().dropped_lines > 3000, UP_S)
-        # What has been sent already may come in still, and is not kept either.
+        assert await run.until(lambda: len(run.samples_on("/chatter")) >= limit and len(run.logs) >= limit, STARTUP_S)
+        assert await run.until(lambda: run.trace().dropped_lines > 3000, STARTUP_S)
+        # Messages already in flight still come in, and are not kept either.
         declared = await run.parameters(10)
         ending = await run.interrupt()
         trace = run.trace()
     assert declared is not None
     assert ending.exit is not None
-    assert len(trace.samples_on("/chatter")) == most
-    assert len(trace.logs) == most
+    assert len(trace.samples_on("/chatter")) == limit
+    assert len(trace.logs) == limit
     assert len(trace.output) <= 2002
 
 
@@ -401,15 +401,15 @@ node.create_timer(0.02, big)
 """
 
 
-async def test_big_messages_are_cut_and_no_more_is_taken_than_can_be_kept(
+async def test_big_messages_are_truncated_and_their_number_is_bounded(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from tutor.ros import intake, messages, observer
 
     monkeypatch.setattr(intake, "MOST_BYTES", 250_000)
     async with scene.bench(node(BIG)).start(FILE, watch=CHATTER) as run:
-        assert await run.until(lambda: len(run.samples_on("/chatter")) >= 5 and len(run.logs) >= 6, UP_S)
-        assert await run.until(lambda: any(line.text == "sent 40" for line in run.output), UP_S)
+        assert await run.until(lambda: len(run.samples_on("/chatter")) >= 5 and len(run.logs) >= 6, STARTUP_S)
+        assert await run.until(lambda: any(line.text == "sent 40" for line in run.output), STARTUP_S)
         declared = await run.parameters(10)
         trace = run.trace()
     assert {len(sample.message["data"]) for sample in trace.samples_on("/chatter")} == {messages.MOST_CHARACTERS}
@@ -419,16 +419,16 @@ async def test_big_messages_are_cut_and_no_more_is_taken_than_can_be_kept(
     assert [len(p.value) for p in declared or () if p.name == "name"] == [messages.MOST_CHARACTERS]
 
 
-async def test_ctrl_c_reaches_what_a_launch_started_once(scene: Scene) -> None:
-    (scene.folder / "counts.py").write_text(COUNTS)
+async def test_ctrl_c_reaches_a_launched_process_exactly_once(scene: Scene) -> None:
+    (scene.folder / "counts.py").write_text(COUNTS_INTERRUPTS)
     async with scene.bench(LAUNCHES).launch(FILE) as run:
-        assert await run.until(lambda: any(line.text.endswith("] up") for line in run.output), UP_S), run.output
+        assert await run.until(lambda: any(line.text.endswith("] up") for line in run.output), STARTUP_S), run.output
         ending = await run.interrupt()
         assert ending.exit is not None, run.output
         assert sum(line.text.endswith("] interrupted") for line in run.output) == 1, run.output
 
 
-async def test_of_those_that_wait_the_one_that_asks_for_longer_starts_first(scene: Scene) -> None:
+async def test_of_waiting_runs_the_longest_one_starts_first(scene: Scene) -> None:
     from tutor.engine.start_limiter import StartLimiter
 
     began: list[float] = []
@@ -440,48 +440,54 @@ async def test_of_those_that_wait_the_one_that_asks_for_longer_starts_first(scen
 
     async with bench.start_limiter.slot(0.0) as up:
         waiting = [asyncio.create_task(start(expected_s)) for expected_s in (0.5, None, 7.0)]
-        await asyncio.sleep(0)  # all three ask for their turn
+        await asyncio.sleep(0)  # all three queue for the slot
         up()
         await asyncio.gather(*waiting)
     assert began == [7.0, 2.0, 0.5]
 
 
-async def test_the_known_exceptions_of_a_check_reach_its_judges(scene: Scene) -> None:
+async def test_a_checks_known_exceptions_are_used_in_the_diagnosis(scene: Scene) -> None:
     known = parse('[[known]]\ntype = "ValueError"\nsays = "x"\nstep = "in line {number}: our own words"')
     bench = replace(scene.bench("raise ValueError('no')"), exceptions=known)
     async with bench.start(FILE) as run:
-        await run.wait_for_exit(UP_S)
+        await run.wait_for_exit(STARTUP_S)
         cause = diagnose_process(run.trace())
     assert cause is not None
     assert cause.hint == "in line 1: our own words"
 
 
-async def given_up_after(scene: Scene, *parts: str) -> float:
-    """How many seconds are waited, of LONG_S, for a message that never comes."""
+async def time_until_given_up(scene: Scene, *parts: str) -> float:
+    """Return for how many seconds, of LONG_S, the run waits for a message that never comes."""
     async with scene.bench(node(*parts)).start(FILE, watch={"/later": CHATTER["/chatter"]}) as run:
-        assert await run.until(lambda: bool(run.graph.nodes), UP_S), run.trace()
+        assert await run.until(lambda: bool(run.graph.nodes), STARTUP_S), run.trace()
         began = time.monotonic()
         assert not await run.until(lambda: bool(run.samples_on("/later")), LONG_S, idle_s=0.7), run.trace()
         return time.monotonic() - began
 
 
-async def test_nothing_is_waited_for_of_a_node_that_only_waits(scene: Scene) -> None:
-    assert 0.7 <= await given_up_after(scene) < LONG_S / 2
+async def test_waiting_for_an_idle_node_ends_early(scene: Scene) -> None:
+    assert 0.7 <= await time_until_given_up(scene) < LONG_S / 2
 
 
-async def test_what_a_node_does_later_is_waited_for(scene: Scene) -> None:
-    async with scene.bench(node(LATER)).start(FILE, watch={"/later": CHATTER["/chatter"]}) as run:
+async def test_a_node_with_a_pending_timer_is_waited_for(scene: Scene) -> None:
+    async with scene.bench(node(PUBLISHES_LATER)).start(FILE, watch={"/later": CHATTER["/chatter"]}) as run:
         assert await run.until(lambda: bool(run.samples_on("/later")), LONG_S, idle_s=0.7), run.trace()
 
 
 @pytest.mark.parametrize(
     ("part", "least_s", "most_s"),
-    [("node.create_timer(90.0, print)", 0.7, 9.0), ("node.create_timer(4.0, print)", 7.0, 60.0), (PARTNER, 0.7, 9.0)],
+    [
+        ("node.create_timer(90.0, print)", 0.7, 9.0),
+        ("node.create_timer(4.0, print)", 7.0, 60.0),
+        (STARTS_CHILD, 0.7, 9.0),
+    ],
     ids=["late", "in-time", "partner"],
 )
-async def test_a_wake_up_counts_if_it_is_in_time(scene: Scene, part: str, least_s: float, most_s: float) -> None:
+async def test_a_wake_up_counts_only_before_the_deadline(
+    scene: Scene, part: str, least_s: float, most_s: float
+) -> None:
     async with scene.bench(node(part)).start(FILE, watch={"/later": CHATTER["/chatter"]}) as run:
-        assert await run.until(lambda: bool(run.graph.nodes), UP_S), run.trace()
+        assert await run.until(lambda: bool(run.graph.nodes), STARTUP_S), run.trace()
         began = time.monotonic()
         assert not await run.until(lambda: bool(run.samples_on("/later")), 10.0, idle_s=0.7), run.trace()
         assert least_s <= time.monotonic() - began < most_s

@@ -1,4 +1,4 @@
-"""The runner: scenarios at once, facts once, verdicts in their place, and nothing left whatever happens."""
+"""The runner: concurrent scenarios, shared facts, verdicts, and a clean end whatever happens."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from typing import Any
 
 import pytest
 
-from tests.engine.made import FILE, PUBLISHES, Scene, criterion, node, plain
+from tests.engine.made import FILE, PUBLISHES, Scene, criterion, node, statuses
 from tutor.errors import EngineError
 from tutor.judge.bench import Bench
 from tutor.judge.events import CheckStarted, CriterionJudged, ExerciseJudged, Progress
 from tutor.judge.verdict import Cause, Status, Verdict, failed, passed
 
-NO = Cause("no", "it does not", "do it")
+CAUSE = Cause("no", "it does not", "do it")
 
 
 def fails(*facts: Any) -> Verdict:
-    return failed("this", "that", NO)
+    return failed("this", "that", CAUSE)
 
 
-async def nothing(bench: Bench) -> str:
+async def no_facts(bench: Bench) -> str:
     return "nothing"
 
 
-async def test_scenarios_run_at_once(scene: Scene) -> None:
+async def test_scenarios_run_concurrently(scene: Scene) -> None:
     async def up(bench: Bench) -> tuple[float, float]:
         async with bench.start(FILE) as run:
             assert await run.until(lambda: bool(run.output), 20)
@@ -45,11 +45,11 @@ async def test_scenarios_run_at_once(scene: Scene) -> None:
         assert max(first[0], second[0]) < min(first[1], second[1])
         return passed("at once", "at once")
 
-    assert plain(await scene.judge(criterion("both", one, two, judge=overlap))) == {"both": "passed"}
-    assert len(set(scene.domains)) == 2
+    assert statuses(await scene.judge(criterion("both", one, two, judge=overlap))) == {"both": "passed"}
+    assert len(set(scene.seen_domains)) == 2
 
 
-async def test_facts_are_gathered_once_however_many_ask(scene: Scene) -> None:
+async def test_facts_are_gathered_once_however_many_criteria_use_them(scene: Scene) -> None:
     ran: list[str] = []
 
     async def first(bench: Bench) -> str:
@@ -66,43 +66,43 @@ async def test_facts_are_gathered_once_however_many_ask(scene: Scene) -> None:
     assert [c.verdict.observed for c in result.criteria] == ["('one',)", "('one', 'oneone two')", "('oneone two',)"]
 
 
-async def test_what_depends_on_a_failure_is_skipped(scene: Scene) -> None:
+async def test_criteria_that_depend_on_a_failure_are_skipped(scene: Scene) -> None:
     result = await scene.judge(
-        criterion("a", nothing, judge=fails),
-        criterion("b", nothing, after=("a",)),
-        criterion("c", nothing, after=("b",)),
-        criterion("d", nothing),
-        criterion("e", nothing, after=("d",)),
+        criterion("a", no_facts, judge=fails),
+        criterion("b", no_facts, after=("a",)),
+        criterion("c", no_facts, after=("b",)),
+        criterion("d", no_facts),
+        criterion("e", no_facts, after=("d",)),
     )
-    assert plain(result) == {"a": "failed", "b": "skipped", "c": "skipped", "d": "passed", "e": "passed"}
+    assert statuses(result) == {"a": "failed", "b": "skipped", "c": "skipped", "d": "passed", "e": "passed"}
     assert "`a`" in result.criteria[1].verdict.cause
     assert result.verdict is Status.FAILED
 
 
-async def test_only_shows_just_those_but_judges_what_they_depend_on(scene: Scene) -> None:
+async def test_only_reports_the_chosen_criteria_but_judges_their_dependencies(scene: Scene) -> None:
     judged: list[str] = []
 
-    def noted(name: str, good: bool = True) -> Any:
+    def recording(name: str, passes: bool = True) -> Any:
         def judge(*facts: Any) -> Verdict:
             judged.append(name)
-            return passed("a", "b") if good else fails()
+            return passed("a", "b") if passes else fails()
 
         return judge
 
     result = await scene.judge(
-        criterion("a", nothing, judge=noted("a")),
-        criterion("b", nothing, judge=noted("b", False), after=("a",)),
-        criterion("c", nothing, judge=noted("c"), after=("b",)),
-        criterion("d", nothing, judge=noted("d")),
+        criterion("a", no_facts, judge=recording("a")),
+        criterion("b", no_facts, judge=recording("b", False), after=("a",)),
+        criterion("c", no_facts, judge=recording("c"), after=("b",)),
+        criterion("d", no_facts, judge=recording("d")),
         only=frozenset({"c"}),
     )
-    assert plain(result) == {"c": "skipped"}
+    assert statuses(result) == {"c": "skipped"}
     assert judged == ["a", "b"]
     assert scene.events[0] == CheckStarted("t1", ("c",))
     assert {e.criterion if isinstance(e, Progress) else "c" for e in scene.events} == {"c"}
 
 
-async def test_a_fault_of_ours_is_never_the_learners(scene: Scene) -> None:
+async def test_our_own_errors_are_not_the_learners_failures(scene: Scene) -> None:
     async def broken(bench: Bench) -> None:
         raise KeyError("oops")
 
@@ -113,13 +113,13 @@ async def test_a_fault_of_ours_is_never_the_learners(scene: Scene) -> None:
         return passed("", str(1 / 0))
 
     result = await scene.judge(
-        criterion("judge", nothing, judge=wrong),
+        criterion("judge", no_facts, judge=wrong),
         criterion("scenario", broken),
         criterion("machine", no_machine),
-        criterion("after", nothing, after=("machine",)),
-        criterion("good", nothing),
+        criterion("after", no_facts, after=("machine",)),
+        criterion("good", no_facts),
     )
-    assert plain(result) == {
+    assert statuses(result) == {
         "judge": "error",
         "scenario": "error",
         "machine": "error",
@@ -135,7 +135,7 @@ async def test_a_fault_of_ours_is_never_the_learners(scene: Scene) -> None:
     assert result.verdict is Status.ERROR
 
 
-async def test_no_free_domain_is_the_machines_fault_with_its_hint(
+async def test_without_a_free_domain_the_criterion_is_an_error_with_a_hint(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     import tutor.engine.bench as live
@@ -151,32 +151,32 @@ async def test_no_free_domain_is_the_machines_fault_with_its_hint(
             raise AssertionError
 
     result = await scene.judge(criterion("a", start))
-    assert plain(result) == {"a": "error"}
+    assert statuses(result) == {"a": "error"}
     assert "No ROS domain id" in result.criteria[0].verdict.cause
     assert "Wait until other checks" in result.criteria[0].verdict.hint
 
 
-async def test_what_the_scenario_raises_is_what_went_wrong(scene: Scene) -> None:
-    async def raises_at_work(bench: Bench) -> None:
+async def test_an_exception_in_a_scenario_is_the_cause(scene: Scene) -> None:
+    async def raises_during_run(bench: Bench) -> None:
         async with bench.start(FILE) as run:
             await run.until(lambda: bool(run.output), 20)
             raise OSError("disk full")
 
-    result = await scene.judge(criterion("a", raises_at_work))
+    result = await scene.judge(criterion("a", raises_during_run))
     assert "OSError: disk full" in result.criteria[0].verdict.cause
 
 
-async def test_a_failure_that_is_sure_is_told_before_the_scenario_ends(scene: Scene) -> None:
-    told = asyncio.Event()
+async def test_a_certain_failure_is_reported_before_the_scenario_ends(scene: Scene) -> None:
+    reported = asyncio.Event()
 
     async def enough(bench: Bench) -> str:
         return "eight"
 
     async def counts(bench: Bench) -> str:
-        bench.report_facts("seven")  # of this, an early judge says nothing
+        bench.report_facts("seven")  # the early judge does not fail on this
         await asyncio.sleep(0)
         bench.report_facts("eight")
-        await told.wait()
+        await reported.wait()
         return "nine"
 
     def early(facts: str) -> Verdict | None:
@@ -185,7 +185,7 @@ async def test_a_failure_that_is_sure_is_told_before_the_scenario_ends(scene: Sc
     async def waits(bench: Bench) -> str:
         while not any(isinstance(event, CriterionJudged) and event.result.id == "a" for event in scene.events):
             await asyncio.sleep(0.01)
-        told.set()
+        reported.set()
         return "told"
 
     result = await scene.judge(
@@ -195,10 +195,10 @@ async def test_a_failure_that_is_sure_is_told_before_the_scenario_ends(scene: Sc
         criterion("d", waits),
         criterion("e", enough, waits, early=((enough, early),)),
     )
-    assert plain(result) == {"a": "failed", "b": "passed", "c": "skipped", "d": "passed", "e": "failed"}
+    assert statuses(result) == {"a": "failed", "b": "passed", "c": "skipped", "d": "passed", "e": "failed"}
 
 
-async def test_a_failure_that_is_sure_waits_for_what_it_comes_after(scene: Scene) -> None:
+async def test_a_certain_failure_waits_for_the_criteria_it_depends_on(scene: Scene) -> None:
     async def counts(bench: Bench) -> str:
         bench.report_facts("anything")
         return "all"
@@ -211,10 +211,10 @@ async def test_a_failure_that_is_sure_waits_for_what_it_comes_after(scene: Scene
         criterion("a", later, judge=fails),
         criterion("b", counts, after=("a",), early=((counts, fails),)),
     )
-    assert plain(result) == {"a": "failed", "b": "skipped"}
+    assert statuses(result) == {"a": "failed", "b": "skipped"}
 
 
-async def test_no_early_failure_by_what_the_machine_has_slowed_down(scene: Scene) -> None:
+async def test_facts_slowed_by_the_machine_cause_no_early_failure(scene: Scene) -> None:
     class Slowed:
         slowed = True
 
@@ -223,10 +223,10 @@ async def test_no_early_failure_by_what_the_machine_has_slowed_down(scene: Scene
         return "all"
 
     result = await scene.judge(criterion("a", counts, early=((counts, fails),)))
-    assert plain(result) == {"a": "passed"}
+    assert statuses(result) == {"a": "passed"}
 
 
-async def test_events_come_in_order_with_progress_that_goes_on(scene: Scene) -> None:
+async def test_events_come_in_order_and_progress_never_goes_back(scene: Scene) -> None:
     async def steps(bench: Bench) -> str:
         for fraction in (-1.0, 0.0, 0.3, 0.7, 1.0, 4.0):
             bench.report_progress(fraction, f"at {fraction}")
@@ -238,7 +238,7 @@ async def test_events_come_in_order_with_progress_that_goes_on(scene: Scene) -> 
         bench.report_progress(1.0, "the other")
         return "done"
 
-    result = await scene.judge(criterion("a", steps), criterion("b", steps, other), criterion("c", nothing))
+    result = await scene.judge(criterion("a", steps), criterion("b", steps, other), criterion("c", no_facts))
     started, *between, last = scene.events
     assert started == CheckStarted("t1", ("a", "b", "c"))
     assert last == ExerciseJudged(result)
@@ -258,7 +258,7 @@ async def test_events_come_in_order_with_progress_that_goes_on(scene: Scene) -> 
     assert all(0 <= c.duration_s <= result.duration_s for c in result.criteria)
 
 
-async def test_cancellation_leaves_nothing(scene: Scene) -> None:
+async def test_cancellation_leaves_no_process_and_no_domain(scene: Scene) -> None:
     running = asyncio.Event()
 
     async def forever(bench: Bench) -> None:
@@ -274,17 +274,17 @@ async def test_cancellation_leaves_nothing(scene: Scene) -> None:
         scene.judge(criterion("a", forever), criterion("b", waits_for_it), source=node(PUBLISHES))
     )
     await asyncio.wait_for(running.wait(), 25)
-    assert scene.left()
-    assert scene.held
+    assert scene.leftovers()
+    assert scene.reserved_domains
     check.cancel()
     with pytest.raises(asyncio.CancelledError):
         await check
-    assert not scene.left()
-    assert not scene.held
+    assert not scene.leftovers()
+    assert not scene.reserved_domains
     assert not any(isinstance(event, CriterionJudged) for event in scene.events)
 
 
-async def test_a_front_end_that_breaks_ends_the_check_cleanly(scene: Scene) -> None:
+async def test_an_exception_in_the_event_handler_ends_the_check_cleanly(scene: Scene) -> None:
     async def start(bench: Bench) -> None:
         async with bench.start(FILE) as run:
             await run.until(lambda: bool(run.output), 20)
@@ -297,34 +297,36 @@ async def test_a_front_end_that_breaks_ends_the_check_cleanly(scene: Scene) -> N
         await scene.judge(criterion("a", start), on_event=broken)
 
 
-async def test_killed_once_by_others_it_is_looked_at_again(scene: Scene) -> None:
-    """Who sends SIGKILL cannot be known: a program's own kill of itself shows each time."""
-    met: list[str] = []
+async def test_a_program_killed_from_outside_is_run_again(scene: Scene) -> None:
+    """The sender of SIGKILL is unknown, but a program that kills itself does so on every run."""
+    exits: list[str] = []
 
-    async def meets(bench: Bench) -> str:
+    async def kill_first_run(bench: Bench) -> str:
         async with bench.start(FILE) as run:
             assert await run.until(lambda: bool(run.output) or run.exit is not None, 20)
-            if not met:
+            if not exits:
                 os.kill(int(run.output[0].text), signal.SIGKILL)
                 await run.wait_for_exit(20)
-            met.append(str(run.exit))
-            return met[-1]
+            exits.append(str(run.exit))
+            return exits[-1]
 
     source = "import os, time; print(os.getpid(), flush=True); time.sleep(1000)"
-    assert plain(await scene.judge(criterion("once", meets, judge=lives), source=source)) == {"once": "passed"}
-    assert met == ["signal 9", "None"]
+    assert statuses(await scene.judge(criterion("once", kill_first_run, judge=survives), source=source)) == {
+        "once": "passed"
+    }
+    assert exits == ["signal 9", "None"]
     source = "import os; os.kill(os.getpid(), 9)"
-    assert plain(await scene.judge(criterion("each time", meets, judge=lives), source=source)) == {
+    assert statuses(await scene.judge(criterion("each time", kill_first_run, judge=survives), source=source)) == {
         "each time": "failed"
     }
-    assert met[2:] == ["signal 9", "signal 9"]
+    assert exits[2:] == ["signal 9", "signal 9"]
 
 
-def lives(found: str) -> Verdict:
-    return passed("lives", found) if found == "None" else fails()
+def survives(exit: str) -> Verdict:
+    return passed("lives", exit) if exit == "None" else fails()
 
 
-async def test_what_the_supervisors_end_does_to_a_check_is_not_a_failure(scene: Scene) -> None:
+async def test_a_killed_supervisor_is_an_error_not_a_failure(scene: Scene) -> None:
     async def broken(bench: Bench) -> str:
         async with bench.start(FILE) as run:
             await run.wait_for_exit(20)

@@ -1,4 +1,4 @@
-"""What is told of a node that is still waited for: facts, a likely cause, never more than is known."""
+"""Provisional reports on a node that a check still waits for: facts, a likely cause, and no more than is known."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from tutor.judge.trace import Exit, LogRecord, OutputLine, Sample, Trace
 from tutor.ros_model import Graph, ServiceEndpoint, TopicEndpoint
 
 TOPIC, TYPE = "/sensor/temperature", "std_msgs/msg/Float64"
-ASKED = LiveView(topics=(LiveTopic(TOPIC, TYPE),))
-NOBODY = graph(nodes=())
+VIEW = LiveView(topics=(LiveTopic(TOPIC, TYPE),))
+NO_NODES = graph(nodes=())
 SPINS = "import rclpy\nrclpy.spin(node)\n"
 
 
-def words(seen: Trace, asked: LiveView = ASKED, **more: Any) -> str:
-    return describe(Moment(seen, {TOPIC: TYPE}, **more), asked).text
+def describe_text(seen: Trace, view: LiveView = VIEW, **more: Any) -> str:
+    return describe(Moment(seen, {TOPIC: TYPE}, **more), view).text
 
 
-def by(source: str, seen: Trace) -> Trace:
+def with_source(source: str, seen: Trace) -> Trace:
     return replace(seen, file="node.py", sources={"node.py": source})
 
 
-PUBLISHES = by(
+PUBLISHES = with_source(
     "class N(Node):\n    def __init__(self):\n        self.p = self.create_publisher(Float64, 't', 10)\n"
     "        self.create_timer(1.0, self.tick)\n    def tick(self):\n        self.p.publish(Float64())\n"
     "node = N()\nrclpy.spin(node)\n",
@@ -41,9 +41,9 @@ PUBLISHES = by(
 
 
 @pytest.mark.parametrize(
-    ("seen", "told"),
+    ("seen", "expected"),
     [
-        (trace(graph=NOBODY), "the program runs, no node yet"),
+        (trace(graph=NO_NODES), "the program runs, no node yet"),
         (trace(graph=UP), f"no publisher on {TOPIC} yet, /node is up"),
         (PUBLISHES, f"nothing published on {TOPIC} yet, /node is up"),
         (trace(*samples(TOPIC, 1.0), graph=graph(publishers={TOPIC: TYPE})), ""),
@@ -51,32 +51,32 @@ PUBLISHES = by(
             trace(graph=graph(publishers={TOPIC: "std_msgs/msg/Float32"})),
             f"likely wrong type: {TOPIC} has the type std_msgs/msg/Float32, not {TYPE}",
         ),
-        (trace(exit=exited(0), graph=NOBODY), "the program has ended, with exit code 0"),
+        (trace(exit=exited(0), graph=NO_NODES), "the program has ended, with exit code 0"),
         (
-            by(PUBLISHES.sources["node.py"].replace("rclpy.spin(node)", "time.sleep(9)"), PUBLISHES),
+            with_source(PUBLISHES.sources["node.py"].replace("rclpy.spin(node)", "time.sleep(9)"), PUBLISHES),
             "likely no spin: /node is up, and the program never calls rclpy.spin()",
         ),
         (
-            by(PUBLISHES.sources["node.py"].replace("self.p.publish(Float64())", "pass"), PUBLISHES),
+            with_source(PUBLISHES.sources["node.py"].replace("self.p.publish(Float64())", "pass"), PUBLISHES),
             f"likely no messages: there is a publisher on {TOPIC}, but nothing calls publish()",
         ),
     ],
 )
-def test_what_is_missing_is_told_and_the_likely_cause_where_there_is_one(seen: Trace, told: str) -> None:
-    assert words(seen) == told
+def test_what_is_missing_is_reported_with_a_likely_cause_if_there_is_one(seen: Trace, expected: str) -> None:
+    assert describe_text(seen) == expected
 
 
-def test_an_exception_that_ended_the_program_is_a_cause_one_that_did_not_is_a_fact() -> None:
-    told = describe(Moment(trace(err=CRASH, exit=exited(1)), {TOPIC: TYPE}), ASKED)
-    assert told.likely
-    assert "'Sensor' object has no attribute 'nothing'" in told.text
-    going_on = describe(Moment(trace(err=CRASH, graph=UP), {TOPIC: TYPE}), ASKED)
-    assert not going_on.likely
-    assert going_on.text.endswith("(node.py, line 12: self.nothing()); the program still runs")
+def test_only_an_exception_that_ended_the_program_is_a_likely_cause() -> None:
+    ended = describe(Moment(trace(err=CRASH, exit=exited(1)), {TOPIC: TYPE}), VIEW)
+    assert ended.likely
+    assert "'Sensor' object has no attribute 'nothing'" in ended.text
+    running = describe(Moment(trace(err=CRASH, graph=UP), {TOPIC: TYPE}), VIEW)
+    assert not running.likely
+    assert running.text.endswith("(node.py, line 12: self.nothing()); the program still runs")
 
 
-def test_a_name_that_is_nearly_right_is_a_cause() -> None:
-    assert words(trace(graph=graph(publishers={"/sensor/temprature": TYPE}))).startswith(
+def test_a_misspelled_name_is_a_likely_cause() -> None:
+    assert describe_text(trace(graph=graph(publishers={"/sensor/temprature": TYPE}))).startswith(
         "likely wrong topic: messages of this type go to /sensor/temprature"
     )
     services = LiveView(services=("/add", "/divide"))
@@ -84,7 +84,7 @@ def test_a_name_that_is_nearly_right_is_a_cause() -> None:
     assert describe(Moment(seen), services).text == "likely wrong name: /node serves /devide, not /divide"
 
 
-def test_what_is_missing_of_services_and_subscriptions_is_told() -> None:
+def test_missing_services_and_subscriptions_are_reported() -> None:
     services = LiveView(services=("/add", "/subtract", "/multiply", "/divide"))
     assert describe(Moment(trace(graph=UP)), services).text == "no service or client yet, /node is up"
     one = trace(graph=graph(services={"/add": "a/srv/B"}))
@@ -94,35 +94,35 @@ def test_what_is_missing_of_services_and_subscriptions_is_told() -> None:
     )
     a_client = trace(graph=replace(UP, clients=(ServiceEndpoint("/add", "a/srv/B", "/node"),)))
     assert describe(Moment(a_client), services) == SoFar()
-    heard = replace(UP, subscriptions=(TopicEndpoint(TOPIC, TYPE, "/node"),))
-    assert describe(Moment(trace(graph=heard)), ASKED).text == (
+    subscribed = replace(UP, subscriptions=(TopicEndpoint(TOPIC, TYPE, "/node"),))
+    assert describe(Moment(trace(graph=subscribed)), VIEW).text == (
         f"nothing logged yet, /node is up and subscribed to {TOPIC}"
     )
-    assert describe(Moment(replace(trace(graph=heard), logs=(log("mean 3"),))), ASKED) == SoFar()
-    inside = replace(UP, publishers=(TopicEndpoint(f"/robot1{TOPIC}", TYPE, "/robot1/node"),))
-    assert describe(Moment(trace(graph=inside)), ASKED) == SoFar()
+    assert describe(Moment(replace(trace(graph=subscribed), logs=(log("mean 3"),))), VIEW) == SoFar()
+    namespaced = replace(UP, publishers=(TopicEndpoint(f"/robot1{TOPIC}", TYPE, "/robot1/node"),))
+    assert describe(Moment(trace(graph=namespaced)), VIEW) == SoFar()
     other = replace(UP, subscriptions=(TopicEndpoint(TOPIC, "a/msg/B", "/node"),))
-    assert describe(Moment(trace(graph=other)), ASKED).text.startswith("likely wrong type: ")
+    assert describe(Moment(trace(graph=other)), VIEW).text.startswith("likely wrong type: ")
 
 
-def test_silence_that_may_be_what_was_asked_for_has_no_cause() -> None:
-    """One start is told to keep silent, or to publish rarely, while another publishes."""
+def test_silence_that_the_exercise_may_ask_for_has_no_cause() -> None:
+    """A scenario may start one node as silent or slow, by its parameters, while another publishes."""
     seen = replace(PUBLISHES, graph=UP)
-    assert words(seen, elsewhere={TOPIC}) == f"no publisher on {TOPIC} yet, /node is up"
+    assert describe_text(seen, elsewhere={TOPIC}) == f"no publisher on {TOPIC} yet, /node is up"
     wrong = trace(graph=graph(publishers={TOPIC: "std_msgs/msg/Float32"}))
     assert not describe(Moment(wrong, {TOPIC: TYPE}, elsewhere={TOPIC}), LiveView()).likely
 
 
 @dataclass
 class FakeRun:
-    """A run whose facts are what the test says."""
+    """A fake run with the facts that the test sets."""
 
-    seen: Trace = field(default_factory=lambda: trace(graph=NOBODY))
+    seen: Trace = field(default_factory=lambda: trace(graph=NO_NODES))
     interrupted_at: float | None = None
     unanswered: bool = False
     traces: int = 0
 
-    def peek_graph(self) -> Graph:  # not `graph`, which the run remembers as the last that was seen of the node
+    def peek_graph(self) -> Graph:  # not `graph`, which updates the run's last seen graph
         return self.seen.graph
 
     @property
@@ -148,21 +148,21 @@ class FakeRun:
         return replace(self.seen, graph=graph)
 
 
-class Told:
-    """What was told, and a wait for it."""
+class Reports:
+    """Records the reports of a Provisional, and waits for them."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(provisional, "WAIT_S", 0.05)
         monkeypatch.setattr(provisional, "EVERY_S", 0.01)
         self.all: list[tuple[float, str, str]] = []
-        self.teller = provisional.Provisional(self._take, ASKED, set())
-        self.teller.report(0.1, "waiting")
+        self.provisional = provisional.Provisional(self._record, VIEW, set())
+        self.provisional.report(0.1, "waiting")
 
-    def _take(self, fraction: float, doing: str, so_far: SoFar) -> None:
+    def _record(self, fraction: float, doing: str, so_far: SoFar) -> None:
         self.all.append((fraction, doing, so_far.text))
 
     def follow(self, run: FakeRun) -> Any:
-        return self.teller.follow(run, {TOPIC: TYPE})  # type: ignore[arg-type]
+        return self.provisional.follow(run, {TOPIC: TYPE})  # type: ignore[arg-type]
 
     async def until(self, so_far: str) -> None:
         async with asyncio.timeout(20):
@@ -170,56 +170,56 @@ class Told:
                 await asyncio.sleep(0.005)
 
 
-async def test_a_long_wait_is_told_once_for_each_change_and_looked_into_only_then(
+async def test_a_long_wait_is_reported_and_diagnosed_once_per_change(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    told, run = Told(monkeypatch), FakeRun()
-    async with told.follow(run):
-        await told.until("the program runs, no node yet")
+    reports, run = Reports(monkeypatch), FakeRun()
+    async with reports.follow(run):
+        await reports.until("the program runs, no node yet")
         run.seen = PUBLISHES
-        await told.until(f"nothing published on {TOPIC} yet, /node is up")
-        looked = run.traces
+        await reports.until(f"nothing published on {TOPIC} yet, /node is up")
+        traces = run.traces
         await asyncio.sleep(0.1)
-        assert run.traces == looked
-        told.teller.report(0.5, "pressing Ctrl+C")
-        assert told.all[-1] == (0.5, "pressing Ctrl+C", "")  # what was known was of the step before
+        assert run.traces == traces
+        reports.provisional.report(0.5, "pressing Ctrl+C")
+        assert reports.all[-1] == (0.5, "pressing Ctrl+C", "")  # the previous report was about the step before
         run.interrupted_at = 990.0
-        await told.until("it has not ended after Ctrl+C yet")
-    assert told.all[-1][2] == ""
-    assert len(told.all) == 6
+        await reports.until("it has not ended after Ctrl+C yet")
+    assert reports.all[-1][2] == ""
+    assert len(reports.all) == 6
 
 
-async def test_what_a_program_has_written_is_told_in_one_short_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    told = Told(monkeypatch)
+async def test_a_programs_output_is_reported_in_one_short_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    reports = Reports(monkeypatch)
     crash = CRASH.replace("has no attribute", "\x1b[31mhas no" + " attribute" * 200)
-    async with told.follow(FakeRun(trace(err=crash, exit=exited(1)))), asyncio.timeout(20):
-        while not told.all[-1][2]:
+    async with reports.follow(FakeRun(trace(err=crash, exit=exited(1)))), asyncio.timeout(20):
+        while not reports.all[-1][2]:
             await asyncio.sleep(0.005)
-    assert 400 < len(told.all[-1][2]) <= 500
-    assert told.all[-1][2].isprintable()
+    assert 400 < len(reports.all[-1][2]) <= 500
+    assert reports.all[-1][2].isprintable()
 
 
-async def test_of_several_starts_the_one_with_a_likely_cause_is_told_and_stays(monkeypatch: pytest.MonkeyPatch) -> None:
-    told = Told(monkeypatch)
+async def test_of_several_runs_the_one_with_a_likely_cause_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    reports = Reports(monkeypatch)
     wrong = trace(graph=graph(publishers={TOPIC: "std_msgs/msg/Float32"}))
-    async with told.follow(FakeRun()), told.follow(FakeRun(wrong)):
-        await told.until(f"likely wrong type: {TOPIC} has the type std_msgs/msg/Float32, not {TYPE}")
-    assert told.all[-1][2].startswith("likely wrong type")
+    async with reports.follow(FakeRun()), reports.follow(FakeRun(wrong)):
+        await reports.until(f"likely wrong type: {TOPIC} has the type std_msgs/msg/Float32, not {TYPE}")
+    assert reports.all[-1][2].startswith("likely wrong type")
 
 
-async def test_while_a_real_node_is_waited_for_its_criterion_says_what_is_known(scene: Scene) -> None:
-    def told() -> list[str]:
+async def test_a_likely_cause_is_reported_while_a_real_node_is_waited_for(scene: Scene) -> None:
+    def reported() -> list[str]:
         return [event.so_far for event in scene.events if isinstance(event, Progress) and event.so_far]
 
     async def waits(bench: Bench) -> str:
         async with bench.start(FILE, watch={"/chatter": "std_msgs/msg/Float64"}) as run:
             bench.report_progress(0.1, "waiting for the first message")
-            assert await run.until(lambda: any(each.startswith("likely") for each in told()), 30)
+            assert await run.until(lambda: any(each.startswith("likely") for each in reported()), 30)
             return "done"
 
     source = node('publisher = node.create_publisher(String, "chatter", 10)')
     await scene.judge(criterion("a", waits), source=source)
-    assert told()[-1] == "likely wrong type: /chatter has the type std_msgs/msg/String, not std_msgs/msg/Float64"
+    assert reported()[-1] == "likely wrong type: /chatter has the type std_msgs/msg/String, not std_msgs/msg/Float64"
     (judged,) = (event for event in scene.events if isinstance(event, CriterionJudged))
     assert scene.events.index(judged) > max(n for n, e in enumerate(scene.events) if isinstance(e, Progress))
-    assert judged.result.verdict.passed  # what is not final changes nothing
+    assert judged.result.verdict.passed  # a provisional report does not affect the verdict

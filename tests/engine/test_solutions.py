@@ -1,4 +1,4 @@
-"""What our solutions do beyond what a check asks of them."""
+"""What our solutions do beyond what a check requires."""
 
 from __future__ import annotations
 
@@ -6,25 +6,25 @@ import asyncio
 
 import pytest
 
-from tests.engine.made import Scene, nothing_shared
+from tests.engine.made import Scene, refuse_facts
 from tutor.content import load_course
 from tutor.judge.submission import Submission
 from tutor.workspace import solution
 
 ADD = "example_interfaces/srv/AddTwoInts"
 LEAST, MOST = -(2**63), 2**63 - 1
-UP_S, ANSWER_S = 60.0, 20.0
+STARTUP_S, ANSWER_S = 60.0, 20.0
 
 
 @pytest.mark.timeout(200)
-async def test_the_calculator_answers_what_no_int64_can_hold(scene: Scene) -> None:
+async def test_the_calculator_saturates_results_outside_int64(scene: Scene) -> None:
     from tutor.engine.bench import RosBench
 
     file = "calculator_server.py"
     files = solution(load_course().find("i1.3")).files
-    bench = RosBench(Submission("i1.3", files), scene.ros, nothing_shared, lambda fraction, text: None)
+    bench = RosBench(Submission("i1.3", files), scene.ros, refuse_facts, lambda fraction, text: None)
     async with bench.start(file) as run:
-        assert await run.until(lambda: "/divide" in [each.name for each in run.graph.servers], UP_S)
+        assert await run.until(lambda: "/divide" in [each.name for each in run.graph.servers], STARTUP_S)
         for service, a, b, nearest in (
             ("/add", MOST, 1, MOST),
             ("/add", LEAST, -1, LEAST),
@@ -36,24 +36,24 @@ async def test_the_calculator_answers_what_no_int64_can_hold(scene: Scene) -> No
         ):
             answer = await run.call(service, ADD, {"a": a, "b": b}, limit_s=ANSWER_S)
             assert answer.response == {"sum": nearest}, (service, a, b, run.output)
-        said = [log.text for log in run.logs if log.level >= 40]
-        assert await run.until(lambda: len([log for log in run.logs if log.level >= 40]) == 6, ANSWER_S), said
+        errors = [log.text for log in run.logs if log.level >= 40]
+        assert await run.until(lambda: len([log for log in run.logs if log.level >= 40]) == 6, ANSWER_S), errors
         assert run.exit is None
 
 
 @pytest.mark.timeout(200)
-async def test_the_slow_service_answers_what_no_int64_can_hold(scene: Scene) -> None:
+async def test_the_slow_service_saturates_results_outside_int64(scene: Scene) -> None:
     from tutor.engine.bench import RosBench
 
     file = "concurrent_service.py"
     files = solution(load_course().find("i2.3")).files
-    bench = RosBench(Submission("i2.3", files), scene.ros, nothing_shared, lambda fraction, text: None)
-    questions = ((MOST, 1, MOST), (LEAST, -1, LEAST), (1, 2, 3))
+    bench = RosBench(Submission("i2.3", files), scene.ros, refuse_facts, lambda fraction, text: None)
+    requests = ((MOST, 1, MOST), (LEAST, -1, LEAST), (1, 2, 3))
     async with bench.start(file) as run:
-        assert await run.until(lambda: "/slow_add" in [each.name for each in run.graph.servers], UP_S)
-        answers = await asyncio.gather(
-            *(run.call("/slow_add", ADD, {"a": a, "b": b}, limit_s=ANSWER_S) for a, b, _ in questions)
+        assert await run.until(lambda: "/slow_add" in [each.name for each in run.graph.servers], STARTUP_S)
+        responses = await asyncio.gather(
+            *(run.call("/slow_add", ADD, {"a": a, "b": b}, limit_s=ANSWER_S) for a, b, _ in requests)
         )
-        assert [each.response for each in answers] == [{"sum": nearest} for _, _, nearest in questions], run.output
+        assert [each.response for each in responses] == [{"sum": nearest} for _, _, nearest in requests], run.output
         assert await run.until(lambda: len([log for log in run.logs if log.level >= 40]) == 2, ANSWER_S), run.logs
         assert run.exit is None

@@ -1,4 +1,4 @@
-"""Which of a learner's files a diagnosis is told of."""
+"""Which of a learner's files the diagnosis reads."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tutor.engine.source import launch_arguments, sources, uncalled_main, with_c
 from tutor.judge.tracebacks import Frame
 
 
-def test_what_a_launch_file_names_is_beside_it(tmp_path: Path) -> None:
+def test_files_named_in_a_launch_file_are_read(tmp_path: Path) -> None:
     (tmp_path / "my_launch.py").write_text(
         "import helper\n\n\ndef generate_launch_description():\n"
         "    return [Node(package='my_package', executable='speaker'), include('more.launch.py')]\n"
@@ -22,7 +22,7 @@ def test_what_a_launch_file_names_is_beside_it(tmp_path: Path) -> None:
     assert set(sources(tmp_path / "my_launch.py")) == {"my_launch.py", "helper.py", "speaker.py", "more.launch.py"}
 
 
-def test_a_text_of_a_node_is_not_a_file(tmp_path: Path) -> None:
+def test_a_string_in_a_node_is_not_taken_as_a_file_name(tmp_path: Path) -> None:
     (tmp_path / "talker.py").write_text("topic = 'chatter'\n")
     (tmp_path / "chatter.py").write_text("x = 1\n")
     assert set(sources(tmp_path / "talker.py")) == {"talker.py"}
@@ -48,13 +48,13 @@ TOO_MUCH = {
 
 
 @pytest.mark.parametrize("source", [*REFUSED.values(), *TOO_MUCH.values()], ids=[*REFUSED, *TOO_MUCH])
-def test_what_python_refuses_or_is_too_much_to_read_says_nothing(source: bytes, tmp_path: Path) -> None:
+def test_unparsable_or_excessive_sources_are_ignored_quickly(source: bytes, tmp_path: Path) -> None:
     path = tmp_path / "talker.py"
     path.write_bytes(source)
-    began, words = time.process_time(), sources(path)
+    began, found = time.process_time(), sources(path)
     assert uncalled_main(path) is False
     assert launch_arguments(path) == ()
-    assert not words or source in REFUSED.values()
+    assert not found or source in REFUSED.values()
     assert time.process_time() - began < 2
 
 

@@ -1,4 +1,4 @@
-"""Starts take turns: a few at a time, the longest first, and nobody waits forever."""
+"""Process starts take turns: a few at a time, the longest first, and none waits forever."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tutor.engine.start_limiter import ITERATIONS, StartLimiter
 
 
 class Starts:
-    """Processes that start when they are let in, and are up when told."""
+    """Fake processes that start when they get a slot, and are up or over when the test says so."""
 
     def __init__(self, slots: int) -> None:
         self.start_limiter = StartLimiter(slots)
@@ -36,11 +36,11 @@ async def settle() -> None:
         await asyncio.sleep(0)
 
 
-async def test_the_longest_goes_first_and_a_slot_is_free_when_a_process_is_up() -> None:
+async def test_the_longest_starts_first_and_a_slot_is_freed_when_a_process_is_up() -> None:
     starts = Starts(2)
-    tasks = [starts.begin(name, asks) for name, asks in (("a", 1), ("b", 1), ("c", 2), ("d", 5), ("e", 2))]
+    tasks = [starts.begin(name, expected_s) for name, expected_s in (("a", 1), ("b", 1), ("c", 2), ("d", 5), ("e", 2))]
     await settle()
-    assert starts.began == ["d", "c"]  # of two that are as long, the one that came first
+    assert starts.began == ["d", "c"]  # of two equally long ones, the first to ask
     tasks.append(starts.begin("f", 9))
     await settle()
     assert starts.began == ["d", "c"]
@@ -57,8 +57,8 @@ async def test_the_longest_goes_first_and_a_slot_is_free_when_a_process_is_up() 
     await asyncio.gather(*tasks)
 
 
-async def test_those_that_are_begun_a_moment_later_take_part() -> None:
-    """As where a scenario begins several starts, each in a task of its own."""
+async def test_starts_requested_a_moment_later_are_considered() -> None:
+    """As when a scenario starts several processes, each in its own task."""
     starts = Starts(1)
 
     async def begin(name: str, expected_s: float) -> None:
@@ -74,7 +74,7 @@ async def test_those_that_are_begun_a_moment_later_take_part() -> None:
     await asyncio.gather(*tasks)
 
 
-async def test_an_end_before_it_is_up_frees_the_slot_once() -> None:
+async def test_a_process_that_ends_before_it_is_up_frees_its_slot_once() -> None:
     starts = Starts(1)
     first, second, third = (starts.begin(name, 1) for name in "abc")
     await settle()
@@ -93,13 +93,13 @@ async def test_an_end_before_it_is_up_frees_the_slot_once() -> None:
         task.cancel()
 
 
-@pytest.mark.parametrize("given_it", [False, True])
-async def test_anyone_who_gives_up_waiting_takes_no_slot_along(given_it: bool) -> None:
+@pytest.mark.parametrize("has_slot", [False, True])
+async def test_a_cancelled_wait_keeps_no_slot(has_slot: bool) -> None:
     starts = Starts(1)
     async with starts.start_limiter.slot(1) as up:
         gives_up = starts.begin("a", 1)
         await settle()
-        if given_it:  # and cancelled before it could do anything with it
+        if has_slot:  # it gets the slot, but is cancelled before it can use it
             up()
         gives_up.cancel()
         await settle()
@@ -109,7 +109,7 @@ async def test_anyone_who_gives_up_waiting_takes_no_slot_along(given_it: bool) -
     next_one.cancel()
 
 
-async def test_it_has_a_slot_for_each_core_and_one_more(monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_there_is_one_slot_more_than_cores(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("os.sched_getaffinity", lambda pid: {0, 1, 4})
     starts = Starts(0)
     tasks = [starts.begin(str(number), 1) for number in range(9)]

@@ -1,4 +1,4 @@
-"""A publisher of ours on the learner's domain: it feeds the node, and it can go away and come back."""
+"""Our publisher on the learner's domain: it feeds the node, and can leave and come back."""
 
 from __future__ import annotations
 
@@ -9,64 +9,65 @@ from tutor.judge.bench import Publisher, Run
 from tutor.ros_model import QoS
 
 CHATTER, STRING = "/chatter", "std_msgs/msg/String"
-UP_S = 20.0
-HEARS = """
+STARTUP_S = 20.0
+LISTENS = """
 node.create_subscription(String, "chatter", lambda message: node.get_logger().info(message.data), 10)
 node.create_timer(0.02, lambda: print(node.count_publishers("chatter"), flush=True))
 """
 
 
-async def matched(run: Run, talker: Publisher) -> None:
-    assert await run.until(lambda: talker.subscribers == 1, UP_S), run.trace()
+async def wait_for_match(run: Run, talker: Publisher) -> None:
+    assert await run.until(lambda: talker.subscribers == 1, STARTUP_S), run.trace()
 
 
-async def heard(run: Run, *texts: str) -> None:
-    assert await run.until(lambda: [log.text for log in run.logs] == list(texts), UP_S), run.logs
+async def wait_for_logs(run: Run, *texts: str) -> None:
+    assert await run.until(lambda: [log.text for log in run.logs] == list(texts), STARTUP_S), run.logs
 
 
-def publishers_seen(run: Run) -> list[str]:
-    """How many publishers the node saw, with each change."""
+def publisher_counts(run: Run) -> list[str]:
+    """Return the numbers of publishers that the node saw, one entry per change."""
     seen = [line.text for line in run.output if line.stream == "stdout"]
     return [text for before, text in zip(["", *seen], seen, strict=False) if text != before]
 
 
-async def test_a_node_hears_what_is_published_in_order_and_at_known_times(scene: Scene) -> None:
-    async with scene.bench(node(HEARS)).start(FILE) as run, run.publisher(CHATTER, STRING) as talker:
+async def test_a_node_receives_our_messages_in_order_and_at_known_times(scene: Scene) -> None:
+    async with scene.bench(node(LISTENS)).start(FILE) as run, run.publisher(CHATTER, STRING) as talker:
         assert talker.subscribers == 0
-        await matched(run, talker)
+        await wait_for_match(run, talker)
         before = time.time()
         first = talker.publish({"data": "one"})
         second = talker.publish({"data": "two"})
-        await heard(run, "one", "two")
+        await wait_for_logs(run, "one", "two")
     assert before <= first.source_time <= second.source_time <= run.logs[-1].stamp + 0.01
     assert (first.topic, first.message) == (CHATTER, {"data": "one"})
 
 
-async def test_it_goes_away_and_another_takes_its_place(scene: Scene) -> None:
-    async with scene.bench(node(HEARS)).start(FILE) as run:
+async def test_a_publisher_leaves_and_another_takes_its_place(scene: Scene) -> None:
+    async with scene.bench(node(LISTENS)).start(FILE) as run:
         async with run.publisher(CHATTER, STRING) as talker:
-            await matched(run, talker)
+            await wait_for_match(run, talker)
             talker.publish({"data": "before"})
-            await heard(run, "before")
-            assert await run.until(lambda: publishers_seen(run)[-1:] == ["1"], UP_S)
-        assert await run.until(lambda: publishers_seen(run)[-1] == "0", UP_S), publishers_seen(run)
+            await wait_for_logs(run, "before")
+            assert await run.until(lambda: publisher_counts(run)[-1:] == ["1"], STARTUP_S)
+        assert await run.until(lambda: publisher_counts(run)[-1] == "0", STARTUP_S), publisher_counts(run)
         async with run.publisher(CHATTER, STRING) as talker:
-            await matched(run, talker)
+            await wait_for_match(run, talker)
             talker.publish({"data": "after"})
-            await heard(run, "before", "after")
+            await wait_for_logs(run, "before", "after")
 
 
-async def test_it_is_no_part_of_the_learners_graph_and_matches_a_talkers_listeners_only(scene: Scene) -> None:
+async def test_our_publisher_is_not_in_the_graph_and_matches_only_compatible_subscriptions(scene: Scene) -> None:
     durable = """
 from rclpy.qos import QoSProfile, DurabilityPolicy, ReliabilityPolicy
 node.create_subscription(String, "chatter", print, QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
 node.create_subscription(String, "chatter", print, QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT))
 """
     async with scene.bench(node(durable)).start(FILE) as run, run.publisher(CHATTER, STRING) as talker:
-        await matched(run, talker)
-        assert await run.until(lambda: len(run.graph.subscriptions) == 2, UP_S)
+        await wait_for_match(run, talker)
+        assert await run.until(lambda: len(run.graph.subscriptions) == 2, STARTUP_S)
         assert talker.subscribers == 1
         assert run.graph.publishers == ()
-        assert await run.until(lambda: bool(run.graph.nodes), UP_S)  # DDS tells of a node's endpoints before it
+        # DDS announces a node's endpoints before the node.
+        assert await run.until(lambda: bool(run.graph.nodes), STARTUP_S)
         assert run.graph.nodes == ("/learner",)
         assert talker.endpoint.qos == QoS("reliable", "volatile")

@@ -1,4 +1,4 @@
-"""Checks of one machine take turns."""
+"""Checks on one machine take turns."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 
 from tests.ros.own_network import OWN_NETWORK, needs_own_network
 
-# With nobody else's checks beside them: ten, of which each notes how many are under way.
+# Ten checks in a network namespace without other checks, each counting how many run at once.
 TEN = """
 import asyncio, os
 from tutor.engine.turns import turn
@@ -41,13 +41,13 @@ asyncio.run(main())
 
 
 @needs_own_network
-def test_two_at_once_for_each_core_but_nobody_waits_for_ever() -> None:
+def test_two_checks_per_core_run_at_once_and_none_waits_forever() -> None:
     subprocess.run(
         [sys.executable, "-c", OWN_NETWORK + TEN], check=True, timeout=60, env={**os.environ, "PYTHONPATH": os.getcwd()}
     )
 
 
-# All turns are taken, by this process; then what is to be looked at.
+# This process takes all turns; the program under test is appended.
 TAKEN = """
 import fcntl, json, os, pty, signal, socket, struct, subprocess, sys, time
 with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:
@@ -113,7 +113,7 @@ else:
 @needs_own_network
 @pytest.mark.parametrize("program", [ON_A_TERMINAL, IN_THE_APP], ids=["terminal", "app"])
 @pytest.mark.parametrize("end", ["press", "free"])
-def test_a_check_that_waits_says_so_and_ends_by_ctrl_c(program: str, end: str) -> None:
+def test_a_waiting_check_says_so_and_ends_on_ctrl_c(program: str, end: str) -> None:
     root = Path(__file__).parents[2]
     ran = subprocess.run(
         [sys.executable, "-c", OWN_NETWORK + TAKEN + program, end],

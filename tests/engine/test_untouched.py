@@ -1,4 +1,4 @@
-"""A skeleton as the lesson gave it is told where to begin, not the code that is asked for."""
+"""The next step for an unchanged skeleton is where to begin, not the code that the exercise asks for."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ def test_an_untouched_skeleton_has_a_first_todo_until_it_is_changed(lesson: Less
     assert first_todo(lesson, submission) == ""
 
 
-def test_its_next_step_is_the_hint_of_the_criterion() -> None:
+def test_an_untouched_skeletons_next_step_is_the_criterions_hint() -> None:
     verdict = failed("a", "b", Cause("no publisher", "there is none", "line 3 becomes: all of it"))
-    told = point_to_todo(verdict, "node.py, line 8", "Create a publisher.")
-    assert told.hint == "work through the TODOs of the skeleton, from node.py, line 8 on. Create a publisher."
-    assert (told.cause, told.status) == (verdict.cause, verdict.status)
+    pointed = point_to_todo(verdict, "node.py, line 8", "Create a publisher.")
+    assert pointed.hint == "work through the TODOs of the skeleton, from node.py, line 8 on. Create a publisher."
+    assert (pointed.cause, pointed.status) == (verdict.cause, verdict.status)
     assert point_to_todo(verdict, "", "Create a publisher.") == verdict
     assert point_to_todo(passed("a", "b"), "node.py, line 8", "x") == passed("a", "b")

@@ -1,9 +1,9 @@
-"""Check every hostile submission, one at a time, and print what came out, what it cost and what it left behind.
+"""Check every hostile submission, one at a time, and print its result, its cost and what it left behind.
 
     uv run python -m tests.hostile [EXERCISE[/hostile/NAME] ...]
 
-Before them, each exercise's solution, as the ordinary check beside which their memory is measured. Exit code 1 where
-anything is not as expected: the verdict, the exit code, memory, the report's size, what is left.
+Each exercise's solution is checked first, as the ordinary check with which memory use is compared. Exit code 1 if
+anything is not as expected: the verdict, the exit code, memory, the report's size, or what is left behind.
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ from tutor.process import prctl
 from tutor.process.supervisor import descendants
 
 LIMIT_S = 180.0
-LOOK_EVERY_S = 0.02
-MOST_ABOVE_ORDINARY_MB = 150.0
-MOST_REPORT_KB = 1024.0
-OURS = (b"tutor", b"tutor.engine", b"supervisor.py")
+POLL_S = 0.02
+MAX_EXTRA_MB = 150.0
+MAX_REPORT_KB = 1024.0
+OUR_PROGRAMS = (b"tutor", b"tutor.engine", b"supervisor.py")
 EXERCISES = ("i1.1", "i1.2", "i1.3", "i2.1", "i2.2", "i2.3")
 
 
 @dataclass
 class Checked:
-    """One check. `peak_mb` is the resident memory of our own processes, at most, together."""
+    """One check. `peak_mb` is the peak resident memory of our own processes together."""
 
     name: str
     exit: int = 0
@@ -52,67 +52,67 @@ class Checked:
     wrong: list[str] = field(default_factory=list)
 
 
-class Peak:
-    """The highest resident memory of our processes that live at a time, each by the kernel's own high-water mark."""
+class PeakMemory:
+    """The peak resident memory of our processes that are alive at one time, by the kernel's high-water marks."""
 
     def __init__(self) -> None:
         self.mb = 0.0
 
-    def look(self, root: int) -> None:
-        """Read it for `root` and those of its descendants that are ours.
+    def update(self, root: int) -> None:
+        """Read the memory of `root` and those of its descendants that are ours.
 
-        A fork that is about to become another program has its parent's command line, and its parent's memory, still.
+        A fork before its exec still has its parent's command line and memory; it is not counted.
         """
-        together_kb = 0
+        total_kb = 0
         commands: dict[int, bytes] = {}
         for pid, parent in ((root, 0), *((p.pid, p.parent) for p in descendants(root))):
             try:
                 commands[pid] = Path(f"/proc/{pid}/cmdline").read_bytes()
-                ours = any(word.endswith(OURS) for word in commands[pid].split(b"\0"))
-                if not ours or commands[pid] == commands.get(parent):
+                is_ours = any(word.endswith(OUR_PROGRAMS) for word in commands[pid].split(b"\0"))
+                if not is_ours or commands[pid] == commands.get(parent):
                     continue
                 status = Path(f"/proc/{pid}/status").read_text()
             except OSError:  # it has just ended
                 continue
             peak = next((line.split()[1] for line in status.splitlines() if line.startswith("VmHWM")), "0")
-            together_kb += int(peak)
-        self.mb = max(self.mb, together_kb / 1024)
+            total_kb += int(peak)
+        self.mb = max(self.mb, total_kb / 1024)
 
 
 def check(name: str, exercise: str, arguments: Iterable[str], folder: Path | None) -> tuple[Checked, bytes]:
-    """Check a copy of the folder with the command line. Gives what it cost, and the report."""
-    with tempfile.TemporaryDirectory(prefix="hostile-") as made:
-        base = Path(made)
+    """Check a copy of the folder from the command line; return what it cost, and the report."""
+    with tempfile.TemporaryDirectory(prefix="hostile-") as temporary:
+        base = Path(temporary)
         for inner in ("tmp", "home"):
             (base / inner).mkdir()
         work = shutil.copytree(folder, base / "work") if folder else base
-        shared = set(os.listdir("/dev/shm"))
+        shared_before = set(os.listdir("/dev/shm"))
         command = [*module_command("tutor"), "check", exercise, *arguments, "--format", "json"]
         if folder:
             command.append(str(work))
-        started, peak = time.monotonic(), Peak()
+        started, peak = time.monotonic(), PeakMemory()
         report = base / "report"
         with report.open("wb") as out, (base / "errors").open("wb") as errors:
             environment = {**os.environ, "TMPDIR": str(base / "tmp"), "HOME": str(base / "home")}
             process = subprocess.Popen(command, stdout=out, stderr=errors, cwd=work, env=environment)
             while process.poll() is None and time.monotonic() - started < LIMIT_S:
-                peak.look(process.pid)
-                time.sleep(LOOK_EVERY_S)
+                peak.update(process.pid)
+                time.sleep(POLL_S)
         took_s = time.monotonic() - started
         found = Checked(name, process.poll() or 0, took_s, peak.mb, report.stat().st_size / 1024)
         if process.returncode is None:
             found.wrong.append(f"it has not ended after {LIMIT_S:g} s")
             process.kill()
             process.wait()
-        found.left = [*_end_orphans(), *_files(base / "tmp")]
-        found.left += [f"/dev/shm/{name}" for name in sorted(set(os.listdir("/dev/shm")) - shared)]
+        found.left = [*_end_orphans(), *_find_files(base / "tmp")]
+        found.left += [f"/dev/shm/{name}" for name in sorted(set(os.listdir("/dev/shm")) - shared_before)]
         if found.exit not in (0, 1, 3):
             found.wrong.append((base / "errors").read_text(errors="replace")[-300:].strip())
         return found, report.read_bytes()
 
 
 def _end_orphans() -> list[str]:
-    """End what has come to us, the subreaper of all that was started here, and say what it was."""
+    """Kill the orphans that we, as the subreaper, have inherited, and return their command lines."""
     left = []
     for orphan in descendants(os.getpid()):
         command = Path(f"/proc/{orphan.pid}/cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
@@ -127,8 +127,8 @@ def _end_orphans() -> list[str]:
     return left
 
 
-def _files(folder: Path) -> list[str]:
-    """What is in a temporary folder, but for our own in it, which stays, and the logs there."""
+def _find_files(folder: Path) -> list[str]:
+    """List what is left in a temporary folder, except for our own base folder and its logs."""
     own = folder / f"ros-tutor-{os.getuid()}"
     left = [each for each in folder.iterdir() if each != own]
     left += [each for each in own.iterdir() if each.name != "log"] if own.exists() else []
@@ -136,7 +136,7 @@ def _files(folder: Path) -> list[str]:
 
 
 def compare_with_expected(case: Case, found: Checked, report: bytes, ordinary_mb: float) -> None:
-    """Say in `found.wrong` what is not as the case, and our bounds, have it."""
+    """Add to `found.wrong` whatever violates the case's expectations or our limits."""
     expected = case.expected.exit if case.expected.exit is not None else (0 if case.expected.passes else 1)
     if found.exit != expected:
         found.wrong.append(f"exit code {found.exit}, not {expected}")
@@ -147,19 +147,19 @@ def compare_with_expected(case: Case, found: Checked, report: bytes, ordinary_mb
         if expected != 3:
             found.wrong.append("no report")
     for each in judged:
-        found.wrong += compare(case, _result(each)).wrong
-    if found.peak_mb > ordinary_mb + MOST_ABOVE_ORDINARY_MB:
+        found.wrong += compare(case, _parse_result(each)).wrong
+    if found.peak_mb > ordinary_mb + MAX_EXTRA_MB:
         found.wrong.append(f"{found.peak_mb - ordinary_mb:.0f} MB above an ordinary check")
-    if found.report_kb > MOST_REPORT_KB:
+    if found.report_kb > MAX_REPORT_KB:
         found.wrong.append(f"a report of {found.report_kb:.0f} KB")
     if found.left:
         found.wrong.append("left behind: " + ", ".join(found.left))
 
 
-def _result(written: Mapping[str, Any]) -> ExerciseResult:
-    """What a report says of an exercise, as far as `compare` looks at it."""
+def _parse_result(report: Mapping[str, Any]) -> ExerciseResult:
+    """Build an exercise's result from the report, as far as `compare` needs it."""
     return ExerciseResult(
-        written["id"],
+        report["id"],
         "",
         (),
         tuple(
@@ -175,14 +175,14 @@ def _result(written: Mapping[str, Any]) -> ExerciseResult:
                 ),
                 0.0,
             )
-            for each in written["criteria"]
+            for each in report["criteria"]
         ),
         0.0,
     )
 
 
 def table(rows: Iterable[Checked]) -> str:
-    """One line for each check."""
+    """Format one line for each check."""
     lines = [f"{'check':<44}{'exit':>5}{'s':>7}{'MB':>6}{'report KB':>11}  as expected"]
     lines += [
         f"{row.name:<44}{row.exit:>5}{row.took_s:>7.1f}{row.peak_mb:>6.0f}{row.report_kb:>11.1f}  "
@@ -193,13 +193,13 @@ def table(rows: Iterable[Checked]) -> str:
 
 
 def main() -> int:
-    """Exit code 0 where everything is as expected, 1 where not, 2 where no submission is called so."""
+    """Return exit code 0 if everything is as expected, 1 if not, 2 if no submission matches."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
     wanted = parser.parse_args().wanted
     cases = [case for case in find_hostile() if not wanted or str(case).startswith(tuple(wanted))]
     if not cases:
-        print(f"no hostile submission is called {' or '.join(wanted) or 'anything'}", file=sys.stderr)
+        print(f"no hostile submission is named {' or '.join(wanted) or 'anything'}", file=sys.stderr)
         return 2
     prctl.adopt_orphans(True)
     rows: list[Checked] = []

@@ -1,6 +1,6 @@
-"""Publishes an exact number of Float64 evenly, once a subscriber is there: `metronome.py RATE_HZ COUNT [DEPTH]`.
+"""Publish COUNT Float64 at a steady rate once there is a subscriber: `metronome.py RATE_HZ COUNT [DEPTH]`.
 
-As bytes, made once: Python can then keep up with 10 kHz.
+The messages are serialized in advance, so that Python can keep up with 10 kHz.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import rclpy
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Float64
 
-LATEST_S = 30.0
+LIMIT_S = 30.0
 
 
 def main() -> None:
@@ -21,9 +21,9 @@ def main() -> None:
     rclpy.init()
     node = rclpy.create_node("metronome")
     publisher = node.create_publisher(Float64, "/ticks", depth)
-    waves = [serialize_message(Float64(data=float(step % 100))) for step in range(100)]
+    messages = [serialize_message(Float64(data=float(step % 100))) for step in range(100)]
     print("ready", flush=True)
-    deadline = time.monotonic() + LATEST_S
+    deadline = time.monotonic() + LIMIT_S
     while publisher.get_subscription_count() == 0 and time.monotonic() < deadline:
         time.sleep(0.01)
     begin = time.perf_counter()
@@ -31,11 +31,11 @@ def main() -> None:
     while sent < count:
         due = min(count, int((time.perf_counter() - begin) * rate) + 1)
         while sent < due:
-            publisher.publish(waves[sent % 100])
+            publisher.publish(messages[sent % 100])
             sent += 1
         time.sleep(max(0.0, begin + sent / rate - time.perf_counter()))
     print(f"{sent} {time.perf_counter() - begin:.3f}", flush=True)
-    time.sleep(LATEST_S)  # until it is ended: a publisher that leaves takes unread messages along
+    time.sleep(LIMIT_S)  # until it is killed: messages not yet read are lost when their publisher leaves
 
 
 if __name__ == "__main__":

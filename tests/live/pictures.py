@@ -1,4 +1,4 @@
-"""Takes pictures of the live page in its states: `python -m tests.live.pictures DIR`. For looking at."""
+"""Take screenshots of the live page in its states, for visual review: `python -m tests.live.pictures DIR`."""
 
 from __future__ import annotations
 
@@ -18,35 +18,35 @@ from tutor.tui.themes import DARK, LIGHT
 LIMIT_S = 20.0
 
 
-async def until(pilot: Pilot[int], seen: Callable[[], bool]) -> None:
+async def wait_until(pilot: Pilot[int], condition: Callable[[], bool]) -> None:
     async with asyncio.timeout(LIMIT_S):
-        while not seen():
+        while not condition():
             await pilot.pause(0.05)
     await pilot.pause()
 
 
-async def take_all(folder: Path, around: World, size: tuple[int, int], theme: str) -> None:
+async def take_all(folder: Path, ros_world: World, size: tuple[int, int], theme: str) -> None:
     def take(name: str) -> None:
-        place = folder / f"live-{name}-{size[0]}x{size[1]}-{theme.rsplit('-', 1)[1]}.svg"
-        place.write_text(app.export_screenshot(title="live"))
+        file = folder / f"live-{name}-{size[0]}x{size[1]}-{theme.rsplit('-', 1)[1]}.svg"
+        file.write_text(app.export_screenshot(title="live"))
 
-    app = LiveApp(around)
+    app = LiveApp(ros_world)
     app.theme = theme
     async with app.run_test(size=size, notifications=True) as pilot:
         state, pane = app.pane.state, app.pane
         take("starting")
-        await until(pilot, lambda: state.ready)
+        await wait_until(pilot, lambda: state.ready)
         await pilot.pause(0.3)
         take("nothing")
-        node = around.run(THERMOMETER)
+        node = ros_world.run(THERMOMETER)
         pane.show_for(load_course().find("i1.1"))
         topics = pane.query_one(TopicsPanel)
-        await until(pilot, lambda: topics.view is not None and len(topics.view.points) > 60)
+        await wait_until(pilot, lambda: topics.view is not None and len(topics.view.points) > 60)
         take("topics")
         topics.follow("/cmd_vel")
-        await until(pilot, lambda: topics.view is not None and len(topics.view.points) > 40)
+        await wait_until(pilot, lambda: topics.view is not None and len(topics.view.points) > 40)
         await pilot.press("y", "y", "y", "y", "y")
-        await until(pilot, lambda: topics.view is not None and len(topics.view.points) > 10)
+        await wait_until(pilot, lambda: topics.view is not None and len(topics.view.points) > 10)
         take("nested")
         await pilot.press("space")
         await pilot.pause(0.5)
@@ -55,11 +55,11 @@ async def take_all(folder: Path, around: World, size: tuple[int, int], theme: st
         await pilot.pause(0.3)
         take("unheard")
         await pilot.press("right_square_bracket")
-        await until(pilot, lambda: bool(state.listed_parameters()))
+        await wait_until(pilot, lambda: bool(state.listed_parameters()))
         await pilot.press("down", "enter")
         take("editing")
         await pilot.press("enter", "down", "enter", "delete", "enter")
-        await until(pilot, lambda: len(state.sets) > 1)
+        await wait_until(pilot, lambda: len(state.sets) > 1)
         await pilot.press("up", "enter", *"x", "enter")
         take("parameters")
         await pilot.press("escape", "right_square_bracket")
@@ -67,11 +67,13 @@ async def take_all(folder: Path, around: World, size: tuple[int, int], theme: st
         take("services")
         await pilot.press("enter")
         form = pane.query_one(ServicesPanel)
-        await until(pilot, lambda: app.focused is not None and app.focused.parent is not None and bool(form.chosen))
+        await wait_until(
+            pilot, lambda: app.focused is not None and app.focused.parent is not None and bool(form.chosen)
+        )
         await pilot.press(*"4x", "enter")
         take("wrong")
         await pilot.press("backspace", "tab", *"2", "enter")
-        await until(pilot, lambda: len(state.calls) > 0)
+        await wait_until(pilot, lambda: len(state.calls) > 0)
         await form.choose(next(each for each in form._listed if each.name == "/slow_add"))
         await pilot.press("enter")
         await pilot.pause(0.5)
@@ -81,9 +83,9 @@ async def take_all(folder: Path, around: World, size: tuple[int, int], theme: st
         take("graph")
         await pilot.press("u")
         take("graph-all")
-        around.interrupt(node)
+        ros_world.interrupt(node)
         await pilot.press("right_square_bracket")
-        await until(pilot, lambda: not state.nodes)
+        await wait_until(pilot, lambda: not state.nodes)
         await pilot.pause(1.0)
         take("ended")
         await pane.close_down()
@@ -94,8 +96,8 @@ async def main(folder: Path, only: str = "") -> None:
     for size in ((78, 18), (84, 26), (120, 40)):
         for theme in (DARK.name, LIGHT.name):
             if only in f"{size[0]}{theme}":
-                with world() as around:
-                    await take_all(folder, around, size, theme)
+                with world() as ros_world:
+                    await take_all(folder, ros_world, size, theme)
     print(f"{len(list(folder.glob('live-*.svg')))} pictures in {folder}")
 
 

@@ -1,4 +1,4 @@
-"""Big messages on a topic that is followed, or echoed: as few of them are held as can be."""
+"""Few large messages of a followed or echoed topic are held in memory at a time."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.live.test_live_process import LIMIT_S, Watching
+from tests.live.test_live_process import LIMIT_S, Watcher
 from tests.live.world import world
 from tutor.live.protocol import Follow
 from tutor.live.updates import TopicUpdate
@@ -28,28 +28,28 @@ rclpy.spin(node)
 """
 
 
-def peak_mb(pid: int) -> float:
+def peak_memory_mb(pid: int) -> float:
     with open(f"/proc/{pid}/status") as status:
         return next(int(line.split()[1]) / 1024 for line in status if line.startswith("VmHWM"))
 
 
-def test_following_a_topic_of_big_messages_takes_little_memory(tmp_path: Any) -> None:
+def test_following_a_topic_with_big_messages_takes_little_memory(tmp_path: Any) -> None:
     (tmp_path / "big.py").write_text(BIG)
-    with world() as around, contextlib.ExitStack() as stack:
-        around.run(tmp_path / "big.py", "1000000")
-        watching = Watching(around)
-        stack.callback(watching.close)
-        watching.ready()
-        before = peak_mb(watching.process.pid)
-        watching.tell(Follow("/big"))
-        update = (each for each in watching.updates(LIMIT_S) if isinstance(each, TopicUpdate))
-        last = next(each for each in update if each.count > 100)
+    with world() as ros_world, contextlib.ExitStack() as stack:
+        ros_world.run(tmp_path / "big.py", "1000000")
+        watcher = Watcher(ros_world)
+        stack.callback(watcher.close)
+        watcher.wait_until_ready()
+        before = peak_memory_mb(watcher.process.pid)
+        watcher.send(Follow("/big"))
+        updates = (each for each in watcher.updates(LIMIT_S) if isinstance(each, TopicUpdate))
+        last = next(each for each in updates if each.count > 100)
         assert last.count > 100
-        assert peak_mb(watching.process.pid) - before < 100
+        assert peak_memory_mb(watcher.process.pid) - before < 100
 
 
-class Handle(contextlib.nullcontext[None]):
-    """Of a subscription on which messages of one size wait without end."""
+class FakeHandle(contextlib.nullcontext[None]):
+    """The fake handle of a subscription with an endless queue of messages of one size."""
 
     def __init__(self, size: int) -> None:
         super().__init__()
@@ -60,17 +60,17 @@ class Handle(contextlib.nullcontext[None]):
         return self._message, {}
 
 
-class Subscription:
+class FakeSubscription:
     msg_type = None
 
     def __init__(self, size: int) -> None:
-        self.handle = Handle(size)
+        self.handle = FakeHandle(size)
 
 
 @pytest.mark.parametrize("size", [8, 100_000, 1_000_000, 100_000_000])
 def test_a_batch_of_big_messages_is_small(size: int) -> None:
     from tutor.bundled_ros.ros2 import receiving
 
-    found, told = receiving._all_of(Subscription(size), True, lambda *_: None)  # type: ignore[arg-type]
-    assert told == size
-    assert len(found) == min(5000, max(1, receiving.MOST_BYTES // size))
+    messages, total = receiving._all_of(FakeSubscription(size), True, lambda *_: None)  # type: ignore[arg-type]
+    assert total == size
+    assert len(messages) == min(5000, max(1, receiving.MOST_BYTES // size))

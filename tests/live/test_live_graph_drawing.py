@@ -16,7 +16,7 @@ def lines(*topics: Topic, width: int = 82) -> list[str]:
 
 
 def topic(name: str, publishers: Sequence[str], subscriptions: Sequence[str] = (), **requested: QoS) -> Topic:
-    """A topic of these nodes; where some request another QoS, the publishers are best effort."""
+    """Return a topic of these nodes. If `requested` gives any node's QoS, the publishers are best effort."""
     offered = BEST_EFFORT if requested else QoS()
     return Topic(
         name,
@@ -25,7 +25,7 @@ def topic(name: str, publishers: Sequence[str], subscriptions: Sequence[str] = (
     )
 
 
-def test_a_node_leads_to_its_topic_and_that_to_its_listeners() -> None:
+def test_arrows_lead_from_publisher_to_topic_to_subscribers() -> None:
     assert lines(topic("/chatter", ["/talker"], ["/listener", "/message_stats"])) == [
         "╭─────────╮    ┏━━━━━━━━━━━━━━━━━━━━┓    ╭────────────────╮",
         "│ /talker ├───▶┃ /chatter           ┃──┬▶│ /listener      │",
@@ -36,13 +36,13 @@ def test_a_node_leads_to_its_topic_and_that_to_its_listeners() -> None:
     ]
 
 
-def test_a_node_that_is_not_connected_has_no_arrow() -> None:
+def test_an_incompatible_subscriber_has_no_arrow() -> None:
     drawn = lines(topic("/chatter", ["/talker"], ["/good", "/late"], good=BEST_EFFORT))
     assert "▶│ /good" in drawn[1]
     assert "✗│ /late" in drawn[4]
 
 
-def test_topics_of_one_node_hang_on_one_box_and_publishers_of_one_topic_meet() -> None:
+def test_a_node_has_one_box_for_all_its_topics_and_publishers_of_a_topic_join() -> None:
     one = lines(topic("/a", ["/node"]), topic("/b", ["/node"]))
     assert sum("/node" in line for line in one) == 1
     assert [line.count("├───▶┃") for line in one] == [0, 1, 0, 0, 1, 0]
@@ -51,13 +51,13 @@ def test_topics_of_one_node_hang_on_one_box_and_publishers_of_one_topic_meet() -
     assert two[4].endswith("├─╯")
 
 
-def test_nobody_at_one_end_is_said_in_words() -> None:
+def test_a_missing_publisher_or_subscriber_is_described_in_words() -> None:
     assert "nobody listens" in lines(topic("/a", ["/x"]))[1]
     assert lines(topic("/a", [], ["/x"]))[1].startswith(" nobody publishes")
 
 
 @pytest.mark.parametrize("width", [60, 70, 118])
-def test_it_fits_and_its_lines_meet(width: int) -> None:
+def test_the_drawing_fits_the_width(width: int) -> None:
     nodes = [f"/a_namespace/node_of_a_rather_long_name_{n}" for n in range(3)]
     for row in lines(topic("/another/long/name/of/a/topic", nodes[:2], nodes[2:]), width=width):
         assert len(row) <= width

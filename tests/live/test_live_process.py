@@ -1,4 +1,4 @@
-"""The watching process on a real domain: what it counts, and that it never outlives the app."""
+"""The watcher process on a real domain: what it counts, and that it never outlives the app."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ from tutor.live.updates import TopicUpdate
 LIMIT_S = 30.0
 
 
-class Watching:
-    """The child, as a test talks to it."""
+class Watcher:
+    """A watcher process, with its requests and updates."""
 
-    def __init__(self, around: World) -> None:
-        command = around.command()
+    def __init__(self, ros_world: World) -> None:
+        command = ros_world.command()
         pipe = subprocess.PIPE
         self.process = subprocess.Popen(
             command.argv, env=dict(command.env), stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, bufsize=0
         )
-        self._held = b""
+        self._unfinished = b""
 
-    def tell(self, request: WatcherRequest) -> None:
+    def send(self, request: WatcherRequest) -> None:
         assert self.process.stdin is not None
         self.process.stdin.write(encode_request(request).encode() + b"\n")
 
@@ -39,102 +39,102 @@ class Watching:
         assert self.process.stdout is not None
         deadline = time.monotonic() + limit_s
         while select.select([self.process.stdout], [], [], max(0.0, deadline - time.monotonic()))[0]:
-            if not (some := os.read(self.process.stdout.fileno(), 1 << 16)):
+            if not (chunk := os.read(self.process.stdout.fileno(), 1 << 16)):
                 return
-            *lines, self._held = (self._held + some).split(b"\n")
+            *lines, self._unfinished = (self._unfinished + chunk).split(b"\n")
             for line in lines:
                 yield decode_update(line.decode())
 
-    def ready(self) -> None:
+    def wait_until_ready(self) -> None:
         assert any(isinstance(update, Ready) for update in self.updates())
 
     def close(self) -> None:
-        for end in (self.process.stdin, self.process.stdout):
-            assert end is not None
+        for stream in (self.process.stdin, self.process.stdout):
+            assert stream is not None
             with contextlib.suppress(BrokenPipeError):
-                end.close()
+                stream.close()
         self.process.wait(5)
 
 
 @pytest.fixture
-def around() -> Iterator[World]:
-    with world() as made:
-        yield made
+def ros_world() -> Iterator[World]:
+    with world() as private:
+        yield private
 
 
-def test_every_message_of_a_1_khz_topic_is_counted_and_news_of_it_are_few(around: World) -> None:
-    watching = Watching(around)
+def test_every_message_of_a_1_khz_topic_is_counted_with_few_updates(ros_world: World) -> None:
+    watcher = Watcher(ros_world)
     try:
-        watching.tell(Follow("/ticks"))
-        watching.ready()
-        node = around.run(METRONOME, "1000", "3000")
+        watcher.send(Follow("/ticks"))
+        watcher.wait_until_ready()
+        node = ros_world.run(METRONOME, "1000", "3000")
         last: TopicUpdate | None = None
-        began, heard = 0.0, 0
-        for update in watching.updates():
+        began, received = 0.0, 0
+        for update in watcher.updates():
             if isinstance(update, TopicUpdate) and update.count:
                 began = began or time.monotonic()
-                heard, last = heard + 1, update
+                received, last = received + 1, update
                 if update.count >= 3000:
                     break
         assert last is not None
         assert last.count == 3000
         assert last.lost == 0
-        assert heard <= 12 * (time.monotonic() - began) + 3
-        assert last.fields == ()  # told once, with the first message
+        assert received <= 12 * (time.monotonic() - began) + 3
+        assert last.fields == ()  # sent once, with the first message
         assert last.timing is not None
         assert last.timing.rate_hz == pytest.approx(1000, rel=0.2)
-        assert around.said(node).startswith("3000 ")
+        assert ros_world.read_line(node).startswith("3000 ")
     finally:
-        watching.close()
+        watcher.close()
 
 
-def test_where_nobody_looks_it_counts_on_in_silence(around: World) -> None:
-    watching = Watching(around)
+def test_while_hidden_it_counts_without_sending_updates(ros_world: World) -> None:
+    watcher = Watcher(ros_world)
     try:
-        watching.tell(Follow("/ticks"))
-        watching.tell(SetVisible(False))
-        watching.ready()
-        node = around.run(METRONOME, "500", "500")
-        assert around.said(node).startswith("500 ")
-        watching.tell(SetVisible(True))
-        counts = (update.count for update in watching.updates() if isinstance(update, TopicUpdate))
+        watcher.send(Follow("/ticks"))
+        watcher.send(SetVisible(False))
+        watcher.wait_until_ready()
+        node = ros_world.run(METRONOME, "500", "500")
+        assert ros_world.read_line(node).startswith("500 ")
+        watcher.send(SetVisible(True))
+        counts = (update.count for update in watcher.updates() if isinstance(update, TopicUpdate))
         first = next(count for count in counts if count)
-        assert first > 450  # not told before; the last few may still be on their way
+        assert first > 450  # no update before; the last few messages may still be in flight
         assert first == 500 or next(count for count in counts if count >= 500) == 500
     finally:
-        watching.close()
+        watcher.close()
 
 
-def test_it_ends_when_its_input_ends(around: World) -> None:
-    watching = Watching(around)
-    watching.ready()
-    assert watching.process.stdin is not None
-    watching.process.stdin.close()
-    assert watching.process.wait(5) == 0
-    watching.close()
+def test_the_watcher_ends_when_its_stdin_closes(ros_world: World) -> None:
+    watcher = Watcher(ros_world)
+    watcher.wait_until_ready()
+    assert watcher.process.stdin is not None
+    watcher.process.stdin.close()
+    assert watcher.process.wait(5) == 0
+    watcher.close()
 
 
-def test_it_ends_even_before_it_has_begun(around: World) -> None:
-    watching = Watching(around)
-    assert watching.process.stdin is not None
-    watching.process.stdin.close()
-    assert watching.process.wait(20) == 0
-    watching.close()
+def test_the_watcher_ends_even_if_its_stdin_closes_before_it_is_ready(ros_world: World) -> None:
+    watcher = Watcher(ros_world)
+    assert watcher.process.stdin is not None
+    watcher.process.stdin.close()
+    assert watcher.process.wait(20) == 0
+    watcher.close()
 
 
-def test_a_line_that_is_not_a_command_does_no_harm(around: World) -> None:
-    watching = Watching(around)
+def test_an_invalid_request_line_is_ignored(ros_world: World) -> None:
+    watcher = Watcher(ros_world)
     try:
-        assert watching.process.stdin is not None
-        watching.process.stdin.write(b'{"kind": "Dance"}\n\xff\n')
-        watching.ready()
-        watching.tell(Follow("/ticks"))
-        assert any(isinstance(update, TopicUpdate) for update in watching.updates())
+        assert watcher.process.stdin is not None
+        watcher.process.stdin.write(b'{"kind": "Dance"}\n\xff\n')
+        watcher.wait_until_ready()
+        watcher.send(Follow("/ticks"))
+        assert any(isinstance(update, TopicUpdate) for update in watcher.updates())
     finally:
-        watching.close()
+        watcher.close()
 
 
-# An app that starts the child as the real one does, keeps the pipe's end open elsewhere, and is then killed.
+# Starts the watcher as the real app does, prints its pid, and is then killed.
 APP = """
 import asyncio, os, sys
 from tutor.tui.live.child import LiveChild
@@ -151,15 +151,15 @@ asyncio.run(main())
 """
 
 
-def test_it_does_not_outlive_an_app_that_is_killed(around: World) -> None:
-    app = subprocess.Popen([sys.executable, "-c", APP], env=around.environ, stdout=subprocess.PIPE)
+def test_the_watcher_does_not_outlive_a_killed_app(ros_world: World) -> None:
+    app = subprocess.Popen([sys.executable, "-c", APP], env=ros_world.environ, stdout=subprocess.PIPE)
     assert app.stdout is not None
     pid = int(app.stdout.readline())
     ended = os.pidfd_open(pid)
     try:
         app.send_signal(signal.SIGKILL)
         app.wait(5)
-        assert select.select([ended], [], [], 5.0)[0], "the child is still there"
+        assert select.select([ended], [], [], 5.0)[0], "the watcher is still running"
     finally:
         os.close(ended)
         app.stdout.close()

@@ -20,7 +20,7 @@ from tutor.live.protocol import (
 from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, Timing, TopicUpdate
 from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
 
-END = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadline_s=0.5))
+ENDPOINT = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadline_s=0.5))
 
 
 @pytest.mark.parametrize(
@@ -28,7 +28,9 @@ END = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadli
     [
         Ready(3),
         WatcherError("é\u2028"),
-        Graph(("/n", "/n"), (END,), (END, END), (ServiceEndpoint("/s", "a/srv/B", "/n", "best_effort"),)),
+        Graph(
+            ("/n", "/n"), (ENDPOINT,), (ENDPOINT, ENDPOINT), (ServiceEndpoint("/s", "a/srv/B", "/n", "best_effort"),)
+        ),
         TopicUpdate("/t", "x", QoS(), 3, None, None, None),
         TopicUpdate("/t", "x", QoS(), 3, 1, Timing(2, 0.1, 0.0, 0.1, 0.1), 0.5, "a: 1\n", ("a",), "a", ((1.0, 2.0),)),
         NodeParameters("/n", True, (Parameter("/n", "p", "double array", [1.0], minimum=0.0),)),
@@ -38,14 +40,14 @@ END = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadli
         PublishStatus("/t", "a/msg/B", 2.0, 3, 1, 1.0, True, "no"),
     ],
 )
-def test_updates_arrive_as_they_were_sent(update: Update) -> None:
+def test_updates_round_trip(update: Update) -> None:
     line = encode_update(update)
     assert "\n" not in line
     assert line.isascii()
     assert decode_update(line) == update
 
 
-def test_requests_arrive_as_they_were_sent() -> None:
+def test_requests_round_trip() -> None:
     for request in (
         Follow("/t"),
         SetVisible(False),
@@ -60,11 +62,11 @@ def test_requests_arrive_as_they_were_sent() -> None:
 @pytest.mark.parametrize(
     "line", ["", "{}", "[1]", '{"kind": "Follow"}', '{"kind": "Eval", "x": 1}', encode_update(Ready(1))]
 )
-def test_anything_else_is_not_a_request(line: str) -> None:
+def test_other_lines_are_rejected(line: str) -> None:
     with pytest.raises(ValueError, match="not understood"):
         decode_request(line)
 
 
-def test_what_a_node_may_hold_arrives_though_json_has_no_word_for_it() -> None:
-    said = SetOutcome(1, "/n", "p", [float("inf"), -float("inf")], True, True, "\udcff", 1.0, 0.1)
-    assert decode_update(encode_update(said)) == said
+def test_values_without_a_json_form_round_trip() -> None:
+    outcome = SetOutcome(1, "/n", "p", [float("inf"), -float("inf")], True, True, "\udcff", 1.0, 0.1)
+    assert decode_update(encode_update(outcome)) == outcome

@@ -1,4 +1,4 @@
-"""A message as text, against what `ros2 topic echo` is known to write."""
+"""Messages as text, compared with what `ros2 topic echo` prints."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from tutor.ros.yaml_format import LONGEST, number_at, numeric_fields, to_yaml
 from tutor.ros_model import Field
 
 
-def test_nested_messages_are_blocks_in_the_order_of_the_fields() -> None:
+def test_nested_messages_are_blocks_in_field_order() -> None:
     twist = Twist()
     twist.angular.z = 0.5
     assert to_yaml(twist) == "linear:\n  x: 0.0\n  y: 0.0\n  z: 0.0\nangular:\n  x: 0.0\n  y: 0.0\n  z: 0.5\n"
 
 
-def test_texts_are_quoted_where_yaml_needs_it_and_cut_where_they_are_long() -> None:
+def test_strings_are_quoted_where_necessary_and_truncated_if_long() -> None:
     assert to_yaml(String(data="Hello World: 3")) == "data: 'Hello World: 3'\n"
     assert to_yaml(String(data="wärme")) == "data: wärme\n"
     assert to_yaml(String(data="")) == "data: ''\n"
     assert to_yaml(String(data="x" * 200)) == f"data: {'x' * LONGEST}...\n"
 
 
-def test_arrays_are_lists_and_cut_where_they_are_long() -> None:
+def test_arrays_are_lists_and_truncated_if_long() -> None:
     assert to_yaml(Float64MultiArray(data=[1.0, 2.0])).endswith("data:\n- 1.0\n- 2.0\n")
     lines = to_yaml(Float64MultiArray(data=[1.0] * 500)).splitlines()
     assert lines[-1] == "- '...'"
@@ -40,7 +40,7 @@ def test_a_byte_is_written_as_a_character() -> None:
     assert to_yaml(Byte(data=b"A")) == "data: A\n"
 
 
-def test_numbers_are_found_by_name_in_nested_messages_and_arrays() -> None:
+def test_numbers_are_found_by_path_in_nested_messages_and_arrays() -> None:
     scan = LaserScan(ranges=[1.0] * 500)
     fields = numeric_fields(scan)
     assert {"header.stamp.sec", "angle_min", "ranges[3]"} <= set(fields)
@@ -54,7 +54,7 @@ def test_numbers_are_found_by_name_in_nested_messages_and_arrays() -> None:
     assert numeric_fields(String(data="3")) == ()
 
 
-def test_every_found_field_can_be_read() -> None:
+def test_every_numeric_field_can_be_read() -> None:
     for message in (Twist(), PoseWithCovariance(), Float64MultiArray(data=[1.0]), ParameterValue()):
         assert all(number_at(message, path) is not None for path in numeric_fields(message)), message
 
@@ -62,7 +62,7 @@ def test_every_found_field_can_be_read() -> None:
 bundled_interfaces.activate()
 
 
-def test_a_request_is_a_form_of_its_leaves_with_their_defaults() -> None:
+def test_a_request_form_has_the_leaf_fields_with_their_defaults() -> None:
     assert request_fields("example_interfaces/srv/AddTwoInts") == (Field("a", "int64", "0"), Field("b", "int64", "0"))
     found = request_fields("nav_msgs/srv/GetPlan")
     assert Field("start.pose.position.x", "double", "0.0") in found
@@ -72,7 +72,7 @@ def test_a_request_is_a_form_of_its_leaves_with_their_defaults() -> None:
         request_fields("no_such/srv/Type")
 
 
-def test_a_filled_form_is_a_request() -> None:
+def test_a_request_is_filled_from_form_values() -> None:
     request = fill_request("nav_msgs/srv/GetPlan", {"start.pose.position.x": 2.0, "start.header.frame_id": "map"})
     assert request.start.pose.position.x == 2.0
     assert request.start.header.frame_id == "map"

@@ -1,4 +1,4 @@
-"""A node to watch, `python thermometer.py [RATE_HZ]`: topics of several types and QoS, parameters, services."""
+"""A node to watch, `python thermometer.py [RATE_HZ]`: topics of several types and QoS, parameters and services."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from std_msgs.msg import Float64, String
 class Thermometer(Node):
     def __init__(self, rate: float) -> None:
         super().__init__("thermometer")
-        within = ParameterDescriptor(floating_point_range=[FloatingPointRange(from_value=0.1, to_value=50.0)])
-        self.declare_parameter("publish_rate", rate, within)
+        rate_range = ParameterDescriptor(floating_point_range=[FloatingPointRange(from_value=0.1, to_value=50.0)])
+        self.declare_parameter("publish_rate", rate, rate_range)
         self.declare_parameter("sensor_name", "kitchen")
         self.declare_parameter("serial", "A-17", ParameterDescriptor(read_only=True))
         self.declare_parameter("limits", [20.0, 30.0])
@@ -63,7 +63,7 @@ class Thermometer(Node):
         return response
 
     def slow(self, request: Any, response: Any) -> Any:
-        time.sleep(5.0)  # a callback that blocks: what the live page must live with
+        time.sleep(5.0)  # a blocking callback, which the live page must cope with
         return self.add(request, response)
 
 

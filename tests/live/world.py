@@ -1,4 +1,4 @@
-"""A domain of its own with nodes on it, and an app that is nothing but the live page."""
+"""A private ROS domain with nodes on it, and an app that shows only the live page."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ THERMOMETER = Path(__file__).with_name("thermometer.py")
 
 
 class World:
-    """One ROS domain that nothing else uses, visible to this host only."""
+    """A ROS domain that nothing else uses, limited to this host."""
 
     def __init__(self, domain: int) -> None:
         self.domain = domain
@@ -39,7 +39,7 @@ class World:
         self._running: list[subprocess.Popen[bytes]] = []
 
     def run(self, script: Path, *arguments: str) -> subprocess.Popen[bytes]:
-        """Start a node, and wait until it says that it is ready."""
+        """Start a node, and wait until it prints that it is ready."""
         ros = detect(self.environ)
         env = learner_env(
             ros,
@@ -62,7 +62,7 @@ class World:
         return process
 
     def interrupt(self, process: subprocess.Popen[bytes]) -> None:
-        """Press Ctrl+C: the node leaves the graph at once."""
+        """Send SIGINT and wait for the exit, so that the node leaves the graph at once."""
         process.send_signal(signal.SIGINT)
         process.wait(10)
 
@@ -77,24 +77,24 @@ class World:
         for process in list(self._running):
             self.end(process)
 
-    def said(self, process: subprocess.Popen[bytes]) -> str:
-        """The next line that a node prints."""
+    def read_line(self, process: subprocess.Popen[bytes]) -> str:
+        """Return the next line that a node prints."""
         assert process.stdout is not None
         return process.stdout.readline().decode().strip()
 
     def command(self) -> WatcherCommand:
-        """How the app watches this domain."""
+        """Return the command with which the app watches this domain."""
         return watcher_command(self.domain, self.environ)
 
 
 @contextmanager
 def world() -> Iterator[World]:
     with users_domain() as domain:
-        made = World(domain)
+        private = World(domain)
         try:
-            yield made
+            yield private
         finally:
-            made.close()
+            private.close()
 
 
 class LiveApp(TextApp[int]):
@@ -102,9 +102,9 @@ class LiveApp(TextApp[int]):
 
     CSS: ClassVar[str] = "LivePane { height: 1fr; }"
 
-    def __init__(self, around: World) -> None:
+    def __init__(self, ros_world: World) -> None:
         super().__init__()
-        self.around = around
+        self.ros_world = ros_world
         self.told: list[str] = []
         for theme in (DARK, LIGHT):
             self.register_theme(theme)
@@ -115,7 +115,7 @@ class LiveApp(TextApp[int]):
         yield LivePane(id="live")
 
     def on_mount(self) -> None:
-        self.pane.start_watching(self.around.command)
+        self.pane.start_watching(self.ros_world.command)
         self.pane.focus_content()
 
     @property
@@ -127,6 +127,6 @@ class LiveApp(TextApp[int]):
 
 
 if __name__ == "__main__":  # to look around by hand: python -m tests.live.world
-    with world() as around:
-        around.run(THERMOMETER, *sys.argv[1:])
-        LiveApp(around).run()
+    with world() as ros_world:
+        ros_world.run(THERMOMETER, *sys.argv[1:])
+        LiveApp(ros_world).run()

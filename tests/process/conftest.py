@@ -1,4 +1,4 @@
-"""Helpers for tests with real processes: scripts in a folder of their own, and the pids that they write down."""
+"""Fixtures for tests with real processes: learners' scripts in a temporary folder, and the pids that they record."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tutor.process.supervisor import processes
 ROOT = Path(__file__).parents[2]
 LIMIT_S = 20.0
 
-# What the learners' scripts share: `note(name)` writes down a process's pid, whole or not at all.
+# Prepended to the learners' scripts: `note(name)` atomically writes the process's pid to the file `name`.
 _PRELUDE = """
 import os, signal, sys, time
 def note(name):
@@ -33,17 +33,17 @@ def forever():
 
 
 class Bench:
-    """Starts learners' processes from source text and looks at what they leave."""
+    """Starts learners' processes from source text and tracks what they leave behind."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.token = uuid.uuid4().hex
         self.env = {"PATH": os.environ["PATH"], "TEST_TOKEN": self.token}
         self.started: list[LearnerProcess] = []
-        self.noted: set[int] = set()
+        self.noted_pids: set[int] = set()
 
     def script(self, source: str, *, flags: tuple[str, ...] = ("-I", "-S")) -> list[str]:
-        """A command that runs `source` in Python."""
+        """Return a command that runs `source` in Python."""
         file = self.folder / f"learner_{uuid.uuid4().hex[:8]}.py"
         file.write_text(_PRELUDE + source)
         return [sys.executable, *flags, str(file)]
@@ -60,11 +60,11 @@ class Bench:
 
     @property
     def helper_env(self) -> dict[str, str]:
-        """The environment of a process that uses tutor.process as we do."""
+        """The environment of a helper process that uses tutor.process as this one does."""
         return {**self.env, "PYTHONPATH": str(ROOT), "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}
 
     def helper(self, source: str, *, before: str = "pass", then: str = "pass") -> list[str]:
-        """A command that starts `source` as we do, does `before` and `then` around that, and waits forever."""
+        """Return a command that runs `before`, starts `source` as this process does, runs `then`, and waits forever."""
         return self.script(
             f"""
 import asyncio
@@ -80,26 +80,28 @@ asyncio.run(main())
             flags=(),
         )
 
-    async def until(self, true: Callable[[], object], what: str) -> None:
-        """Wait until `true` is."""
-        await until(true, what)
+    async def until(self, condition: Callable[[], object], what: str) -> None:
+        """Wait until `condition()` is true."""
+        await until(condition, what)
 
     async def noted_pid(self, name: str) -> int:
-        """The pid that a script wrote down as `name`."""
+        """Wait for the pid that a script notes as `name`, and return it."""
         file = self.folder / name
         await until(file.exists, f"{name} has started")
         pid = int(file.read_text())
-        self.noted.add(pid)
+        self.noted_pids.add(pid)
         return pid
 
-    def left(self) -> list[int]:
-        """The living processes of this test: by their environment, and by the pids that they wrote down."""
+    def leftovers(self) -> list[int]:
+        """Return the pids of this test's living processes, found by their environment and by the pids they noted."""
         mark = f"TEST_TOKEN={self.token}".encode()
-        return sorted(pid for pid, p in processes().items() if p.alive and (pid in self.noted or mark in _environ(pid)))
+        return sorted(
+            pid for pid, p in processes().items() if p.alive and (pid in self.noted_pids or mark in _environ(pid))
+        )
 
     async def all_gone(self) -> None:
-        """Wait until none is left."""
-        await until(lambda: not self.left(), f"all processes to be gone: {self.left()}")
+        """Wait until no process of this test is left."""
+        await until(lambda: not self.leftovers(), f"all processes to be gone: {self.leftovers()}")
 
 
 def _environ(pid: int) -> list[bytes]:
@@ -109,17 +111,17 @@ def _environ(pid: int) -> list[bytes]:
         return []
 
 
-async def until(true: Callable[[], object], what: str, limit_s: float = LIMIT_S) -> None:
-    """Wait until `true` is, and fail with `what` if it never is."""
-    end = time.monotonic() + limit_s
-    while not true():
-        assert time.monotonic() < end, f"waited {limit_s} s in vain for: {what}"
+async def until(condition: Callable[[], object], what: str, limit_s: float = LIMIT_S) -> None:
+    """Wait until `condition()` is true, and fail with `what` if it does not become true in time."""
+    deadline = time.monotonic() + limit_s
+    while not condition():
+        assert time.monotonic() < deadline, f"waited {limit_s} s in vain for: {what}"
         await asyncio.sleep(0.002)
 
 
 @pytest.fixture
 async def bench(tmp_path: Path) -> AsyncIterator[Bench]:
-    """A bench; after the test nothing may be left, and no descriptor of ours either."""
+    """A bench; after the test no process may be left, and no more file descriptors open than before."""
     before = len(os.listdir("/proc/self/fd"))
     bench = Bench(tmp_path)
     yield bench
@@ -127,14 +129,14 @@ async def bench(tmp_path: Path) -> AsyncIterator[Bench]:
         for learner in bench.started:
             await learner.end()
     finally:
-        left = bench.left()
-        for pid in left:
+        leftovers = bench.leftovers()
+        for pid in leftovers:
             os.kill(pid, signal.SIGKILL)
-    assert not left
+    assert not leftovers
     assert len(os.listdir("/proc/self/fd")) <= before
 
 
 @pytest.fixture
 def bench_sync(tmp_path: Path) -> Bench:
-    """A bench for a test that has an event loop of its own."""
+    """A bench for a test that runs its own event loop."""
     return Bench(tmp_path)

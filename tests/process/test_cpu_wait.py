@@ -9,24 +9,24 @@ from tutor.process.cpu_wait import free_s
 BUSY = "while True: pass"
 
 
-def test_a_busy_process_is_seen_to_run_and_what_it_had_is_kept_when_it_has_ended() -> None:
+def test_cpu_time_of_a_busy_process_is_measured_and_kept_after_its_exit() -> None:
     with subprocess.Popen([sys.executable, "-c", BUSY], start_new_session=True) as process:
         meter = CpuMeter(process.pid)
         try:
             deadline = time.monotonic() + 30
             while meter.read().ran_s < 0.2 and time.monotonic() < deadline:
                 time.sleep(0.01)
-            had = meter.read()
-            assert had.ran_s >= 0.2
+            used = meter.read()
+            assert used.ran_s >= 0.2
         finally:
             process.kill()
     after = meter.read()
-    assert after.ran_s >= had.ran_s
-    assert after.waited_s >= had.waited_s
+    assert after.ran_s >= used.ran_s
+    assert after.waited_s >= used.waited_s
     assert CpuMeter(process.pid).read().ran_s == 0.0
 
 
-def test_two_on_one_cpu_wait_for_each_other() -> None:
+def test_two_busy_processes_on_one_cpu_wait_for_each_other() -> None:
     cpu = min(os.sched_getaffinity(0))
     code = f"import os; os.sched_setaffinity(0, {{{cpu}}})\n{BUSY}"
     both = [subprocess.Popen([sys.executable, "-c", code], start_new_session=True) for _ in range(2)]
@@ -42,16 +42,16 @@ def test_two_on_one_cpu_wait_for_each_other() -> None:
             each.wait()
 
 
-def test_a_main_thread_that_sleeps_is_not_kept_waiting() -> None:
+def test_a_sleeping_main_thread_does_not_wait_for_the_cpu() -> None:
     cpu = min(os.sched_getaffinity(0))
     pinned = f"import os, threading, time; os.sched_setaffinity(0, {{{cpu}}})\n"
-    rest = (
+    sleeper = (
         f"threading.Thread(target=exec, args=({BUSY!r},), daemon=True).start()\n"
         "print('up', flush=True)\ntime.sleep(1000)"
     )
     both = [
         subprocess.Popen([sys.executable, "-c", pinned + code], start_new_session=True, stdout=subprocess.PIPE)
-        for code in (BUSY, rest)
+        for code in (BUSY, sleeper)
     ]
     try:
         assert both[1].stdout is not None
@@ -60,22 +60,22 @@ def test_a_main_thread_that_sleeps_is_not_kept_waiting() -> None:
         before = meter.read()
         while meter.read().waited_s < before.main_waited_s + 1.0 and time.monotonic() < deadline:
             time.sleep(0.01)
-        had = meter.read()
-        assert had.waited_s >= before.main_waited_s + 1.0
-        assert had.main_waited_s < before.main_waited_s + 0.5
+        used = meter.read()
+        assert used.waited_s >= before.main_waited_s + 1.0
+        assert used.main_waited_s < before.main_waited_s + 0.5
     finally:
         for each in both:
             each.kill()
             each.communicate()
 
 
-def test_our_own_process_has_run() -> None:
+def test_our_own_cpu_time_is_measured() -> None:
     assert own_cpu_time().ran_s > 0.0
 
 
-def test_nobody_is_kept_waiting_for_as_long_as_all_are_free() -> None:
+def test_free_time_is_the_time_in_which_no_process_waits() -> None:
     assert free_s(10, [0, 0]) == 10
     assert free_s(10, [5, 5]) == 2.5
     assert free_s(10, [10, 0]) == 0
-    assert free_s(10, [30, 1]) == 0  # several processes, each kept waiting for all of the time
+    assert free_s(10, [30, 1]) == 0  # several processes that all wait the whole time
     assert free_s(0, []) == 0

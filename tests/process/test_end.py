@@ -1,4 +1,4 @@
-"""Whatever a learner's process does, and whatever becomes of us: afterwards nothing of it is left."""
+"""Whatever a learner's process does, and whatever happens to us, none of its processes survive."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ daemon()
 note('main'); forever()
 """
 FILES_CLOSED = "os.closerange(0, 100)"
-# An exec with an empty environment takes the mark away.
+# An exec with an empty environment removes the marker variable.
 BARE = """os.execve(sys.executable, [sys.executable, '-I', '-S', '-c',
         'import os, time; open("x", "w").write(str(os.getpid())); os.rename("x", "child"); time.sleep(1000)'], {})"""
 BARE_CHILD = f"if os.fork() == 0:\n    {BARE}\nnote('main'); forever()\n"
 BARE_CHILD_WITHOUT_FILES = BARE_CHILD.replace(BARE, f"{FILES_CLOSED}; {BARE}")
 BARE_DAEMON = DAEMON.format(before=BARE)
-# Not the environment, not the files, not the session: only its parents tell whose it is.
-NAMELESS = DAEMON.format(before=f"{FILES_CLOSED}; {BARE}")
+# Without environment, files or session, only its ancestry identifies this process.
+UNMARKED_DAEMON = DAEMON.format(before=f"{FILES_CLOSED}; {BARE}")
 STOPPED = """
 if os.fork() == 0:
     note('child'); os.kill(os.getpid(), signal.SIGSTOP)
@@ -72,7 +72,7 @@ CASES = {
     "child with an empty environment": BARE_CHILD,
     "child with nothing but its session": BARE_CHILD_WITHOUT_FILES,
     "daemon with an empty environment": BARE_DAEMON,
-    "nameless daemon": NAMELESS,
+    "unmarked daemon": UNMARKED_DAEMON,
     "stopped": STOPPED,
     "deep": DEEP,
     "subreaper": SUBREAPER,
@@ -81,14 +81,14 @@ each_case = pytest.mark.parametrize("source", CASES.values(), ids=CASES.keys())
 
 
 @each_case
-async def test_end_leaves_nothing(bench: Any, source: str) -> None:
+async def test_end_leaves_no_process(bench: Any, source: str) -> None:
     learner = await bench.start(source)
     main, child = await bench.noted_pid("main"), await bench.noted_pid("child")
     assert main == learner.pid
     assert {main, child} <= {s.pid for s in await learner.survivors()}
     start = time.monotonic()
     await learner.end()
-    assert bench.left() == []
+    assert bench.leftovers() == []
     assert time.monotonic() - start < 2.0
     assert learner.exit is not None
     assert learner.exit.signal == signal.SIGKILL
@@ -97,7 +97,7 @@ async def test_end_leaves_nothing(bench: Any, source: str) -> None:
 
 
 @each_case
-async def test_our_own_death_leaves_nothing(bench: Any, source: str) -> None:
+async def test_our_own_death_leaves_no_process(bench: Any, source: str) -> None:
     helper = await asyncio.create_subprocess_exec(*bench.helper(source), env=bench.helper_env, cwd=bench.folder)
     await bench.noted_pid("main")
     await bench.noted_pid("child")
@@ -106,7 +106,7 @@ async def test_our_own_death_leaves_nothing(bench: Any, source: str) -> None:
     await bench.all_gone()
 
 
-async def test_our_own_death_while_a_fork_of_ours_lives_on(bench: Any) -> None:
+async def test_our_own_death_ends_the_learner_even_if_a_fork_of_ours_lives_on(bench: Any) -> None:
     helper = await asyncio.create_subprocess_exec(
         *bench.helper(CHILD, then="if os.fork() == 0:\n    note('fork')\n    forever()"),
         env=bench.helper_env,
@@ -117,15 +117,17 @@ async def test_our_own_death_while_a_fork_of_ours_lives_on(bench: Any) -> None:
     helper.kill()
     await helper.wait()
     try:
-        await bench.until(lambda: main not in bench.left() and child not in bench.left(), "the learner's to be gone")
-        assert fork in bench.left()
+        await bench.until(
+            lambda: main not in bench.leftovers() and child not in bench.leftovers(),
+            "the learner's processes to be gone",
+        )
+        assert fork in bench.leftovers()
     finally:
         os.kill(fork, signal.SIGKILL)
     await bench.all_gone()
 
 
-async def test_our_own_death_during_the_start(bench: Any) -> None:
-    """At whatever moment it comes."""
+async def test_our_own_death_at_any_moment_of_the_start_leaves_no_process(bench: Any) -> None:
     for step in range(12):
         helper = await asyncio.create_subprocess_exec(
             *bench.helper("note('main'); forever()", then="pass", before="note('helper')"),
@@ -133,7 +135,7 @@ async def test_our_own_death_during_the_start(bench: Any) -> None:
             cwd=bench.folder,
         )
         await bench.noted_pid("helper")
-        await asyncio.sleep(step * 0.005)  # not a wait for anything: the moments are the point
+        await asyncio.sleep(step * 0.005)  # not a wait for an event: each iteration kills at another moment
         helper.kill()
         await helper.wait()
         await bench.all_gone()
@@ -141,7 +143,7 @@ async def test_our_own_death_during_the_start(bench: Any) -> None:
             (bench.folder / file).unlink(missing_ok=True)
 
 
-async def test_a_grandchild_that_is_left_is_seen(bench: Any) -> None:
+async def test_a_surviving_grandchild_is_reported(bench: Any) -> None:
     learner = await bench.start("""
 if os.fork() == 0:
     note('child'); forever()
@@ -159,13 +161,13 @@ note('main')
     (survivor,) = await learner.survivors()
     assert survivor.pid == child
     assert "learner_" in survivor.command
-    assert child in bench.left()
+    assert child in bench.leftovers()
     await learner.end()
-    assert bench.left() == []
+    assert bench.leftovers() == []
     assert learner.exit == found
 
 
-async def test_zombies_are_no_survivors(bench: Any) -> None:
+async def test_zombies_are_not_survivors(bench: Any) -> None:
     learner = await bench.start("""
 child = os.fork()
 if child == 0: os._exit(0)
@@ -176,7 +178,7 @@ note('main'); forever()
     assert [s.pid for s in await learner.survivors()] == [main]
 
 
-async def test_a_fork_storm(bench: Any) -> None:
+async def test_end_kills_every_process_of_a_fork_storm(bench: Any) -> None:
     learner = await bench.start("""
 for n in range(50):
     if os.fork() == 0:
@@ -192,13 +194,13 @@ note('main'); forever()
         await bench.noted_pid(f"child{n}")
     assert len(await learner.survivors()) == 51
     await learner.end()
-    assert bench.left() == []
+    assert bench.leftovers() == []
 
 
-async def test_a_process_that_runs_away_by_forking(bench: Any) -> None:
-    """A chain in which each process starts the next and ends: none lives long enough to be looked at.
+async def test_end_kills_a_process_that_keeps_forking_and_exiting(bench: Any) -> None:
+    """Each process of a chain forks the next and exits, so none lives long enough to be listed.
 
-    So they all hold a pipe open, and its end shows that none is left.
+    They all hold a pipe open; EOF on it shows that none is left.
     """
     os.mkfifo(bench.folder / "pipe")
     pipe = os.open(bench.folder / "pipe", os.O_RDONLY | os.O_NONBLOCK)
@@ -220,7 +222,7 @@ while True:
         os.close(pipe)
 
 
-async def test_a_keeper_that_restarts_what_is_killed(bench: Any) -> None:
+async def test_end_kills_a_process_that_restarts_its_killed_children(bench: Any) -> None:
     learner = await bench.start("""
 note('main')
 while True:
@@ -231,10 +233,10 @@ while True:
 """)
     await bench.noted_pid("child")
     await learner.end()
-    assert bench.left() == []
+    assert bench.leftovers() == []
 
 
-async def test_the_context_manager_ends_it(bench: Any) -> None:
+async def test_leaving_the_context_manager_ends_the_process(bench: Any) -> None:
     async def check() -> None:
         async with await bench.start(CHILD):
             await bench.noted_pid("child")
@@ -242,10 +244,10 @@ async def test_the_context_manager_ends_it(bench: Any) -> None:
 
     with pytest.raises(ZeroDivisionError):
         await check()
-    assert bench.left() == []
+    assert bench.leftovers() == []
 
 
-async def test_cancelled_while_it_runs(bench: Any) -> None:
+async def test_cancellation_while_running_leaves_no_process(bench: Any) -> None:
     async def check() -> None:
         async with await bench.start(STUBBORN) as learner:
             await learner.wait(1000)
@@ -255,10 +257,10 @@ async def test_cancelled_while_it_runs(bench: Any) -> None:
     task.cancel()
     with pytest.raises(asyncio.CancelledError):
         await task
-    assert bench.left() == []
+    assert bench.leftovers() == []
 
 
-async def test_cancelled_while_it_ends(bench: Any) -> None:
+async def test_cancellation_while_ending_leaves_no_process(bench: Any) -> None:
     learner = await bench.start(STUBBORN)
     await bench.noted_pid("child")
     task = asyncio.create_task(learner.end())
@@ -268,10 +270,10 @@ async def test_cancelled_while_it_ends(bench: Any) -> None:
         await asyncio.sleep(0)
     with pytest.raises(asyncio.CancelledError):
         await task
-    assert bench.left() == []
+    assert bench.leftovers() == []
 
 
-async def test_cancelled_while_it_starts(bench: Any) -> None:
+async def test_cancellation_while_starting_leaves_no_process(bench: Any) -> None:
     for turns in range(0, 40, 3):
         task = asyncio.create_task(bench.start(STUBBORN))
         for _ in range(turns):
@@ -282,11 +284,11 @@ async def test_cancelled_while_it_starts(bench: Any) -> None:
         await asyncio.gather(task, return_exceptions=True)
         if not task.cancelled():
             await task.result().end()
-        assert bench.left() == []
+        assert bench.leftovers() == []
 
 
-def test_a_loop_that_is_torn_down(bench_sync: Any) -> None:
-    """As asyncio.run does on Ctrl+C: every task is cancelled, and the loop ends."""
+def test_tearing_down_the_event_loop_leaves_no_process(bench_sync: Any) -> None:
+    """On Ctrl+C, asyncio.run cancels every task and closes the loop."""
 
     async def check() -> None:
         async with await bench_sync.start(STUBBORN) as learner:
@@ -296,7 +298,7 @@ def test_a_loop_that_is_torn_down(bench_sync: Any) -> None:
 
     with pytest.raises(KeyboardInterrupt):
         asyncio.run(check())
-    assert bench_sync.left() == []
+    assert bench_sync.leftovers() == []
 
 
 def alive(pid: int) -> bool:
@@ -304,27 +306,27 @@ def alive(pid: int) -> bool:
     return found is not None and found.alive
 
 
-async def supervisor_of(learner: LearnerProcess) -> int:
+async def find_supervisor(learner: LearnerProcess) -> int:
     return processes()[learner.pid].parent
 
 
 @each_case
-async def test_the_supervisor_killed(bench: Any, source: str) -> None:
+async def test_a_killed_supervisor_takes_the_program_with_it(bench: Any, source: str) -> None:
     learner = await bench.start(source)
     await bench.noted_pid("main")
     await bench.noted_pid("child")
-    os.kill(await supervisor_of(learner), signal.SIGKILL)
+    os.kill(await find_supervisor(learner), signal.SIGKILL)
     assert await learner.wait(20) is not None
     assert learner.exit is not None
     assert learner.exit.signal == signal.SIGKILL
     assert "was killed, and the program with it" in learner.fault
     await learner.end()
-    assert bench.left() == []
+    assert bench.leftovers() == []
     assert await learner.survivors() == []
 
 
-async def test_we_and_the_supervisor_killed(bench: Any) -> None:
-    """Nobody is left to look after it; the kernel still ends the main process."""
+async def test_killing_us_and_the_supervisor_ends_the_main_process(bench: Any) -> None:
+    """Nobody is left to end it, but the kernel still kills the main process (parent-death signal)."""
     helper = await asyncio.create_subprocess_exec(
         *bench.helper("note('main'); forever()"), env=bench.helper_env, cwd=bench.folder
     )
@@ -337,7 +339,7 @@ async def test_we_and_the_supervisor_killed(bench: Any) -> None:
     await bench.all_gone()
 
 
-async def test_the_supervisor_killed_by_the_learners_own_code(bench: Any) -> None:
+async def test_a_supervisor_killed_by_the_learners_code_leaves_no_process(bench: Any) -> None:
     learner = await bench.start("""
 if os.fork() == 0:
     os.setsid(); note('child'); forever()
@@ -347,10 +349,10 @@ os.kill(os.getppid(), signal.SIGKILL); forever()
     await bench.noted_pid("child")
     assert str(await learner.wait(20)) == "signal 9"
     await learner.end()
-    assert bench.left() == []
+    assert bench.leftovers() == []
 
 
-async def test_the_supervisor_killed_after_the_exit(bench: Any) -> None:
+async def test_a_supervisor_killed_after_the_exit_does_not_change_the_exit(bench: Any) -> None:
     learner = await bench.start("""
 if os.fork() == 0:
     os.setsid(); note('child'); forever()
@@ -359,13 +361,13 @@ while not os.path.exists('child'): time.sleep(0.001)
     child = await bench.noted_pid("child")
     found = await learner.wait(20)
     os.kill(processes()[child].parent, signal.SIGKILL)
-    await bench.until(lambda: learner.fault, "that the supervisor was killed is known")
+    await bench.until(lambda: learner.fault, "the supervisor's death to be known")
     await learner.end()
-    assert bench.left() == []
+    assert bench.leftovers() == []
     assert learner.exit == found
 
 
-async def test_who_ends_it_is_no_other(bench: Any) -> None:
+async def test_our_own_sigkill_is_not_reported_as_somebody_elses(bench: Any) -> None:
     learner = await bench.start(CHILD)
     await bench.noted_pid("child")
     await learner.end()
@@ -376,13 +378,15 @@ async def test_who_ends_it_is_no_other(bench: Any) -> None:
 
 
 @pytest.mark.parametrize("out_of_memory", [False, True])
-async def test_killed_by_the_system(bench: Any, monkeypatch: pytest.MonkeyPatch, out_of_memory: bool) -> None:
-    """Its own kill of itself and that of the system look alike, but for the system's count of those that it made."""
-    counts = bench.folder / "vmstat"
-    counts.write_text("nr_free_pages 1\noom_kill 3\n")
-    monkeypatch.setattr("tutor.process.memory._VMSTAT", counts)
-    counted = f"open('vmstat', 'w').write('oom_kill {3 + out_of_memory}\\n')"
-    learner = await bench.start(f"{counted}\nos.kill(os.getpid(), signal.SIGKILL)")
+async def test_an_out_of_memory_kill_is_reported(
+    bench: Any, monkeypatch: pytest.MonkeyPatch, out_of_memory: bool
+) -> None:
+    """A program's own SIGKILL and the kernel's look alike, except for the kernel's count of out-of-memory kills."""
+    vmstat = bench.folder / "vmstat"
+    vmstat.write_text("nr_free_pages 1\noom_kill 3\n")
+    monkeypatch.setattr("tutor.process.memory._VMSTAT", vmstat)
+    count_kill = f"open('vmstat', 'w').write('oom_kill {3 + out_of_memory}\\n')"
+    learner = await bench.start(f"{count_kill}\nos.kill(os.getpid(), signal.SIGKILL)")
     assert str(await learner.wait(20)) == "signal 9"
     assert learner.killed
     assert learner.fault == (
@@ -390,40 +394,42 @@ async def test_killed_by_the_system(bench: Any, monkeypatch: pytest.MonkeyPatch,
     )
 
 
-async def test_the_supervisor_told_to_end(bench: Any) -> None:
+async def test_a_terminated_supervisor_takes_the_program_with_it(bench: Any) -> None:
     learner = await bench.start(STUBBORN)
     await bench.noted_pid("child")
-    os.kill(await supervisor_of(learner), signal.SIGTERM)
+    os.kill(await find_supervisor(learner), signal.SIGTERM)
     await bench.all_gone()
     assert str(await learner.wait(20)) == "signal 9"
     assert "was killed, and the program with it" in learner.fault
 
 
-async def test_the_supervisor_stopped(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_end_works_with_a_stopped_supervisor(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tutor.process.link._SUPERVISOR_LIMIT_S", 1000.0)
     learner = await bench.start(STUBBORN)
     await bench.noted_pid("child")
-    os.kill(await supervisor_of(learner), signal.SIGSTOP)
+    os.kill(await find_supervisor(learner), signal.SIGSTOP)
     await asyncio.wait_for(learner.end(), 60)
-    assert bench.left() == []
+    assert bench.leftovers() == []
 
 
-async def test_a_supervisor_that_never_gets_it_done(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_end_works_with_a_supervisor_that_times_out(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tutor.process.link._SUPERVISOR_LIMIT_S", 0.0)
-    learner = await bench.start(NAMELESS)
+    learner = await bench.start(UNMARKED_DAEMON)
     await bench.noted_pid("child")
     await learner.end()
-    assert bench.left() == []
+    assert bench.leftovers() == []
 
 
-async def test_what_cannot_be_ended_is_said(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Only after a while, and with names; here because our SIGKILL is withheld."""
+async def test_processes_that_cannot_be_ended_are_named_in_the_error(
+    bench: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The error comes after a time limit; here the SIGKILL is suppressed."""
     monkeypatch.setattr("tutor.process.link._ORPHANS_LIMIT_S", 0.05)
     monkeypatch.setattr("tutor.process.link.kill", lambda found: None)
     learner = await bench.start(DAEMON.format(before="pass"))
     child = await bench.noted_pid("child")
-    os.kill(await supervisor_of(learner), signal.SIGKILL)
-    await bench.until(lambda: not alive(learner.pid), "the program itself, which goes with its supervisor, has gone")
+    os.kill(await find_supervisor(learner), signal.SIGKILL)
+    await bench.until(lambda: not alive(learner.pid), "the program to die with its supervisor")
     with pytest.raises(EndError, match=rf"could not be ended: {child} \(.*learner_.*\)\.$"):
         await learner.end()
     os.kill(child, signal.SIGKILL)
@@ -431,8 +437,8 @@ async def test_what_cannot_be_ended_is_said(bench: Any, monkeypatch: pytest.Monk
     bench.started.clear()
 
 
-async def test_sigchld_and_blocked_signals_of_ours_do_no_harm(bench: Any) -> None:
-    """A parent may have SIGCHLD ignored or signals blocked; a child inherits both."""
+async def test_signals_that_we_block_are_not_blocked_in_the_learner(bench: Any) -> None:
+    """A child inherits ignored SIGCHLD and blocked signals from its parent."""
     old = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT, signal.SIGCHLD, signal.SIGTERM])
     try:
         learner = await bench.start(CHILD)
@@ -444,25 +450,25 @@ async def test_sigchld_and_blocked_signals_of_ours_do_no_harm(bench: Any) -> Non
     assert found is not None
     assert found.code == 1 or found.signal == signal.SIGINT
     await learner.end()
-    assert bench.left() == []
+    assert bench.leftovers() == []
 
 
-async def test_nobody_else_is_harmed(bench: Any) -> None:
+async def test_ending_one_program_leaves_others_alone(bench: Any) -> None:
     one, other = await bench.start("note('one'); forever()"), await bench.start("note('other'); forever()")
     await bench.noted_pid("one")
     await bench.noted_pid("other")
-    os.kill(await supervisor_of(one), signal.SIGKILL)
+    os.kill(await find_supervisor(one), signal.SIGKILL)
     await one.end()
     assert [s.pid for s in await other.survivors()] == [other.pid]
-    assert bench.left() == [other.pid]
+    assert bench.leftovers() == [other.pid]
 
 
 @pytest.mark.parametrize("killed", [False, True])
-async def test_no_supervisor_and_no_zombie_of_ours_stays(bench: Any, killed: bool) -> None:
+async def test_no_supervisor_or_zombie_is_left(bench: Any, killed: bool) -> None:
     before = {p.pid for p in descendants(os.getpid())}
     for _ in range(3):
         learner = await bench.start(CHILD)
         if killed:
-            os.kill(await supervisor_of(learner), signal.SIGKILL)
+            os.kill(await find_supervisor(learner), signal.SIGKILL)
         await learner.end()
     assert {p.pid for p in descendants(os.getpid())} <= before

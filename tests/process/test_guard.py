@@ -1,4 +1,4 @@
-"""A learner's program of an ordinary user can neither look into our processes nor write where they do."""
+"""A learner's program run by an ordinary user can neither read our processes nor write to their files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 
 from tests import ordinary
 
-TRIES = """
+INTRUDER = """
 import ctypes, json, os
 libc = ctypes.CDLL(None, use_errno=True)
 def stat(pid):
@@ -29,12 +29,12 @@ for pid in (supervisor, int(stat(supervisor)[1])):
         done.append(f"{pid}: ptrace")
 print(json.dumps([done, libc.prctl(3)]))  # PR_GET_DUMPABLE: of itself
 """
-STARTS = f"""
+START_INTRUDER = f"""
 import asyncio, sys
 from pathlib import Path
 from tutor.process import LearnerProcess
 async def main():
-    argv = [sys.executable, "-I", "-S", "-c", {TRIES!r}]
+    argv = [sys.executable, "-I", "-S", "-c", {INTRUDER!r}]
     async with await LearnerProcess.start(argv, env={{}}, cwd=Path("/")) as learner:
         await learner.wait(20)
         print(*(line.text for line in learner.output))
@@ -42,12 +42,12 @@ asyncio.run(main())
 """
 
 
-def test_nothing_of_ours_can_be_opened_or_traced() -> None:
+def test_our_processes_cannot_be_opened_or_traced() -> None:
     prefix = ordinary.prefix()
     if prefix is None:
         pytest.skip("no program can be run here as an ordinary user")
     ran = subprocess.run(
-        [*prefix, sys.executable, "-I", "-c", STARTS],
+        [*prefix, sys.executable, "-I", "-c", START_INTRUDER],
         env={**os.environ, "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},
         stdin=subprocess.DEVNULL,
         capture_output=True,

@@ -27,16 +27,16 @@ def texts(learner: LearnerProcess, stream: str = "stdout") -> list[str]:
     return [line.text for line in learner.output if line.stream == stream]
 
 
-async def ended(learner: LearnerProcess) -> Exit:
+async def wait_for_exit(learner: LearnerProcess) -> Exit:
     found = await learner.wait(LIMIT_S)
     assert found is not None, "the process did not end"
     return found
 
 
 @pytest.mark.parametrize("code", [0, 1, 3, 130, 255])
-async def test_exit_code(bench: Any, code: int) -> None:
+async def test_the_exit_code_is_reported(bench: Any, code: int) -> None:
     learner = await bench.start(f"sys.exit({code})")
-    found = await ended(learner)
+    found = await wait_for_exit(learner)
     assert (found.code, found.signal) == (code, None)
     assert 0 < found.after_s < LIMIT_S
     assert learner.exit == found
@@ -44,8 +44,8 @@ async def test_exit_code(bench: Any, code: int) -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGSEGV, signal.SIGKILL])
-async def test_death_by_a_signal(bench: Any, number: signal.Signals) -> None:
-    found = await ended(await bench.start(f"os.kill(os.getpid(), {int(number)}); forever()"))
+async def test_a_fatal_signal_is_reported(bench: Any, number: signal.Signals) -> None:
+    found = await wait_for_exit(await bench.start(f"os.kill(os.getpid(), {int(number)}); forever()"))
     assert (found.code, found.signal) == (None, number)
 
 
@@ -54,13 +54,13 @@ async def test_output_is_complete_when_the_exit_is_known(bench: Any) -> None:
         learner = await bench.start(
             "print('a\\n' * 5000 + 'last'); print('oops', file=sys.stderr); os._exit(sys.stdout.flush() or 7)"
         )
-        assert (await ended(learner)).code == 7
+        assert (await wait_for_exit(learner)).code == 7
         assert texts(learner)[-1] == "last"
         assert texts(learner, "stderr") == ["oops"]
         assert len(texts(learner)) + learner.dropped_lines == 5001
 
 
-async def test_what_is_written_right_before_the_exit_is_there_at_the_exit(bench: Any, tmp_path: Path) -> None:
+async def test_output_written_right_before_the_exit_is_complete_at_the_exit(bench: Any, tmp_path: Path) -> None:
     learner = await bench.start(
         """
 print('first', flush=True)
@@ -70,26 +70,26 @@ os._exit(0)
 """,
         on_change=(tmp_path / "go").touch,
     )
-    await ended(learner)
+    await wait_for_exit(learner)
     assert texts(learner) == ["first", "last"]
 
 
-async def test_what_is_printed_before_an_error_is_above_it(bench: Any) -> None:
+async def test_stdout_and_stderr_keep_their_order(bench: Any) -> None:
     source = "for n in range(300): print(n, flush=True); print(n, file=sys.stderr, flush=True)"
     learner = await bench.start(source)
-    await ended(learner)
-    order = {(line.stream, line.text): place for place, line in enumerate(learner.output)}
+    await wait_for_exit(learner)
+    order = {(line.stream, line.text): index for index, line in enumerate(learner.output)}
     assert len(order) == 600
     assert [n for n in range(300) if order["stdout", str(n)] > order["stderr", str(n)]] == []
 
 
-async def test_partial_last_line(bench: Any) -> None:
+async def test_an_unfinished_last_line_is_included(bench: Any) -> None:
     learner = await bench.start("sys.stdout.write('whole\\nhalf'); sys.stdout.flush(); forever()")
-    await bench_until(lambda: texts(learner) == ["whole", "half"])
+    await wait_until(lambda: texts(learner) == ["whole", "half"])
     assert learner.exit is None
 
 
-async def test_on_change_tells_of_output_and_exit(bench: Any) -> None:
+async def test_on_change_is_called_for_output_and_exit(bench: Any) -> None:
     seen: list[tuple[int, bool]] = []
     changed = asyncio.Event()
     holder: list[LearnerProcess] = []
@@ -101,14 +101,14 @@ async def test_on_change_tells_of_output_and_exit(bench: Any) -> None:
 
     learner = await bench.start("print('hello', flush=True); sys.stdin.read(); forever()", on_change=on_change)
     holder.append(learner)
-    await bench_until(lambda: texts(learner) == ["hello"])
+    await wait_until(lambda: texts(learner) == ["hello"])
     assert changed.is_set()
     learner.interrupt()
-    await ended(learner)
-    await bench_until(lambda: seen and seen[-1][1])
+    await wait_for_exit(learner)
+    await wait_until(lambda: seen and seen[-1][1])
 
 
-async def test_started_as_from_a_terminal(bench: Any, tmp_path: Path) -> None:
+async def test_the_program_starts_with_a_clean_session_and_clean_signals(bench: Any, tmp_path: Path) -> None:
     learner = await bench.start(
         """
 print(os.getpid(), os.getpgid(0), os.getsid(0))
@@ -119,17 +119,17 @@ status = dict(line.split(':\\t', 1) for line in open('/proc/self/status').read()
 print(status['SigBlk'].strip())
 """
     )
-    await ended(learner)
-    ids, where, ignored, blocked, mask = texts(learner)
+    await wait_for_exit(learner)
+    ids, surroundings, ignored, blocked, mask = texts(learner)
     assert ids.split() == [str(learner.pid)] * 3
-    assert where == f"True {tmp_path} ['PATH', 'ROS_TUTOR_RUN', 'TEST_TOKEN']"
+    assert surroundings == f"True {tmp_path} ['PATH', 'ROS_TUTOR_RUN', 'TEST_TOKEN']"
     # Python itself ignores SIGPIPE and SIGXFSZ.
     assert ignored == str([int(signal.SIGPIPE), int(signal.SIGXFSZ)])
     assert blocked == "[] ['0', '1', '2', '3']"  # 3 is the listing itself
     assert int(mask, 16) == 0
 
 
-async def test_sigint_handled(bench: Any) -> None:
+async def test_sigint_can_be_handled(bench: Any) -> None:
     learner = await bench.start("""
 try:
     note('main'); forever()
@@ -138,7 +138,7 @@ except KeyboardInterrupt:
 """)
     await bench.noted_pid("main")
     learner.interrupt()
-    assert (await ended(learner)).code == 4
+    assert (await wait_for_exit(learner)).code == 4
     assert texts(learner) == ["bye"]
 
 
@@ -146,10 +146,10 @@ async def test_sigint_by_default_kills(bench: Any) -> None:
     learner = await bench.start("signal.signal(signal.SIGINT, signal.SIG_DFL); note('main'); forever()")
     await bench.noted_pid("main")
     learner.interrupt()
-    assert (await ended(learner)).signal == signal.SIGINT
+    assert (await wait_for_exit(learner)).signal == signal.SIGINT
 
 
-async def test_sigint_ignored(bench: Any) -> None:
+async def test_a_program_that_ignores_sigint_is_killed_at_the_end(bench: Any) -> None:
     learner = await bench.start("""
 heard = []
 signal.signal(signal.SIGINT, lambda *_: print('no', flush=True))
@@ -158,14 +158,14 @@ note('main'); forever()
 """)
     await bench.noted_pid("main")
     learner.interrupt()
-    await bench_until(lambda: texts(learner) == ["no"])
+    await wait_until(lambda: texts(learner) == ["no"])
     assert await learner.wait(0.05) is None
     await learner.end()
     assert learner.exit is not None
     assert learner.exit.signal == signal.SIGKILL
 
 
-async def test_sigint_goes_to_the_whole_group_and_to_nobody_else(bench: Any) -> None:
+async def test_sigint_goes_to_the_process_group_only(bench: Any) -> None:
     learner = await bench.start("""
 if os.fork() == 0:
     signal.signal(signal.SIGINT, lambda *_: os._exit(0)); note('same_group'); forever()
@@ -178,25 +178,25 @@ note('main'); forever()
     await bench.noted_pid("main")
     same, own = await bench.noted_pid("same_group"), await bench.noted_pid("own_session")
     learner.interrupt()
-    await bench_until(lambda: texts(learner) == ["main"] and same not in bench.left())
-    assert own in bench.left()
+    await wait_until(lambda: texts(learner) == ["main"] and same not in bench.leftovers())
+    assert own in bench.leftovers()
 
 
-async def test_interrupt_reaches_what_the_exited_main_process_left_in_its_group(bench: Any) -> None:
+async def test_interrupt_reaches_group_members_left_by_the_exited_main_process(bench: Any) -> None:
     learner = await bench.start("""
 if os.fork() == 0:
     signal.signal(signal.SIGINT, lambda *_: os._exit(0)); note('left'); forever()
 while not os.path.exists('left'): time.sleep(0.001)
 """)
     left = await bench.noted_pid("left")
-    await ended(learner)
+    await wait_for_exit(learner)
     assert [s.pid for s in await learner.survivors()] == [left]
     learner.interrupt()
-    await bench_until(lambda: left not in bench.left())
+    await wait_until(lambda: left not in bench.leftovers())
     assert await learner.survivors() == []
 
 
-async def test_an_inherited_ignored_sigint_is_restored(bench: Any) -> None:
+async def test_an_ignored_sigint_is_not_inherited(bench: Any) -> None:
     learner_argv = bench.script("""
 try:
     print('ready', flush=True); forever()
@@ -234,7 +234,7 @@ asyncio.run(main())
 
 
 @pytest.mark.parametrize(
-    ("argv", "folder", "says"),
+    ("argv", "folder", "message"),
     [
         (["/no/such/program"], None, "No such file or directory"),
         (["no-such-program-anywhere"], None, "no-such-program-anywhere: No such file or directory"),
@@ -245,13 +245,13 @@ asyncio.run(main())
         ([sys.executable, "x" * 200_000], None, "Argument list too long"),
     ],
 )
-async def test_what_cannot_be_started(bench: Any, argv: list[str], folder: str | None, says: str) -> None:
-    with pytest.raises(StartError, match=says) as caught:
+async def test_a_failed_start_says_why(bench: Any, argv: list[str], folder: str | None, message: str) -> None:
+    with pytest.raises(StartError, match=message) as caught:
         await LearnerProcess.start(argv, env=bench.env, cwd=Path(folder or bench.folder))
     assert str(caught.value).endswith(".")
 
 
-async def test_no_python_for_the_supervisor(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_a_missing_python_for_the_supervisor_is_named(bench: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "executable", "/no/such/python")
     with pytest.raises(StartError, match="/no/such/python"):
         await bench.start("pass")
@@ -267,7 +267,7 @@ async def test_a_supervisor_that_fails_at_once_says_why(
         await bench.start("pass")
 
 
-async def test_endless_print_costs_little(bench: Any) -> None:
+async def test_endless_printing_costs_little_cpu_and_memory(bench: Any) -> None:
     learner = await bench.start("while True: print('x' * 80)")
     before, memory = time.process_time(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     start = time.monotonic()
@@ -280,51 +280,52 @@ async def test_endless_print_costs_little(bench: Any) -> None:
     await learner.end()
 
 
-async def test_one_that_prints_without_end_sleeps_most_of_the_time(bench: Any) -> None:
+async def test_a_program_that_prints_endlessly_is_throttled(bench: Any) -> None:
     learner = await bench.start("while True: print('x')")
-    await bench_until(lambda: learner.dropped_lines > 200_000)  # what it may print at once is over
+    await wait_until(lambda: learner.dropped_lines > 200_000)  # its burst allowance is used up
     meter = CpuMeter(learner.pid)
     before, start = meter.read().ran_s, time.monotonic()
     assert await learner.wait(1.5) is None
     assert (meter.read().ran_s - before) / (time.monotonic() - start) < 0.3
 
 
-async def test_a_large_table_is_printed_without_a_wait(bench: Any) -> None:
+async def test_a_large_table_is_printed_without_throttling(bench: Any) -> None:
     learner = await bench.start("""
 start = time.monotonic()
 for row in range(30_000): print(row, 'x' * 50, flush=True)
 print(time.monotonic() - start, file=sys.stderr)
 """)
-    assert (await ended(learner)).code == 0
+    assert (await wait_for_exit(learner)).code == 0
     assert len(texts(learner)) + learner.dropped_lines == 30_000
-    assert float(texts(learner, "stderr")[0]) < 30_000 * (50 + pipe.LINE_BYTES) / pipe.MOST_PER_S  # had it been slowed
+    # Throttled, the program would take at least this long.
+    assert float(texts(learner, "stderr")[0]) < 30_000 * (50 + pipe.LINE_BYTES) / pipe.MOST_PER_S
 
 
-async def test_what_comes_after_a_flood_is_not_kept_waiting(bench: Any) -> None:
+async def test_output_after_a_flood_is_not_delayed(bench: Any) -> None:
     learner = await bench.start("""
 for _ in range(150_000): print('x')
 print('last', file=sys.stderr)
 forever()
 """)
-    await bench_until(lambda: texts(learner, "stderr") == ["last"])
-    assert learner.dropped_lines > 100_000  # all but what fits into the pipe has been read by then
+    await wait_until(lambda: texts(learner, "stderr") == ["last"])
+    assert learner.dropped_lines > 100_000  # all but the contents of the pipe has been read by now
     await learner.end()
 
 
-async def test_endless_line(bench: Any) -> None:
+async def test_an_endless_line_is_truncated(bench: Any) -> None:
     learner = await bench.start("while True: sys.stdout.write('y' * 100_000)")
     assert await learner.wait(0.3) is None
     await learner.end()
     assert texts(learner) == ["y" * LINE_CHARACTERS]
 
 
-async def test_binary_output(bench: Any) -> None:
+async def test_binary_output_is_accepted(bench: Any) -> None:
     learner = await bench.start("sys.stdout.buffer.write(bytes(range(256)) * 1000)")
-    assert (await ended(learner)).code == 0
+    assert (await wait_for_exit(learner)).code == 0
     assert len(texts(learner)) + learner.dropped_lines == 1001
 
 
-async def test_output_held_open_by_a_grandchild_delays_nothing(bench: Any) -> None:
+async def test_output_held_open_by_a_grandchild_does_not_delay_the_exit(bench: Any) -> None:
     learner = await bench.start("""
 if os.fork() == 0:
     note('flood')
@@ -333,34 +334,34 @@ while not os.path.exists('flood'): time.sleep(0.001)
 print('mine', file=sys.stderr)
 """)
     flood = await bench.noted_pid("flood")
-    found = await ended(learner)
+    found = await wait_for_exit(learner)
     assert found.code == 0
     assert texts(learner, "stderr") == ["mine"]
     dropped = learner.dropped_lines
-    await bench_until(lambda: learner.dropped_lines > dropped + 10_000)  # it is read on
+    await wait_until(lambda: learner.dropped_lines > dropped + 10_000)  # reading continues
     assert [s.pid for s in await learner.survivors()] == [flood]
 
 
-async def bench_until(true: Callable[[], object]) -> None:
-    end = time.monotonic() + LIMIT_S
-    while not true():
-        assert time.monotonic() < end
+async def wait_until(condition: Callable[[], object]) -> None:
+    deadline = time.monotonic() + LIMIT_S
+    while not condition():
+        assert time.monotonic() < deadline
         await asyncio.sleep(0.002)
 
 
-async def test_stdout_of_ours_is_left_alone(bench: Any, capfd: pytest.CaptureFixture[str]) -> None:
-    await ended(await bench.start("os.system('echo hidden; echo hidden >&2')"))
+async def test_a_program_does_not_write_to_our_stdout(bench: Any, capfd: pytest.CaptureFixture[str]) -> None:
+    await wait_for_exit(await bench.start("os.system('echo hidden; echo hidden >&2')"))
     assert capfd.readouterr() == ("", "")
 
 
-async def test_many_at_once(bench: Any) -> None:
+async def test_many_programs_run_at_once(bench: Any) -> None:
     learners = await asyncio.gather(*(bench.start(f"print({n}); sys.exit({n})") for n in range(12)))
     for n, learner in enumerate(learners):
-        assert (await ended(learner)).code == n
+        assert (await wait_for_exit(learner)).code == n
         assert texts(learner) == [str(n)]
 
 
-async def test_wait_without_a_limit_and_with_a_short_one(bench: Any) -> None:
+async def test_wait_works_with_and_without_a_limit(bench: Any) -> None:
     learner = await bench.start("note('main'); forever()")
     assert await learner.wait(0.01) is None
     waiting = asyncio.ensure_future(learner.wait(None))
@@ -368,9 +369,9 @@ async def test_wait_without_a_limit_and_with_a_short_one(bench: Any) -> None:
     assert str(await waiting) == "signal 15"
 
 
-async def test_a_terminal_where_nobody_types(bench: Any) -> None:
+async def test_a_program_on_a_terminal_can_be_interrupted(bench: Any) -> None:
     script = "os.isatty(0) and print('terminal', flush=True); sys.stdin.readline(); forever()"
     learner = await bench.start(script, terminal=True)
     await bench.until(lambda: texts(learner) == ["terminal"], "the terminal to be seen")
     learner.interrupt()
-    assert (await ended(learner)).signal == signal.SIGINT
+    assert (await wait_for_exit(learner)).signal == signal.SIGINT

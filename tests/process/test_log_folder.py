@@ -1,4 +1,4 @@
-"""The folder for a learner's logs: small, and gone afterwards, whatever the learner makes of it."""
+"""A learner's log folder stays small, and is removed afterwards, whatever the learner turns it into."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ import pytest
 from tutor.process.log_folder import MOST_OPENED, keep_small, limit, temporary_log_folder
 
 
-def link(folder: Path, elsewhere: Path) -> None:
+def symlink(folder: Path, elsewhere: Path) -> None:
     folder.rename(elsewhere / "moved")
     folder.symlink_to(elsewhere)
 
 
-def file(folder: Path, elsewhere: Path) -> None:
+def regular_file(folder: Path, elsewhere: Path) -> None:
     folder.rename(elsewhere / "moved")
     folder.touch()
 
 
-def other(folder: Path, elsewhere: Path) -> None:
+def other_folder(folder: Path, elsewhere: Path) -> None:
     folder.rename(elsewhere / "moved")
     (folder / "sub").mkdir(parents=True)
 
 
-def deep(folder: Path, elsewhere: Path) -> None:
+def deep_tree(folder: Path, elsewhere: Path) -> None:
     inner = os.open(folder, os.O_RDONLY)
     for _ in range(1500):
         os.mkdir("d", dir_fd=inner)
@@ -39,27 +39,29 @@ def deep(folder: Path, elsewhere: Path) -> None:
     folder.chmod(0)
 
 
-def gone(folder: Path, elsewhere: Path) -> None:
+def removed(folder: Path, elsewhere: Path) -> None:
     folder.rmdir()
 
 
-def links_in_it(folder: Path, elsewhere: Path) -> None:
+def links_inside(folder: Path, elsewhere: Path) -> None:
     (folder / "a.log").symlink_to(elsewhere / "kept.log")
     (folder / "b").symlink_to(elsewhere)
     os.mkfifo(folder / "c.log")
 
 
-@pytest.mark.parametrize("made", [link, file, other, deep, gone, links_in_it])
-async def test_it_goes_whatever_it_has_become(made: Callable[[Path, Path], None], tmp_path: Path) -> None:
+@pytest.mark.parametrize("change", [symlink, regular_file, other_folder, deep_tree, removed, links_inside])
+async def test_the_folder_is_removed_whatever_it_has_become(
+    change: Callable[[Path, Path], None], tmp_path: Path
+) -> None:
     (tmp_path / "kept.log").write_text("kept")
     with temporary_log_folder() as folder:
-        made(folder, tmp_path)
+        change(folder, tmp_path)
     assert not os.path.lexists(folder)
     assert os.listdir(tmp_path) == ["kept.log"]
     assert (tmp_path / "kept.log").read_text() == "kept"
 
 
-def test_log_files_are_emptied_when_they_grow_too_big_and_nothing_else_is(tmp_path: Path) -> None:
+def test_only_log_files_are_emptied_when_they_grow_too_big(tmp_path: Path) -> None:
     logs, elsewhere = tmp_path / "logs", tmp_path / "elsewhere"
     (logs / "launch").mkdir(parents=True)
     elsewhere.mkdir()
@@ -85,11 +87,11 @@ def test_log_files_are_emptied_when_they_grow_too_big_and_nothing_else_is(tmp_pa
     }
 
 
-async def test_a_large_one_among_many_is_emptied_for_as_long_as_the_folder_is_limited(tmp_path: Path) -> None:
+async def test_a_large_log_among_many_is_emptied_repeatedly(tmp_path: Path) -> None:
     logs = tmp_path / "log"
     limiting = asyncio.create_task(limit(logs, most=150_000))
     try:
-        await asyncio.sleep(0)  # the folder is not there yet
+        await asyncio.sleep(0)  # the folder does not exist yet
         logs.mkdir()
         for number in range(MOST_OPENED + 20):
             (logs / f"{number}.log").write_bytes(b"x")

@@ -9,7 +9,7 @@ def texts(output: Output) -> list[str]:
     return [line.text for line in output.lines]
 
 
-def test_lines_are_split_wherever_the_chunks_end() -> None:
+def test_lines_are_joined_across_chunks() -> None:
     output = Output()
     for chunk in (b"one\ntw", b"o\n", b"three", b"", b" and a half"):
         output.feed("stdout", chunk, 1.0)
@@ -17,7 +17,7 @@ def test_lines_are_split_wherever_the_chunks_end() -> None:
     assert output.dropped_lines == 0
 
 
-def test_streams_keep_their_order_and_their_own_unfinished_lines() -> None:
+def test_streams_keep_their_order_and_separate_unfinished_lines() -> None:
     output = Output()
     output.feed("stdout", b"out 1\nout ", 1.0)
     output.feed("stderr", b"err 1\n", 2.0)
@@ -62,7 +62,7 @@ def test_a_flood_on_one_stream_keeps_the_other() -> None:
     assert len(output.lines) == 1 + FIRST_LINES + LAST_LINES
 
 
-def test_a_huge_line_is_cut_and_what_follows_is_kept() -> None:
+def test_a_huge_line_is_truncated_and_the_next_one_kept() -> None:
     output = Output()
     for _ in range(50):
         output.feed("stdout", b"y" * (1 << 20), 1.0)
@@ -71,19 +71,19 @@ def test_a_huge_line_is_cut_and_what_follows_is_kept() -> None:
     assert texts(output) == ["y" * LINE_CHARACTERS, "next"]
 
 
-def test_bytes_that_are_no_text_are_replaced_and_colours_kept() -> None:
+def test_undecodable_bytes_are_replaced_and_colors_kept() -> None:
     output = Output()
     output.feed("stdout", b"\xff\xfe\x00ok\r\n\x1b[31mred\x1b[0m\n" + "héllo".encode()[:2], 1.0)
     assert texts(output) == ["\ufffd\ufffd\x00ok", "\x1b[31mred\x1b[0m", "h\ufffd"]
 
 
-def test_cutting_counts_characters_not_bytes() -> None:
+def test_truncation_counts_characters_not_bytes() -> None:
     output = Output()
     output.feed("stdout", ("𝄞" * (LINE_CHARACTERS + 5)).encode() + b"\n", 1.0)
     assert texts(output) == ["𝄞" * LINE_CHARACTERS]
 
 
-def test_no_more_is_kept_of_a_long_line_than_is_shown() -> None:
+def test_long_lines_are_stored_truncated() -> None:
     output = Output()
     for _ in range(FIRST_LINES + LAST_LINES):
         output.feed("stdout", b"x" * 100_000 + b"\n", 1.0)

@@ -1,4 +1,4 @@
-"""When a process will next do something by itself."""
+"""When a process will next act on its own."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LIMIT_S = 30.0
 
 @contextmanager
 def running(code: str) -> Iterator[int]:
-    """A program that has said it is up."""
+    """Run a program that has printed that it is up; yield its pid."""
     command = [sys.executable, "-I", "-S", "-c", f"import threading, time\nprint('up', flush=True)\n{code}"]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
         try:
@@ -29,8 +29,8 @@ def running(code: str) -> Iterator[int]:
             process.kill()
 
 
-def waiting(pid: int) -> NextWake:
-    """What it waits for, once it does and has not run for a moment: its threads are looked at one after another."""
+def wait_until_asleep(pid: int) -> NextWake:
+    """Return the next wake-up once no thread has run for a moment: threads are read one after another."""
     deadline, before = time.monotonic() + LIMIT_S, NextWake()
     while (found := next_wake([pid])).at == 0.0 or found.timeslices != before.timeslices:
         assert time.monotonic() < deadline
@@ -48,9 +48,9 @@ def waiting(pid: int) -> NextWake:
     ],
     ids=["event", "thread", "deadlock"],
 )
-def test_what_waits_without_end_never_wakes_by_itself(code: str) -> None:
+def test_an_endless_wait_has_no_wake_up(code: str) -> None:
     with running(code) as pid:
-        first = waiting(pid)
+        first = wait_until_asleep(pid)
         assert first.at == math.inf
         assert next_wake([pid]) == first  # it has not run in between
 
@@ -60,9 +60,9 @@ def test_what_waits_without_end_never_wakes_by_itself(code: str) -> None:
     ["time.sleep(60)", "threading.Event().wait(60)", "threading.Thread(target=time.sleep, args=(60,)).start()"],
     ids=["sleep", "event", "thread"],
 )
-def test_a_sleep_ends_when_it_says(code: str) -> None:
+def test_a_sleep_wakes_up_at_its_end(code: str) -> None:
     with running(code) as pid:
-        assert waiting(pid).at == pytest.approx(time.time() + 60, abs=20)
+        assert wait_until_asleep(pid).at == pytest.approx(time.time() + 60, abs=20)
 
 
 @pytest.mark.parametrize(
@@ -70,18 +70,18 @@ def test_a_sleep_ends_when_it_says(code: str) -> None:
     ["while True: pass", "import select; select.select([], [], [], 60)", "import sys; sys.stdin.read()"],
     ids=["busy", "select", "input"],
 )
-def test_of_anything_else_nothing_is_known(code: str) -> None:
+def test_the_wake_up_of_other_states_is_unknown(code: str) -> None:
     with running(code) as pid:
         assert next_wake([pid]).at == 0.0
 
 
-def test_of_several_the_first_to_wake_counts() -> None:
+def test_the_earliest_wake_up_of_several_processes_counts() -> None:
     with running("threading.Event().wait()") as idle, running("time.sleep(60)") as sleeper:
-        waiting(idle)
-        waiting(sleeper)
+        wait_until_asleep(idle)
+        wait_until_asleep(sleeper)
         assert next_wake([idle, sleeper]).at == pytest.approx(time.time() + 60, abs=20)
         assert next_wake([idle, sleeper, 2**22 + 1]).at == 0.0
 
 
-def test_of_none_nothing_is_known() -> None:
+def test_the_wake_up_of_no_process_is_unknown() -> None:
     assert next_wake([]) == NextWake()

@@ -1,4 +1,4 @@
-"""A network namespace for one child process: what it binds or lacks there disturbs nobody."""
+"""A network namespace for a child process, whose sockets and missing interfaces affect nobody else."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-# The first lines of the child's program. Its loopback interface is down, and every port is free.
+# The first lines of the child's program. In its namespace the loopback interface is down, and every port is free.
 OWN_NETWORK = """
 import os
 try:
@@ -17,8 +17,8 @@ except PermissionError:
 """
 
 
-def _allowed() -> bool:
+def _is_allowed() -> bool:
     return subprocess.run([sys.executable, "-c", OWN_NETWORK], capture_output=True, check=False).returncode == 0
 
 
-needs_own_network = pytest.mark.skipif(not _allowed(), reason="this machine allows no network namespaces")
+needs_own_network = pytest.mark.skipif(not _is_allowed(), reason="this machine allows no network namespaces")

@@ -1,4 +1,4 @@
-"""A made-up installation of ROS 2 Jazzy, put together from the wheels, and the variables that sourcing it would set."""
+"""A mock installation of ROS 2 Jazzy, assembled from the wheels, and the variables that sourcing it sets."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from pathlib import Path
 from tutor.ros import bundled_interfaces
 
 _SITE = Path("lib") / "python3.12" / "site-packages"
-_NOT_OF_ROS = ("numpy", "numpy.libs", "yaml", "_yaml")  # what a system Python has beside ROS, and ours has not
+_SYSTEM_PACKAGES = ("numpy", "numpy.libs", "yaml", "_yaml")  # dependencies that a system Python brings along
 
 
 def install(prefix: Path) -> Path:
-    """Put ROS into `prefix`: real files (hard links where possible), so that a process shows which ones it uses."""
+    """Install ROS into `prefix` as real files (hard links where possible), so that /proc shows which files are used."""
     own = Path(sys.prefix)
     for record in (own / _SITE).glob("ros_*.dist-info/RECORD"):
         if not record.parent.name.startswith(("ros_tutor", "ros_wheels_bootstrapper", "ros_jazzy")):
             for line in record.read_text().splitlines():
-                _put(own / _SITE, line.rsplit(",", 2)[0], own, prefix)
-    for name in _NOT_OF_ROS:
-        shutil.copytree(own / _SITE / name, prefix / _SITE / name, copy_function=_link)
-    shutil.copytree(bundled_interfaces.prefix(), prefix, copy_function=_link, dirs_exist_ok=True)
+                _install_file(own / _SITE, line.rsplit(",", 2)[0], own, prefix)
+    for name in _SYSTEM_PACKAGES:
+        shutil.copytree(own / _SITE / name, prefix / _SITE / name, copy_function=_link_or_copy)
+    shutil.copytree(bundled_interfaces.prefix(), prefix, copy_function=_link_or_copy, dirs_exist_ok=True)
     return prefix
 
 
 def source(prefix: Path) -> dict[str, str]:
-    """The variables that sourcing the installation's setup.bash sets."""
+    """Return the variables that sourcing the installation's setup.bash sets."""
     bundles = sorted((prefix / _SITE).glob("ros_*.libs"))
     return {
         "ROS_DISTRO": "jazzy",
@@ -40,15 +40,15 @@ def source(prefix: Path) -> dict[str, str]:
     }
 
 
-def _put(site: Path, name: str, own: Path, prefix: Path) -> None:
+def _install_file(site: Path, name: str, own: Path, prefix: Path) -> None:
     file = Path(os.path.normpath(site / name))
     target = prefix / file.relative_to(own)
     if file.is_file() and not target.exists():
         target.parent.mkdir(parents=True, exist_ok=True)
-        _link(str(file), str(target))
+        _link_or_copy(str(file), str(target))
 
 
-def _link(file: str, target: str) -> None:
+def _link_or_copy(file: str, target: str) -> None:
     try:
         os.link(file, target)
     except OSError:

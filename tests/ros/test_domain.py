@@ -1,4 +1,4 @@
-"""Domain ids: held by one, given back for certain. In a network of their own, where the machine allows to make one."""
+"""Domain ids are reserved exclusively and always released. Runs in a network namespace where the machine allows it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FIRST, PER_DOMAIN = PORTS_OF_CHECKS
 
 ROOT = Path(domain.__file__).parents[2]
 
-# Takes twenty at once, waits until the others have theirs too, and gives them back.
+# Reserves twenty ids, waits until the other processes have theirs too, and releases them.
 TAKE_20 = """
 from contextlib import ExitStack
 from tutor.ros.domain import reserve_domain
@@ -59,10 +59,10 @@ def run(code: str) -> None:
     assert done.returncode == 0, done.stderr
 
 
-def can_be_had(wanted: int) -> bool:
-    """Whether this id can be reserved; if another process here has it by chance, it does not hold it for long."""
-    end = time.monotonic() + 30
-    while time.monotonic() < end:
+def can_be_reserved(wanted: int) -> bool:
+    """Return whether this id can be reserved. Retries, since another process may hold it for a moment."""
+    deadline = time.monotonic() + 30
+    while time.monotonic() < deadline:
         with ExitStack() as held:
             for _ in range(len(IDS) // 2):
                 if held.enter_context(reserve_domain()) == wanted:
@@ -72,31 +72,31 @@ def can_be_had(wanted: int) -> bool:
 
 
 LOCALHOST_PORTS = range(10, 10 + 2 * 32)
-"""Where a node that uses localhost only looks for others, above its domain's first port."""
+"""Offsets, from a domain's first port, of the ports that a localhost-only node probes for peers."""
 
 
-def test_no_domain_id_that_ros_knows_leads_to_the_ports_of_a_check() -> None:
+def test_no_standard_domain_id_uses_the_ports_of_a_check() -> None:
     assert FIRST + PER_DOMAIN * 232 + LOCALHOST_PORTS[-1] < FIRST + PER_DOMAIN * IDS[0]
     assert FIRST + PER_DOMAIN * IDS[-1] + LOCALHOST_PORTS[-1] < 32768
 
 
-def test_no_check_looks_for_others_at_the_ports_of_another() -> None:
+def test_no_check_probes_the_ports_of_another() -> None:
     assert min(b - a for a, b in pairwise(IDS)) * PER_DOMAIN > LOCALHOST_PORTS[-1]
 
 
-def test_no_port_of_a_check_is_one_where_a_users_nodes_look_for_others() -> None:
-    looked_at = (0, 1, *LOCALHOST_PORTS)
-    users = {DDS_PORTS[0] + DDS_PORTS[1] * id_ + port for id_ in range(233) for port in looked_at}
-    assert users.isdisjoint(FIRST + PER_DOMAIN * id_ + port for id_ in IDS for port in looked_at)
+def test_no_users_node_probes_the_ports_of_a_check() -> None:
+    probed = (0, 1, *LOCALHOST_PORTS)
+    user_ports = {DDS_PORTS[0] + DDS_PORTS[1] * id_ + port for id_ in range(233) for port in probed}
+    assert user_ports.isdisjoint(FIRST + PER_DOMAIN * id_ + port for id_ in IDS for port in probed)
 
 
 @needs_own_network
-def test_four_processes_with_twenty_each_get_no_id_twice_and_give_all_back() -> None:
+def test_four_processes_with_twenty_ids_each_get_distinct_ids_and_release_them() -> None:
     run(IN_OWN_NETWORK)
 
 
 @needs_own_network
-def test_a_domain_whose_port_is_taken_is_passed_over_and_where_all_are_the_error_says_so() -> None:
+def test_domains_with_a_taken_port_are_skipped_and_without_a_free_one_there_is_an_error() -> None:
     run(
         OWN_NETWORK
         + """
@@ -123,7 +123,7 @@ with reserve_domain():
     )
 
 
-def test_an_id_that_was_just_given_back_is_not_used_again_at_once() -> None:
+def test_a_released_id_is_not_reused_at_once() -> None:
     ids = []
     for _ in range(5):
         with reserve_domain() as one:
@@ -134,20 +134,20 @@ def test_an_id_that_was_just_given_back_is_not_used_again_at_once() -> None:
 @pytest.mark.parametrize(
     "raised", [OSError("the learner's own"), NoFreeDomain(), RuntimeError("x"), KeyboardInterrupt()]
 )
-def test_whatever_the_block_raises_comes_out_as_it_is_and_the_id_is_given_back(raised: BaseException) -> None:
+def test_exceptions_in_the_block_propagate_and_the_id_is_released(raised: BaseException) -> None:
     with pytest.raises(type(raised)) as caught, reserve_domain() as one:
         raise raised
     assert caught.value is raised
-    assert can_be_had(one)
+    assert can_be_reserved(one)
 
 
-def test_threads_get_an_id_each() -> None:
-    got: list[int] = []
+def test_each_thread_gets_its_own_id() -> None:
+    ids: list[int] = []
     all_hold = threading.Barrier(8)
 
     def take() -> None:
         with reserve_domain() as one:
-            got.append(one)
+            ids.append(one)
             all_hold.wait(timeout=20)
 
     threads = [threading.Thread(target=take) for _ in range(8)]
@@ -155,4 +155,4 @@ def test_threads_get_an_id_each() -> None:
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(set(got)) == len(got) == 8
+    assert len(set(ids)) == len(ids) == 8

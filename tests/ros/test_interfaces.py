@@ -1,4 +1,4 @@
-"""The bundled example_interfaces is the real one: the same type hash, and a call over DDS that works."""
+"""The bundled example_interfaces matches the original: same type hash, and calls over DDS work."""
 
 import ctypes
 import hashlib
@@ -20,8 +20,8 @@ from tutor.ros import bundled_interfaces
 PACKAGE = "example_interfaces"
 SERVICE = f"{PACKAGE}/srv/AddTwoInts"
 
-# As published: the design of rmw_zenoh names it in the key of an AddTwoInts service.
-REAL_HASH = "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a"
+# As published in the design document of rmw_zenoh, in the key of an AddTwoInts service.
+PUBLISHED_HASH = "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a"
 
 # Type ids of type_description_interfaces/msg/FieldType.
 NESTED, UINT8, INT32, UINT32, INT64 = 1, 3, 6, 7, 8
@@ -29,7 +29,7 @@ ARRAY, BOUNDED_SEQUENCE = 48, 96
 
 Fields = dict[str, tuple[int, int, str]]
 
-# Every type that the service's description reaches: name of the field -> (type id, capacity, nested type).
+# Every type that the service's description refers to: field name -> (type id, capacity, nested type).
 TYPES: dict[str, Fields] = {
     SERVICE: {
         "request_message": (NESTED, 0, f"{SERVICE}_Request"),
@@ -52,7 +52,7 @@ TYPES: dict[str, Fields] = {
     "builtin_interfaces/msg/Time": {"sec": (INT32, 0, ""), "nanosec": (UINT32, 0, "")},
 }
 
-# A server and a client in one process of their own, then what was seen, as JSON. {first} makes the import work.
+# A server and a client in a separate process, which prints what it observed as JSON. {first} makes the import work.
 NODE = """
 {first}
 import json
@@ -95,7 +95,7 @@ rclpy.try_shutdown()
 
 @pytest.fixture
 def environment(tmp_path: Path) -> Iterator[dict[str, str]]:
-    """Nothing of ROS in it but a domain of its own, on this host only."""
+    """An environment without ROS, except for a private domain limited to this host."""
     kept = {name: os.environ[name] for name in ("PATH", "HOME", "TMPDIR") if name in os.environ}
     with users_domain() as domain:
         yield {
@@ -106,8 +106,8 @@ def environment(tmp_path: Path) -> Iterator[dict[str, str]]:
         }
 
 
-def python(source: str, environment: dict[str, str]) -> Any:
-    """What a Python process that runs the source prints, read as JSON."""
+def run_python(source: str, environment: dict[str, str]) -> Any:
+    """Run the source in a Python process and return its output, parsed as JSON."""
     done = subprocess.run(
         [sys.executable, "-c", source], env=environment, capture_output=True, text=True, timeout=60, check=False
     )
@@ -117,7 +117,7 @@ def python(source: str, environment: dict[str, str]) -> Any:
 
 
 def type_hash(name: str) -> str:
-    """RIHS01 of a type (REP-2011): SHA-256 over its description and all that it refers to, as one line of JSON."""
+    """Compute a type's RIHS01 hash (REP-2011): SHA-256 over its description and all referenced ones, as JSON."""
 
     def described(name: str) -> dict[str, Any]:
         fields = [
@@ -140,8 +140,8 @@ def type_hash(name: str) -> str:
     return "RIHS01_" + hashlib.sha256(json.dumps(description).encode()).hexdigest()
 
 
-def carried_hash(name: str) -> str:
-    """The type hash that the built library carries and hands to the middleware."""
+def library_hash(name: str) -> str:
+    """Return the type hash that the built library contains and passes to the middleware."""
 
     class TypeHash(ctypes.Structure):
         _fields_ = (("version", ctypes.c_uint8), ("value", ctypes.c_uint8 * 32))
@@ -149,26 +149,26 @@ def carried_hash(name: str) -> str:
     library = ctypes.CDLL(str(bundled_interfaces.library_dir() / f"lib{PACKAGE}__rosidl_generator_c.so"))
     get_type_hash = library[f"{name.replace('/', '__')}__get_type_hash"]
     get_type_hash.restype = ctypes.POINTER(TypeHash)
-    carried = get_type_hash(None).contents
-    return f"RIHS{carried.version:02}_{bytes(carried.value).hex()}"
+    found = get_type_hash(None).contents
+    return f"RIHS{found.version:02}_{bytes(found.value).hex()}"
 
 
 def test_the_definition_hashes_to_the_published_constant() -> None:
-    assert type_hash(SERVICE) == REAL_HASH
+    assert type_hash(SERVICE) == PUBLISHED_HASH
 
 
 @pytest.mark.parametrize("suffix", ["", "_Request", "_Response", "_Event"])
-def test_the_built_library_carries_the_real_hash(suffix: str) -> None:
-    assert carried_hash(SERVICE + suffix) == type_hash(SERVICE + suffix)
+def test_the_built_library_contains_the_published_hash(suffix: str) -> None:
+    assert library_hash(SERVICE + suffix) == type_hash(SERVICE + suffix)
 
 
-def test_a_process_gets_at_it_through_its_environment(environment: dict[str, str]) -> None:
+def test_a_process_can_import_it_through_its_environment(environment: dict[str, str]) -> None:
     environment |= {
         "PYTHONPATH": str(bundled_interfaces.site_packages()),
         "AMENT_PREFIX_PATH": str(bundled_interfaces.prefix()),
         "LD_LIBRARY_PATH": str(bundled_interfaces.library_dir()),
     }
-    seen = python(NODE.format(first=""), environment)
+    seen = run_python(NODE.format(first=""), environment)
     assert Path(seen["file"]).is_relative_to(bundled_interfaces.prefix())
     assert seen["sum"] == 2**40 - 2
     for kind in ("request", "response", "event"):
@@ -176,12 +176,12 @@ def test_a_process_gets_at_it_through_its_environment(environment: dict[str, str
 
 
 def test_activate_makes_it_work_in_the_running_process(environment: dict[str, str]) -> None:
-    seen = python(NODE.format(first="from tutor.ros.bundled_interfaces import activate; activate()"), environment)
+    seen = run_python(NODE.format(first="from tutor.ros.bundled_interfaces import activate; activate()"), environment)
     assert Path(seen["file"]).is_relative_to(bundled_interfaces.prefix())
     assert seen["sum"] == 2**40 - 2
 
 
-def test_activate_leaves_a_real_one_alone(environment: dict[str, str], tmp_path: Path) -> None:
+def test_activate_does_nothing_if_the_package_is_installed(environment: dict[str, str], tmp_path: Path) -> None:
     (tmp_path / PACKAGE).mkdir()
     (tmp_path / PACKAGE / "__init__.py").touch()
     source = """
@@ -192,11 +192,11 @@ activate()
 import example_interfaces
 print(json.dumps({"file": example_interfaces.__file__, "untouched": before == [sys.path, dict(os.environ)]}))
 """
-    seen = python(source, environment | {"PYTHONPATH": str(tmp_path)})
+    seen = run_python(source, environment | {"PYTHONPATH": str(tmp_path)})
     assert seen == {"file": str(tmp_path / PACKAGE / "__init__.py"), "untouched": True}
 
 
-def test_a_missing_prefix_is_named_with_its_hint(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_a_missing_prefix_is_reported_with_a_hint(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(bundled_interfaces, "prefix", lambda: tmp_path)
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     with pytest.raises(InterfacesNotBuiltError, match="uv sync --reinstall-package ros-tutor"):

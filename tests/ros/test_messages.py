@@ -1,4 +1,4 @@
-"""Message types by their names."""
+"""Message types are found by name."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ print("this" in sys.modules, "antigravity" in sys.modules, interface_class("std_
 """
 
 
-def test_a_type_of_a_package_without_interfaces_is_unknown_and_nothing_of_it_is_run() -> None:
+def test_a_package_without_interfaces_is_unknown_and_not_imported() -> None:
     ran = subprocess.run([sys.executable, "-c", CODE], capture_output=True, text=True, check=True)
     assert ran.stdout.splitlines() == [
         "this.msg/msg/X",

@@ -1,4 +1,4 @@
-"""How many participants there are on this machine is known in every environment that we make."""
+"""The number of DDS participants on this machine is known in every environment that we create."""
 
 from __future__ import annotations
 
@@ -29,24 +29,29 @@ print(counts)
 """
 
 
-def counted(folder: Path, domain: AbstractContextManager[int], *, isolated: bool, **users: str) -> str:
+def count_participants(folder: Path, domain: AbstractContextManager[int], *, isolated: bool, **variables: str) -> str:
     with domain as domain_id:
         env = learner_env(detect(), domain_id=domain_id, log_dir=folder, package_root=None, isolated=isolated)
         ran = subprocess.run(
-            [sys.executable, "-c", COUNT], env={**env, **users}, cwd=folder, capture_output=True, text=True, check=False
+            [sys.executable, "-c", COUNT],
+            env={**env, **variables},
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            check=False,
         )
     assert ran.returncode == 0, ran.stderr
     return ran.stdout.strip()
 
 
 @pytest.mark.parametrize("isolated", [False, True], ids=["a learner's terminal", "a check"])
-def test_they_are_counted(tmp_path: Path, *, isolated: bool) -> None:
+def test_participants_are_counted(tmp_path: Path, *, isolated: bool) -> None:
     domain = reserve_domain() if isolated else users_domain()
-    assert counted(tmp_path, domain, isolated=isolated) == "[1, 2, 3]"
+    assert count_participants(tmp_path, domain, isolated=isolated) == "[1, 2, 3]"
 
 
-def test_they_are_not_where_a_profile_of_the_users_says_which_ports(tmp_path: Path) -> None:
+def test_with_a_users_own_profile_the_count_is_unknown(tmp_path: Path) -> None:
     own = tmp_path / "own.xml"
     own.write_text("<dds/>")
-    named = {"FASTRTPS_DEFAULT_PROFILES_FILE": str(own), "FASTDDS_DEFAULT_PROFILES_FILE": str(own)}
-    assert counted(tmp_path, users_domain(), isolated=False, **named) == "[None, None, None]"
+    variables = {"FASTRTPS_DEFAULT_PROFILES_FILE": str(own), "FASTDDS_DEFAULT_PROFILES_FILE": str(own)}
+    assert count_participants(tmp_path, users_domain(), isolated=False, **variables) == "[None, None, None]"

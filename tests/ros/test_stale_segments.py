@@ -1,4 +1,4 @@
-"""Shared memory of killed nodes is removed; what a living one uses stays, whichever user owns it."""
+"""Shared memory of killed nodes is removed; that of living nodes stays, whoever owns it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SHM = Path("/dev/shm")
 
 @pytest.fixture
 def env(tmp_path: Path) -> Iterator[dict[str, str]]:
-    """Of nodes that talk over shared memory only."""
+    """The environment of nodes that communicate over shared memory only."""
     with users_domain() as domain:
         environ = {**os.environ, "FASTDDS_BUILTIN_TRANSPORTS": "SHM"}
         yield learner_env(
@@ -33,10 +33,10 @@ def env(tmp_path: Path) -> Iterator[dict[str, str]]:
         )
 
 
-def locks_of(pid: int) -> set[Path]:
-    """The lock files that a process has open: one of its segment, and one of each of its domain's ports.
+def find_locks(pid: int) -> set[Path]:
+    """Return the lock files that a process has open: one for its segment, and one for each of its domain's ports.
 
-    The ports from 7000 on are no domain's: a node of another test may open the same one at any moment.
+    Ports below a domain's, from 7000 on, are left out: a node of another test may open the same one at any moment.
     """
     links = []
     for each in Path(f"/proc/{pid}/fd").iterdir():
@@ -48,11 +48,11 @@ def locks_of(pid: int) -> set[Path]:
 
 @contextmanager
 def talking(env: dict[str, str]) -> Iterator[tuple[subprocess.Popen[bytes], set[Path]]]:
-    """A node that publishes, and its lock files."""
+    """Run a node that publishes; yield it and its lock files."""
     node = subprocess.Popen([detect().python, PROBE, "talk", "/t"], env=env)
     try:
         deadline = time.monotonic() + LIMIT_S
-        while len(locks := locks_of(node.pid)) < 4:  # its segment, two ports for discovery, and one for data
+        while len(locks := find_locks(node.pid)) < 4:  # its segment, two ports for discovery, and one for data
             assert time.monotonic() < deadline, locks
             time.sleep(0.01)
         yield node, locks
@@ -61,24 +61,24 @@ def talking(env: dict[str, str]) -> Iterator[tuple[subprocess.Popen[bytes], set[
         node.wait()
 
 
-def named(lock: Path) -> list[Path]:
-    """All files of a segment or a port."""
+def related_files(lock: Path) -> list[Path]:
+    """Return all files of a segment or a port."""
     name = lock.name[:-3]
     return [lock, lock.with_name(name), *([lock.with_name(f"sem.{name}_mutex")] if "port" in name else [])]
 
 
-def test_what_a_killed_node_leaves_goes_and_what_a_living_one_uses_stays(env: dict[str, str]) -> None:
+def test_files_of_a_killed_node_are_removed_and_those_of_a_living_one_kept(env: dict[str, str]) -> None:
     with talking(env) as (victim, dead), talking(env) as (_, living):
         victim.kill()
         victim.wait()
         stale_segments.remove(limit_s=LIMIT_S)
-        assert not [path for lock in dead - living for path in named(lock) if path.exists()]
-        assert not [path for lock in living for path in named(lock) if not path.exists()]
+        assert not [path for lock in dead - living for path in related_files(lock) if path.exists()]
+        assert not [path for lock in living for path in related_files(lock) if not path.exists()]
         heard = subprocess.run([detect().python, PROBE, "listen", "/t"], env=env, timeout=LIMIT_S, check=False)
         assert heard.returncode == 0
 
 
-def test_nodes_find_each_other_while_it_is_being_removed(env: dict[str, str]) -> None:
+def test_nodes_discover_each_other_during_the_removal(env: dict[str, str]) -> None:
     with ExitStack() as nodes:
         listening = subprocess.Popen([detect().python, PROBE, "listen", "/t"], env=env, stdout=subprocess.DEVNULL)
         talkers = [subprocess.Popen([detect().python, PROBE, "talk", "/t"], env=env) for _ in range(2)]
@@ -92,16 +92,20 @@ def test_nodes_find_each_other_while_it_is_being_removed(env: dict[str, str]) ->
         assert listening.returncode == 0
 
 
-def made(place: Path, name: str) -> list[Path]:
-    paths = [place / name, place / f"{name}_el"]
+def create_segment(folder: Path, name: str) -> list[Path]:
+    paths = [folder / name, folder / f"{name}_el"]
     for path in paths:
         path.touch()
     return paths
 
 
-def test_only_files_that_are_fast_ddss_and_that_nobody_locks(tmp_path: Path) -> None:
-    stale, locked = made(tmp_path, f"fastrtps_{'0' * 16}"), made(tmp_path, f"fastrtps_{'1' * 16}")
-    others = [*made(tmp_path, "somebody"), *made(tmp_path, "fastrtps_short"), tmp_path / f"fastrtps_{'2' * 16}"]
+def test_only_unlocked_fast_dds_files_are_removed(tmp_path: Path) -> None:
+    stale, locked = create_segment(tmp_path, f"fastrtps_{'0' * 16}"), create_segment(tmp_path, f"fastrtps_{'1' * 16}")
+    others = [
+        *create_segment(tmp_path, "somebody"),
+        *create_segment(tmp_path, "fastrtps_short"),
+        tmp_path / f"fastrtps_{'2' * 16}",
+    ]
     others[-1].touch()
     pipe, link = (tmp_path / f"fastrtps_{digit * 16}_el" for digit in "34")
     os.mkfifo(pipe)
@@ -114,17 +118,17 @@ def test_only_files_that_are_fast_ddss_and_that_nobody_locks(tmp_path: Path) -> 
     stale_segments.remove(tmp_path / "none")
 
 
-def test_it_ends_in_time_and_goes_on_the_next_time(tmp_path: Path) -> None:
+def test_the_removal_stops_at_its_limit_and_continues_the_next_time(tmp_path: Path) -> None:
     for number in range(20):
-        made(tmp_path, f"fastrtps_{number:016x}")
+        create_segment(tmp_path, f"fastrtps_{number:016x}")
     stale_segments.remove(tmp_path, limit_s=0.0)
     assert len(list(tmp_path.iterdir())) > 0
     stale_segments.remove(tmp_path, limit_s=LIMIT_S)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_another_users_is_left_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    paths = made(tmp_path, f"fastrtps_{'0' * 16}")
+def test_files_of_other_users_are_left_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    paths = create_segment(tmp_path, f"fastrtps_{'0' * 16}")
     monkeypatch.setattr(os, "getuid", lambda: os.stat(tmp_path).st_uid + 1)
     stale_segments.remove(tmp_path)
     assert all(path.exists() for path in paths)

@@ -1,4 +1,4 @@
-"""A ROS domain as a user has one, for tests whose nodes are not isolated as a check's are."""
+"""An ordinary ROS domain, as a user has, for tests whose nodes are not isolated like those of a check."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tutor.ros.domain import domains_in_use
 
 @contextmanager
 def users_domain() -> Iterator[int]:
-    """Hold a domain id (1 to 100) that no node of this machine uses, and no other test."""
+    """Reserve a domain id (1 to 100) that neither a node on this machine nor another test uses."""
     for domain in random.sample(range(1, 101), 100):
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as lock:
             try:

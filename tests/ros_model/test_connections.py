@@ -48,11 +48,11 @@ def test_a_connection_has_a_problem_for_each_incompatible_policy() -> None:
     assert pair.problems[0].endswith("match.")
 
 
-def test_of_different_types_only_that_is_said() -> None:
+def test_with_different_types_only_the_types_are_reported() -> None:
     publisher = TopicEndpoint("/t", "std_msgs/msg/Float64", "/a", QoS("best_effort"))
     (pair,) = connections(Topic("/t", (publisher,), (TopicEndpoint("/t", STRING, "/b"),)))
-    (said,) = pair.problems
-    assert "sends std_msgs/msg/Float64, the subscription expects std_msgs/msg/String" in said
+    (problem,) = pair.problems
+    assert "sends std_msgs/msg/Float64, the subscription expects std_msgs/msg/String" in problem
 
 
 @pytest.mark.parametrize(

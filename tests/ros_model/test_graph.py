@@ -10,7 +10,7 @@ LIST = "rcl_interfaces/srv/ListParameters"
 
 
 @pytest.mark.parametrize("full", ["/talker", "/robot1/talker", "/a/b/talker"])
-def test_a_full_name_is_its_parts(full: str) -> None:
+def test_a_full_name_is_split_into_namespace_and_name(full: str) -> None:
     name = NodeName.parse(full)
     assert name.name == "talker"
     assert name.namespace.startswith("/")
@@ -22,7 +22,7 @@ def test_the_first_slash_of_a_full_name_may_be_left_out() -> None:
     assert NodeName.parse("robot1/talker") == ("talker", "/robot1")
 
 
-def test_a_graph_is_shown_by_topics_and_services() -> None:
+def test_endpoints_are_grouped_by_topic_and_service() -> None:
     servers = (
         ServiceEndpoint("/b", "a/srv/B", "/two"),
         ServiceEndpoint("/a", "a/srv/A", "/one"),
@@ -52,5 +52,5 @@ def test_parameter_nodes_are_those_with_parameter_services() -> None:
 
 
 @pytest.mark.parametrize(("name", "standard"), [("/rosout", True), ("/parameter_events", True), ("/chatter", False)])
-def test_the_topics_that_every_node_has_are_standard(name: str, standard: bool) -> None:
+def test_topics_that_every_node_has_are_standard(name: str, standard: bool) -> None:
     assert Topic(name).is_standard is standard

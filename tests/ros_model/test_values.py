@@ -27,14 +27,14 @@ from tutor.ros_model.values import format_value, parse_parameter, parse_value
         ("sequence<int64>", "", []),
     ],
 )
-def test_a_text_becomes_a_value(type_name: str, text: str, value: Any) -> None:
-    made = parse_value(type_name, text)
-    assert made == value
-    assert type(made) is type(value)
+def test_text_is_parsed_into_a_value(type_name: str, text: str, value: Any) -> None:
+    parsed = parse_value(type_name, text)
+    assert parsed == value
+    assert type(parsed) is type(value)
 
 
 @pytest.mark.parametrize(
-    ("type_name", "text", "words"),
+    ("type_name", "text", "message"),
     [
         ("int64", "3.5", "whole number"),
         ("int64", "", "whole number"),
@@ -50,23 +50,23 @@ def test_a_text_becomes_a_value(type_name: str, text: str, value: Any) -> None:
         ("sequence<rcl_interfaces/Parameter>", "[1]", "cannot be filled in"),
     ],
 )
-def test_what_is_wrong_is_said_plainly(type_name: str, text: str, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
+def test_parse_errors_say_what_is_wrong(type_name: str, text: str, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         parse_value(type_name, text)
 
 
 @given(st.lists(st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Cs", "Zl", "Zp"]))))
-def test_a_shown_list_of_texts_reads_back(values: list[str]) -> None:
+def test_a_formatted_list_of_strings_parses_back(values: list[str]) -> None:
     assert parse_value("sequence<string>", format_value(values)) == values
 
 
 @given(st.one_of(st.integers(-(2**63), 2**63 - 1), st.booleans(), st.floats(allow_nan=False)))
-def test_a_shown_value_reads_back(value: int | float | bool) -> None:
+def test_a_formatted_value_parses_back(value: int | float | bool) -> None:
     kind = {bool: "boolean", int: "int64", float: "double"}[type(value)]
     assert parse_value(kind, format_value(value)) == value
 
 
-def test_a_parameter_keeps_its_type_and_one_without_takes_the_texts() -> None:
+def test_a_parameter_keeps_its_type_and_an_unset_one_takes_it_from_the_text() -> None:
     assert parse_parameter(Parameter("/n", "rate", "double", 1.0), "5") == ("double", 5.0)
     assert parse_parameter(Parameter("/n", "names", "string array", []), "[1]") == ("string array", ["1"])
     unset = Parameter("/n", "any", "not set", None)
