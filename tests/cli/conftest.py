@@ -14,13 +14,13 @@ from tutor.cli import main
 
 
 @dataclass(frozen=True)
-class Ran:
+class CliResult:
     code: int
     out: str
     err: str
 
 
-Run = Callable[..., Ran]
+Run = Callable[..., CliResult]
 
 
 @pytest.fixture(autouse=True)
@@ -43,10 +43,10 @@ def engine(monkeypatch: pytest.MonkeyPatch) -> FakeEngine:
 
 @pytest.fixture
 def run(capsys: pytest.CaptureFixture[str]) -> Run:
-    def run(*argv: str | Path) -> Ran:
+    def run(*argv: str | Path) -> CliResult:
         capsys.readouterr()
         code = main([str(each) for each in argv])
         captured = capsys.readouterr()
-        return Ran(code, captured.out, captured.err)
+        return CliResult(code, captured.out, captured.err)
 
     return run

@@ -1,4 +1,4 @@
-"""An engine that starts nothing: it gives the verdicts it was told, with all the events of a real one."""
+"""An engine that starts nothing: it returns preset verdicts, with all the events of a real check."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from tutor.judge.verdict import Cause, Verdict, failed, passed
 
 @dataclass
 class FakeEngine:
-    """Passes everything, but the criteria in `verdicts`."""
+    """Passes every criterion except those in `verdicts`. Records its submissions and selected criteria in `calls`."""
 
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     raises: BaseException | None = None
-    asked: list[tuple[list[Submission], frozenset[str] | None]] = field(default_factory=list)
+    calls: list[tuple[list[Submission], frozenset[str] | None]] = field(default_factory=list)
     first: bool = False
-    """Whether it was last asked to end at the first failure, which it does not."""
+    """Whether the last call asked to end at the first failure, which this engine ignores."""
 
     async def __call__(
         self,
@@ -31,7 +31,7 @@ class FakeEngine:
         on_event: Callable[[Event], None],
         first: bool = False,
     ) -> Report:
-        self.asked.append((list(submissions), only))
+        self.calls.append((list(submissions), only))
         self.first = first
         if self.raises is not None:
             raise self.raises

@@ -1,4 +1,4 @@
-"""A clone as a Python developer treats it."""
+"""A clone under the usual tools of a Python developer."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ CLONE = Path(__file__).resolve().parents[2]
 
 
 def test_a_plain_uv_sync_keeps_ros() -> None:
-    """The ROS wheels' records under second names look like packages that nobody asked for."""
+    """The ROS wheels are also recorded under second names, which look to uv like packages that nothing requires."""
     uv = next((path for path in (CLONE / ".uv-tool/bin/uv", shutil.which("uv")) if path and Path(path).exists()), None)
     if uv is None:
         pytest.skip("there is no uv")
     environ = {name: value for name, value in os.environ.items() if name not in ("VIRTUAL_ENV", "UV_PYTHON")}
     command = [uv, "sync", "--frozen", "--offline", "--dry-run"]
-    ran = subprocess.run(command, cwd=CLONE, env=environ, capture_output=True, text=True, timeout=60, check=False)
-    assert ran.returncode == 0, ran.stderr
-    removed = re.findall(r"^ - (\S+)==(\S+)", ran.stderr, re.MULTILINE)
+    result = subprocess.run(command, cwd=CLONE, env=environ, capture_output=True, text=True, timeout=60, check=False)
+    assert result.returncode == 0, result.stderr
+    removed = re.findall(r"^ - (\S+)==(\S+)", result.stderr, re.MULTILINE)
     records = {f"{name.replace('-', '_')}-{version}.dist-info" for name, version in removed}
     site_packages = Path(sysconfig.get_path("purelib"))
-    assert records <= {each.name for each in site_packages.glob("*.dist-info")}, ran.stderr
+    assert records <= {each.name for each in site_packages.glob("*.dist-info")}, result.stderr
 
 
-def test_our_modules_are_compiled_and_what_learners_get_a_copy_of_is_not() -> None:
-    """Our programs write no bytecode: otherwise each of their starts compiles all of it again."""
+def test_our_modules_are_compiled_but_files_that_learners_get_a_copy_of_are_not() -> None:
+    """Our programs write no bytecode, so without this every start would compile all of it again."""
     if Path(sys.prefix) != CLONE / ".venv":
         pytest.skip("this is not the clone's own environment")
     command = [str(CLONE / ".ci/uv"), "run", "--quiet", "--frozen", "--offline", "python", "-I", "-c", ""]

@@ -1,4 +1,4 @@
-"""Tab completion, asked for as bash, zsh and fish do."""
+"""Tab completion, requested as bash, zsh and fish do."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from tests.cli.conftest import Run
 
 ROOT = Path(tutor.__file__).parents[1]
 
-# What each shell sets before it asks, and then what came.
-ASK = {
+# For each shell: the variables that it sets, the request, and printing the candidates.
+REQUEST = {
     "bash": """
 COMP_LINE="$LINE"; COMP_POINT=${#LINE}; COMP_TYPE=9
 _python_argcomplete ./ros-tutor
@@ -28,16 +28,16 @@ _python_argcomplete
 """,
     "fish": 'complete -C "$LINE" | cut -f1\n',
 }
-BEFORE = {"zsh": "autoload -U compinit; compinit -u -D\n", "bash": "", "fish": ""}
+SETUP = {"zsh": "autoload -U compinit; compinit -u -D\n", "bash": "", "fish": ""}
 
 
-def completed(shell: str, line: str, home: Path) -> list[str]:
-    """What Tab offers at the end of a line."""
+def completions(shell: str, line: str, home: Path) -> list[str]:
+    """The words that Tab offers at the end of a line."""
     script = subprocess.run(
         ["./ros-tutor", "completion", shell], cwd=ROOT, capture_output=True, text=True, check=True
     ).stdout
-    asked = subprocess.run(
-        [shell, *(["--no-rcs"] if shell == "zsh" else []), "-c", f"{BEFORE[shell]}{script}\n{ASK[shell]}"],
+    completion = subprocess.run(
+        [shell, *(["--no-rcs"] if shell == "zsh" else []), "-c", f"{SETUP[shell]}{script}\n{REQUEST[shell]}"],
         cwd=ROOT,
         env={**os.environ, "HOME": str(home), "LINE": line},
         capture_output=True,
@@ -45,15 +45,15 @@ def completed(shell: str, line: str, home: Path) -> list[str]:
         timeout=60,
         check=True,
     )
-    return [word.strip() for word in asked.stdout.splitlines() if word.strip()]
+    return [word.strip() for word in completion.stdout.splitlines() if word.strip()]
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_exercises_and_criteria_are_completed(shell: str, home: Path) -> None:
     if shutil.which(shell) is None:
         pytest.skip(f"there is no {shell}")
-    assert completed(shell, "./ros-tutor check i2.", home) == ["i2.1", "i2.2", "i2.3"]
-    assert completed(shell, "./ros-tutor check i2.1 --criterion t", home) == ["timer"]
+    assert completions(shell, "./ros-tutor check i2.", home) == ["i2.1", "i2.2", "i2.3"]
+    assert completions(shell, "./ros-tutor check i2.1 --criterion t", home) == ["timer"]
 
 
 @pytest.mark.parametrize(
@@ -75,14 +75,14 @@ def test_exercises_and_criteria_are_completed(shell: str, home: Path) -> None:
         ("--workspace tut", {"tutor/"}),
     ],
 )
-def test_whatever_can_be_typed_is_completed(line: str, words: set[str], home: Path) -> None:
-    assert set(completed("bash", f"./ros-tutor {line}", home)) == words
+def test_every_kind_of_word_is_completed(line: str, words: set[str], home: Path) -> None:
+    assert set(completions("bash", f"./ros-tutor {line}", home)) == words
 
 
-def test_help_says_how_to_switch_it_on(run: Run) -> None:
-    said = run("completion", "--help").out
-    assert 'eval "$(ros-tutor completion bash)"' in said
-    assert "ros-tutor completion fish | source" in said
-    ran = run("completion", "tcsh")
-    assert ran.code == 2
-    assert "choose from bash, zsh, fish" in ran.err
+def test_help_says_how_to_enable_completion(run: Run) -> None:
+    help_text = run("completion", "--help").out
+    assert 'eval "$(ros-tutor completion bash)"' in help_text
+    assert "ros-tutor completion fish | source" in help_text
+    result = run("completion", "tcsh")
+    assert result.code == 2
+    assert "choose from bash, zsh, fish" in result.err

@@ -1,4 +1,4 @@
-"""What a learner runs meets what else they run, and nothing of anybody else's."""
+"""ROS domains: everything that a learner runs is in one domain, apart from everyone else's."""
 
 from __future__ import annotations
 
@@ -24,22 +24,24 @@ def registry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def ros2_domain(run: Run, monkeypatch: pytest.MonkeyPatch, *argv: str) -> str:
     """The domain in which `ros-tutor ros2` would run."""
 
-    class Became(BaseException):
+    class ExecveCalled(BaseException):
         pass
 
     found: list[str] = []
 
     def execve(path: str, argv: list[str], env: dict[str, str]) -> None:
         found.append(env["ROS_DOMAIN_ID"])
-        raise Became
+        raise ExecveCalled
 
     monkeypatch.setattr(os, "execve", execve)
-    with pytest.raises(Became):
+    with pytest.raises(ExecveCalled):
         run(*argv, "ros2", "launch", "x")
     return found[0]
 
 
-def test_app_live_and_ros2_are_in_the_workspaces_own(run: Run, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_app_its_watcher_and_ros2_use_the_workspaces_domain(
+    run: Run, home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     run("start", "i1.1", "--workspace", "ada")
     run("start", "i1.1", "--workspace", "bob")
     domains = []
@@ -55,7 +57,7 @@ def test_app_live_and_ros2_are_in_the_workspaces_own(run: Run, home: Path, monke
     assert len({0, *domains}) == 3
 
 
-def test_the_variable_wins_everywhere(run: Run, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ros_domain_id_takes_precedence_everywhere(run: Run, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run("start", "i1.1")
     monkeypatch.setenv("ROS_DOMAIN_ID", "77")
     session = Session(load_course(), Workspace(home / "ros_tutor_ws"))
@@ -65,7 +67,7 @@ def test_the_variable_wins_everywhere(run: Run, home: Path, monkeypatch: pytest.
     assert "Your nodes run in ROS domain 77." in run("list").out
 
 
-def test_a_desk_that_moves_has_the_domain_of_the_new_place(home: Path) -> None:
+def test_a_session_that_moves_uses_the_domain_of_its_new_workspace(home: Path) -> None:
     session = Session(load_course(), Workspace(home / "ros_tutor_ws"))
     assert session.domain
     session.create_workspace(home / "elsewhere")
@@ -73,13 +75,13 @@ def test_a_desk_that_moves_has_the_domain_of_the_new_place(home: Path) -> None:
     assert (home / "elsewhere" / ".ros-tutor" / "domain").read_text() == f"{session.domain}\n"
 
 
-def test_list_shows_it(run: Run, home: Path) -> None:
+def test_list_shows_the_domain(run: Run, home: Path) -> None:
     assert "ROS domain" not in run("list").out
     run("start", "i1.1")
     assert f"Your nodes run in ROS domain {domain_of(Workspace(home / 'ros_tutor_ws'))}." in run("list").out
 
 
-def test_doctor_shows_it(run: Run, home: Path) -> None:
+def test_doctor_shows_the_domain(run: Run, home: Path) -> None:
     run("start", "i1.1")
     workspace = home / "ros_tutor_ws"
     own = domain_of(Workspace(workspace))

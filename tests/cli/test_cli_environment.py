@@ -1,4 +1,4 @@
-"""What surrounds a start, a learner's folder and the variables of a shell, has no part in what our programs run."""
+"""Neither the current folder nor the shell's environment variables change what our programs run."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from tutor import interpreter
 
 ROOT = Path(__file__).parents[2]
 LIMIT_S = 300
-"""A first start of a clone may set it up."""
+"""The first start of a clone may have to set it up."""
 
-TAKEN = "import os; os.write(1, b'taken'); os._exit(0)"
-SHADOWING = ("sitecustomize", "usercustomize", "random", "typing", "rich", "tutor", "checks", "rclpy")
+HIJACK = "import os; os.write(1, b'taken'); os._exit(0)"
+SHADOWED_MODULES = ("sitecustomize", "usercustomize", "random", "typing", "rich", "tutor", "checks", "rclpy")
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A submission's folder, with modules that would take the place of ours and end the program, as if all was well."""
-    for name in SHADOWING:
-        (tmp_path / f"{name}.py").write_text(TAKEN)
+    """A submission's folder with modules that would shadow ours and exit as if all was well."""
+    for name in SHADOWED_MODULES:
+        (tmp_path / f"{name}.py").write_text(HIJACK)
     (tmp_path / "temperature_publisher.py").write_text("raise SystemExit(1)\n")
     return tmp_path
 
@@ -38,7 +38,7 @@ PROGRAMS = {
     "installed": [str(Path(sys.prefix) / "bin" / "ros-tutor")],
     "engine": list(interpreter.module_command("tutor.engine")),
 }
-SURROUNDINGS: dict[str, dict[str, str]] = {
+ENVIRONMENTS: dict[str, dict[str, str]] = {
     "the current folder": {"PYTHONPATH": "."},
     "an empty entry": {"PYTHONPATH": ":/x"},
     "the folder by its path": {"PYTHONPATH": "FOLDER"},
@@ -55,31 +55,31 @@ SURROUNDINGS: dict[str, dict[str, str]] = {
 }
 
 
-@pytest.mark.parametrize("variables", SURROUNDINGS.values(), ids=SURROUNDINGS)
-def test_the_clones_program_is_not_taken_over(folder: Path, variables: dict[str, str]) -> None:
-    ended = run([*PROGRAMS["clone"], "check", "i9.9", "."], folder, variables)
-    assert (ended.returncode, ended.stdout) == (2, ""), ended
-    assert "i9.9" in ended.stderr
+@pytest.mark.parametrize("variables", ENVIRONMENTS.values(), ids=ENVIRONMENTS)
+def test_the_clones_program_is_not_hijacked(folder: Path, variables: dict[str, str]) -> None:
+    result = run([*PROGRAMS["clone"], "check", "i9.9", "."], folder, variables)
+    assert (result.returncode, result.stdout) == (2, ""), result
+    assert "i9.9" in result.stderr
 
 
 @pytest.mark.parametrize("program", ["installed", "engine"])
-@pytest.mark.parametrize("variables", [SURROUNDINGS["the current folder"], SURROUNDINGS["the folder by its path"]])
-def test_no_other_program_of_ours_is(program: str, folder: Path, variables: dict[str, str]) -> None:
+@pytest.mark.parametrize("variables", [ENVIRONMENTS["the current folder"], ENVIRONMENTS["the folder by its path"]])
+def test_our_other_programs_are_not_hijacked(program: str, folder: Path, variables: dict[str, str]) -> None:
     words = ["check", "i9.9", "."] if program == "installed" else ["i9.9", "."]
-    ended = run([*PROGRAMS[program], *words], folder, variables)
-    assert (ended.returncode, ended.stdout) == (2, ""), ended
-    assert "i9.9" in ended.stderr
+    result = run([*PROGRAMS[program], *words], folder, variables)
+    assert (result.returncode, result.stdout) == (2, ""), result
+    assert "i9.9" in result.stderr
 
 
 def test_a_check_is_judged_whatever_the_folder_holds(folder: Path) -> None:
     argv = [*PROGRAMS["clone"], "check", "i1.1", ".", "--criterion", "publishes"]
-    ended = run(argv, folder, {"PYTHONPATH": f".:{folder}"})
-    assert ended.returncode == 1, ended
-    assert "publishes" in ended.stdout
-    assert "failed" in ended.stdout
+    result = run(argv, folder, {"PYTHONPATH": f".:{folder}"})
+    assert result.returncode == 1, result
+    assert "publishes" in result.stdout
+    assert "failed" in result.stdout
 
 
-def test_what_a_sourced_ros_names_is_found_behind_our_own(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_paths_of_a_sourced_ros_come_after_our_own(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(sys, "path", ["/ours"])
     interpreter.add_python_path({"PYTHONPATH": f".::{tmp_path}:relative:/ours"})
     assert sys.path == ["/ours", str(tmp_path)]

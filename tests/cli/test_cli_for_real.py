@@ -26,8 +26,8 @@ sys.addaudithook(hear)
 """
 
 
-def test_our_solution_publishes_and_all_is_imported_before_it_starts() -> None:
-    ran = subprocess.run(
+def test_our_solution_publishes_and_everything_is_imported_before_it_starts() -> None:
+    result = subprocess.run(
         [
             sys.executable,
             "-c",
@@ -45,27 +45,27 @@ def test_our_solution_publishes_and_all_is_imported_before_it_starts() -> None:
         timeout=60,
         check=False,
     )
-    document = json.loads(ran.stdout)
-    assert ran.stderr == ""  # a learner's program may write where our modules are
+    document = json.loads(result.stdout)
+    assert result.stderr == ""  # no late imports: by then, a learner's program may have overwritten our modules
     assert_report_shape(document)
-    assert (ran.returncode, document["verdict"]) == (0, "passed")
+    assert (result.returncode, document["verdict"]) == (0, "passed")
     assert document["environment"]["ros_distro"] == "jazzy"
     (exercise,) = document["exercises"]
     assert exercise["submission"] == ["temperature_publisher.py"]
     assert [criterion["id"] for criterion in exercise["criteria"]] == ["publishes"]
 
 
-def test_a_loopback_that_is_down_is_the_machines_fault() -> None:
+def test_a_loopback_interface_that_is_down_is_the_machines_fault() -> None:
     private = ["unshare", "--user", "--map-root-user", "--net"]
     if subprocess.run([*private, "true"], check=False, capture_output=True).returncode != 0:
-        pytest.skip("this kernel lets nobody have a network of their own")
-    ran = subprocess.run(
+        pytest.skip("this kernel allows no unprivileged network namespace")
+    result = subprocess.run(
         [*private, sys.executable, "-c", PROGRAM, "check", "i1.1", "--solution"],
         capture_output=True,
         text=True,
         timeout=60,
         check=False,
     )
-    assert (ran.returncode, ran.stdout) == (3, "")
-    assert ran.stderr.startswith("ros-tutor: nothing can be sent to 127.0.0.1 (")
-    assert ran.stderr.endswith("switch the loopback interface on: sudo ip link set lo up\n")
+    assert (result.returncode, result.stdout) == (3, "")
+    assert result.stderr.startswith("ros-tutor: nothing can be sent to 127.0.0.1 (")
+    assert result.stderr.endswith("switch the loopback interface on: sudo ip link set lo up\n")

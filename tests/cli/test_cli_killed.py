@@ -1,4 +1,4 @@
-"""A check of which one process is killed, as with `kill -9`: never the learner's fault, and nothing is left."""
+"""Killing one process of a check with `kill -9` is never the learner's fault and leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ LIMIT_S = 60.0
 GONE_S = 10.0
 
 
-def command(pid: int) -> str:
+def command_line(pid: int) -> str:
     try:
         return Path(f"/proc/{pid}/cmdline").read_bytes().replace(b"\0", b" ").decode()
     except OSError:  # it has ended
         return ""
 
 
-def until(seen: Callable[[], bool], limit_s: float, what: str) -> None:
+def wait_until(condition: Callable[[], bool], limit_s: float, what: str) -> None:
     deadline = time.monotonic() + limit_s
-    while not seen():
+    while not condition():
         assert time.monotonic() < deadline, f"waited in vain for {what}"
         time.sleep(0.01)
 
 
 @pytest.mark.parametrize(("victim", "code"), [("-m tutor", -9), ("supervisor.py", 3), ("temperature_publisher.py", 0)])
-def test_of_a_clones_check(tmp_path: Path, victim: str, code: int) -> None:
+def test_one_process_of_a_clones_check_is_killed(tmp_path: Path, victim: str, code: int) -> None:
     file = shutil.copy(ROOT / "lessons/i1_1/solution/temperature_publisher.py", tmp_path)
     process = subprocess.Popen(
         [str(ROOT / "ros-tutor"), "check", "i1.1", str(tmp_path), "--criterion", "publishes"],
@@ -45,14 +45,16 @@ def test_of_a_clones_check(tmp_path: Path, victim: str, code: int) -> None:
     running: dict[int, str] = {}
 
     def is_up() -> bool:
-        running.update({pid: command(pid) for pid in (process.pid, *(p.pid for p in descendants(process.pid)))})
+        running.update({pid: command_line(pid) for pid in (process.pid, *(p.pid for p in descendants(process.pid)))})
         return any(str(file) in line and "supervisor.py" not in line for line in running.values())
 
     try:
-        until(is_up, LIMIT_S, "the learner's node")
+        wait_until(is_up, LIMIT_S, "the learner's node")
         os.kill(next(pid for pid, line in running.items() if victim in line), signal.SIGKILL)
         assert process.wait(LIMIT_S) == code
-        until(lambda: not any(p.alive and p.pid in running for p in processes().values()), GONE_S, f"{running} to end")
+        wait_until(
+            lambda: not any(p.alive and p.pid in running for p in processes().values()), GONE_S, f"{running} to end"
+        )
     finally:
         process.kill()
         process.wait()

@@ -1,4 +1,4 @@
-"""A learner's way: list, start, hint, solution, checklist, doctor."""
+"""The commands of a learner: list, start, hint, solution, checklist, doctor."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ def line_of(text: str, exercise: str) -> str:
 
 
 def test_list_without_a_workspace_shows_everything_as_not_started(run: Run, home: Path) -> None:
-    ran = run("list")
-    assert ran.code == 0
-    assert "Sensor Publisher" in line_of(ran.out, "i1.1")
-    assert "easy" in line_of(ran.out, "i1.1")
-    assert line_of(ran.out, "i1.1").endswith("not started")
-    assert "Next: ros-tutor start i1.1" in ran.out
-    assert "there is no workspace yet" in ran.err
+    result = run("list")
+    assert result.code == 0
+    assert "Sensor Publisher" in line_of(result.out, "i1.1")
+    assert "easy" in line_of(result.out, "i1.1")
+    assert line_of(result.out, "i1.1").endswith("not started")
+    assert "Next: ros-tutor start i1.1" in result.out
+    assert "there is no workspace yet" in result.err
     assert list(home.iterdir()) == []
 
 
-def test_list_follows_the_learner(run: Run, engine: FakeEngine) -> None:
+def test_list_follows_the_learners_progress(run: Run, engine: FakeEngine) -> None:
     run("start", "i1.1")
     assert line_of(run("list").out, "i1.1").endswith("· started")
 
@@ -43,21 +43,21 @@ def test_list_follows_the_learner(run: Run, engine: FakeEngine) -> None:
     run("check", "i1.1")
     engine.verdicts = {"publishes": FAILURE}
     run("check", "i1.1")
-    ran = run("list")
-    assert "✓ passed" in line_of(ran.out, "i1.1")
-    assert "last check failed" in line_of(ran.out, "i1.1")
-    assert "1 of " in ran.out
-    assert ran.err == ""
+    result = run("list")
+    assert "✓ passed" in line_of(result.out, "i1.1")
+    assert "last check failed" in line_of(result.out, "i1.1")
+    assert "1 of " in result.out
+    assert result.err == ""
 
 
 def test_start_says_where_the_workspace_and_the_files_are(run: Run, home: Path) -> None:
-    ran = run("start", "I1_1")
-    assert ran.code == 0
-    assert f"Created your workspace: {home}/ros_tutor_ws" in ran.out
+    result = run("start", "I1_1")
+    assert result.code == 0
+    assert f"Created your workspace: {home}/ros_tutor_ws" in result.out
     file = home / "ros_tutor_ws/src/my_package/my_package/temperature_publisher.py"
     assert file.is_file()
-    assert "ros_tutor_ws/src/my_package/my_package/temperature_publisher.py" in ran.out
-    assert "ros-tutor check i1.1" in ran.out
+    assert "ros_tutor_ws/src/my_package/my_package/temperature_publisher.py" in result.out
+    assert "ros-tutor check i1.1" in result.out
 
     again = run("start", "i1.1")
     assert again.code == 0
@@ -71,43 +71,43 @@ def test_start_never_overwrites_without_force(run: Run, home: Path) -> None:
     skeleton = file.read_text()
     file.write_text("my work")
 
-    ran = run("start", "i1.1")
-    assert ran.code == 2
-    assert "--force" in ran.err
+    result = run("start", "i1.1")
+    assert result.code == 2
+    assert "--force" in result.err
     assert file.read_text() == "my work"
 
-    ran = run("start", "i1.1", "--force")
-    assert ran.code == 0
+    result = run("start", "i1.1", "--force")
+    assert result.code == 0
     assert file.read_text() == skeleton
     assert file.with_name("temperature_publisher.py.~1~").read_text() == "my work"
-    assert "temperature_publisher.py.~1~" in ran.out
+    assert "temperature_publisher.py.~1~" in result.out
 
 
-def test_start_into_a_folder_makes_no_workspace(run: Run, home: Path) -> None:
-    ran = run("start", "i1.3", "answers")
-    assert ran.code == 0
+def test_start_into_a_folder_creates_no_workspace(run: Run, home: Path) -> None:
+    result = run("start", "i1.3", "answers")
+    assert result.code == 0
     assert {path.name for path in (home / "answers").iterdir()} == {"calculator_server.py", "calculator_client.py"}
     assert [path.name for path in home.iterdir()] == ["answers"]
-    assert "ros-tutor check i1.3 answers" in ran.out
+    assert "ros-tutor check i1.3 answers" in result.out
 
 
 def test_hints_come_one_by_one(run: Run) -> None:
     run("start", "i2.1")
     shown = [run("hint", "i2.1") for _ in range(4)]
-    assert [ran.out.splitlines()[0] for ran in shown] == [f"Hint {n} of 3" for n in (1, 2, 3, 3)]
+    assert [result.out.splitlines()[0] for result in shown] == [f"Hint {n} of 3" for n in (1, 2, 3, 3)]
     assert shown[2].out == shown[3].out
     assert shown[2].err == ""
     assert "that was the last hint" in shown[3].err
     every = run("hint", "i2.1", "--all").out
-    assert all(ran.out in every for ran in shown)
+    assert all(result.out in every for result in shown)
 
 
-def test_a_hint_without_a_workspace_says_why_it_is_the_first(run: Run, home: Path) -> None:
+def test_without_a_workspace_hint_says_why_it_always_shows_the_first(run: Run, home: Path) -> None:
     for _ in range(2):
-        ran = run("hint", "i2.1")
-        assert ran.code == 0
-        assert ran.out.startswith("Hint 1 of 3\n")
-        assert "cannot remember which hints you have seen" in ran.err
+        result = run("hint", "i2.1")
+        assert result.code == 0
+        assert result.out.startswith("Hint 1 of 3\n")
+        assert "cannot remember which hints you have seen" in result.err
     assert list(home.iterdir()) == []
 
 
@@ -123,17 +123,17 @@ def test_a_solution_is_runnable_python_on_stdout(run: Run) -> None:
 
 def test_the_checklist_is_ticked_and_exported(run: Run, home: Path) -> None:
     run("start", "i1.1")
-    ran = run("checklist", "tick", "timers", "log-levels")
-    assert ran.code == 0
-    assert "[x] timers" in ran.out
+    result = run("checklist", "tick", "timers", "log-levels")
+    assert result.code == 0
+    assert "[x] timers" in result.out
     run("checklist", "untick", "log-levels")
-    ran = run("checklist")
-    assert "[x] timers" in ran.out
-    assert "[ ] log-levels" in ran.out
+    result = run("checklist")
+    assert "[x] timers" in result.out
+    assert "[ ] log-levels" in result.out
 
     assert "- [x] " in run("checklist", "export").out
-    ran = run("checklist", "export", "--format", "json", "--output", "list.json")
-    assert (ran.code, ran.out) == (0, "")
+    result = run("checklist", "export", "--format", "json", "--output", "list.json")
+    assert (result.code, result.out) == (0, "")
     groups = json.loads((home / "list.json").read_text())["groups"]
     assert {item["id"] for group in groups for item in group["items"] if item["ticked"]} == {"timers"}
     assert run("checklist", "export", "--format", "html").out.startswith("<!DOCTYPE html>")
@@ -158,25 +158,25 @@ class Finding:
 
 
 @pytest.mark.parametrize(("ok", "code", "word"), [(True, 0, "✓ ok"), (None, 0, "! warning"), (False, 3, "✗ wrong")])
-def test_the_doctor_gives_each_finding_with_its_hint(
+def test_the_doctor_prints_each_finding_with_its_hint(
     run: Run, monkeypatch: pytest.MonkeyPatch, ok: bool | None, code: int, word: str
 ) -> None:
     doctor = types.ModuleType("tutor.doctor")
     doctor.examine = lambda workspace: (Finding("loopback", ok, "it is up", "do this"),)  # type: ignore[attr-defined]
     monkeypatch.setitem(sys.modules, "tutor.doctor", doctor)
-    ran = run("doctor")
-    assert ran.code == code
-    assert ran.out.startswith(word)
-    assert ("fix: do this" in ran.out) == (ok is not True)
+    result = run("doctor")
+    assert result.code == code
+    assert result.out.startswith(word)
+    assert ("fix: do this" in result.out) == (ok is not True)
 
 
-def test_damaged_progress_is_told_once_and_kept(run: Run, home: Path) -> None:
+def test_damaged_progress_is_reported_once_and_set_aside(run: Run, home: Path) -> None:
     run("start", "i1.1")
     folder = home / "ros_tutor_ws" / ".ros-tutor"
     (folder / "progress.json").write_text("{")
-    ran = run("list")
-    assert ran.code == 0
-    assert ran.err.count("\n") == 1
-    assert "the old one is kept as" in ran.err
+    result = run("list")
+    assert result.code == 0
+    assert result.err.count("\n") == 1
+    assert "the old one is kept as" in result.err
     assert run("list").err == ""
     assert len(list(folder.glob("progress.json.damaged-*"))) == 1

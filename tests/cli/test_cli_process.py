@@ -18,6 +18,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 
 from tests.cli.fake_engine import FAILURE
 from tutor.cli.progress_display import ProgressDisplay, _Line
@@ -52,12 +53,12 @@ sys.exit(main([argument for argument in sys.argv[1:] if argument != "--slow"]))
 """
 
 
-def command(*arguments: str) -> list[str]:
+def fake_engine_command(*arguments: str) -> list[str]:
     return [sys.executable, "-c", WITH_FAKE_ENGINE, *arguments]
 
 
-def in_terminal(arguments: list[str], env: Mapping[str, str], rows: int = 40) -> tuple[int, str, str]:
-    """Run with stderr on a terminal of its own and stdout on another; the exit code and what each showed."""
+def run_in_terminals(arguments: list[str], env: Mapping[str, str], rows: int = 40) -> tuple[int, str, str]:
+    """Run with stdout and stderr on two terminals. Returns the exit code and what each of them showed."""
     (out, out_end), (err, err_end) = pty.openpty(), pty.openpty()
     for end in (out_end, err_end):
         fcntl.ioctl(end, termios.TIOCSWINSZ, struct.pack("HHHH", rows, 100, 0, 0))
@@ -65,9 +66,9 @@ def in_terminal(arguments: list[str], env: Mapping[str, str], rows: int = 40) ->
     os.close(out_end)
     os.close(err_end)
     texts = {out: b"", err: b""}
-    limit = time.monotonic() + LIMIT_S
+    deadline = time.monotonic() + LIMIT_S
     open_ends = set(texts)
-    while open_ends and time.monotonic() < limit:
+    while open_ends and time.monotonic() < deadline:
         for end in select.select(list(open_ends), [], [], 1.0)[0]:
             try:
                 chunk = os.read(end, 65536)
@@ -84,24 +85,24 @@ def in_terminal(arguments: list[str], env: Mapping[str, str], rows: int = 40) ->
 
 @pytest.fixture
 def env(home: Path) -> dict[str, str]:
-    quiet = {"NO_COLOR", "ROS_TUTOR_WORKSPACE", "FORCE_COLOR", "TTY_COMPATIBLE", "COLUMNS", "LINES"}
-    return {**{key: value for key, value in os.environ.items() if key not in quiet}, "TERM": "xterm-256color"}
+    left_out = {"NO_COLOR", "ROS_TUTOR_WORKSPACE", "FORCE_COLOR", "TTY_COMPATIBLE", "COLUMNS", "LINES"}
+    return {**{key: value for key, value in os.environ.items() if key not in left_out}, "TERM": "xterm-256color"}
 
 
-# As much of the standard library as takes the processor 0.17 s where `list` takes as long.
+# Imports from the standard library that take as much CPU time as `list`: 0.17 s on the machine where it was measured.
 YARDSTICK = "import unittest.mock, http.server, xml.dom.minidom, concurrent.futures, logging.config"
 
 
-def used_s(program: str) -> tuple[float, str]:
-    """The seconds of the processor that this Python program uses, and what it prints."""
+def measure_cpu_s(program: str) -> tuple[float, str]:
+    """Run a Python program. Returns the CPU seconds that it used, and its output."""
     process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     output = process.stdout.read()
     process.stdout.close()
-    _, status, used = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)  # it is waited for: the object must not do so again
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)  # already reaped: Popen must not wait for it again
     assert process.returncode == 0
-    return used.ru_utime + used.ru_stime, output
+    return usage.ru_utime + usage.ru_stime, output
 
 
 def test_list_needs_neither_ros_nor_the_terminal_app_and_is_quick() -> None:
@@ -111,52 +112,55 @@ def test_list_needs_neither_ros_nor_the_terminal_app_and_is_quick() -> None:
         "sys.exit(code)"
     )
     shares: list[float] = []
-    while not shares or (shares[-1] >= 1.7 and len(shares) < 5):  # what runs beside it may meet the one only
-        took_s, output = used_s(program)
+    while not shares or (shares[-1] >= 1.7 and len(shares) < 5):  # other load may slow down only one of the two
+        took_s, output = measure_cpu_s(program)
         assert output.splitlines()[-1] == "[]"
-        shares.append(took_s / used_s(YARDSTICK)[0])
-    assert min(shares) < 1.7  # 0.3 s of this machine's processor where it is calm; the same work takes twice that else
+        shares.append(took_s / measure_cpu_s(YARDSTICK)[0])
+    assert min(shares) < 1.7  # a ratio, as the 0.3 s of CPU time on an idle machine double on a busy one
 
 
 def test_without_a_terminal_nothing_is_coloured_or_drawn() -> None:
-    ran = subprocess.run(
-        command("check", "i1.1", "--solution"), capture_output=True, text=True, timeout=LIMIT_S, check=False
+    result = subprocess.run(
+        fake_engine_command("check", "i1.1", "--solution"), capture_output=True, text=True, timeout=LIMIT_S, check=False
     )
-    assert ran.returncode == 1
-    assert "\x1b" not in ran.stdout
-    assert ran.stderr == ""
+    assert result.returncode == 1
+    assert "\x1b" not in result.stdout
+    assert result.stderr == ""
 
 
-def test_a_terminal_sees_the_check_at_work_and_then_the_report(env: dict[str, str]) -> None:
-    code, out, err = in_terminal(command("check", "i1.1", "--solution"), env)
+def test_a_terminal_shows_live_progress_and_then_the_report(env: dict[str, str]) -> None:
+    code, out, err = run_in_terminals(fake_engine_command("check", "i1.1", "--solution"), env)
     assert code == 1
     assert "\x1b[31m" in out
     assert "call rclpy.spin(node)" in out
     assert "publishes" in err
-    assert err.endswith("\x1b[2K") or "\x1b[1A\x1b[2K" in err  # it makes room for the report
-    assert "\x1b[?25h" in err  # the cursor is back
+    assert err.endswith("\x1b[2K") or "\x1b[1A\x1b[2K" in err  # erased to make room for the report
+    assert "\x1b[?25h" in err  # the cursor is shown again
 
 
-def test_many_exercises_on_a_low_terminal_take_a_line_each(env: dict[str, str]) -> None:
-    code, _, err = in_terminal(command("check", "all", "--solution"), env, rows=12)
+def test_many_exercises_on_a_short_terminal_take_one_line_each(env: dict[str, str]) -> None:
+    code, _, err = run_in_terminals(fake_engine_command("check", "all", "--solution"), env, rows=12)
     assert code == 1
     assert re.search(r"i1\.1.*\d of \d passed", err)
 
 
-def test_all_exercises_fit_on_a_common_terminal_with_a_bar_for_each_criterion() -> None:
-    from rich.console import Console
+def draw(display: ProgressDisplay, width: int = 80) -> list[str]:
+    """The lines that the display draws on a terminal with 24 rows."""
+    output = io.StringIO()
+    display._console = Console(file=output, width=width, height=24, force_terminal=True, color_system=None)
+    display._console.print(display._draw())
+    return output.getvalue().rstrip("\n").split("\n")
 
+
+def test_all_exercises_fit_on_a_common_terminal_with_a_bar_for_each_criterion() -> None:
     course = load_course()
     display = ProgressDisplay(course, vanishing=True)
-    output = io.StringIO()
-    display._console = Console(file=output, width=80, height=24, force_terminal=True, color_system=None)
     for lesson in course.lessons:
         display._lines[lesson.id] = {each.id: _Line(0.5, "waiting for the first message") for each in lesson.criteria}
         done = CriterionResult("x", "x", False, FAILURE, 1.0)
         display._lines[lesson.id][lesson.criteria[0].id] = _Line(1.0, "", done)
     display.stopping()
-    display._console.print(display._draw())
-    drawn = output.getvalue().rstrip("\n").split("\n")
+    drawn = draw(display)
     assert len(drawn) <= 24
     assert max(map(len, drawn)) <= 80
     for lesson, row in zip(course.lessons, drawn, strict=False):
@@ -167,19 +171,14 @@ def test_all_exercises_fit_on_a_common_terminal_with_a_bar_for_each_criterion() 
     assert drawn[-1].startswith("Stopping")
 
 
-def test_a_criterion_that_waits_says_what_is_known_so_far_in_words_that_are_not_final() -> None:
-    from rich.console import Console
-
+def test_a_waiting_criterion_shows_its_findings_so_far() -> None:
     course = load_course()
     display = ProgressDisplay(course, vanishing=True)
     lesson, so_far = course.lessons[0], "/node is up, nothing published on /sensor/temperature yet"
     waiting = lesson.criteria[0].id
 
     def drawn(width: int) -> str:
-        output = io.StringIO()
-        display._console = Console(file=output, width=width, height=24, force_terminal=True, color_system=None)
-        display._console.print(display._draw())
-        return next(line for line in output.getvalue().split("\n") if waiting in line).rstrip()
+        return next(line for line in draw(display, width) if waiting in line).rstrip()
 
     display._lines[lesson.id] = {each.id: _Line() for each in lesson.criteria}
     display._lines[lesson.id][waiting] = _Line(0.1, "waiting for the first message", so_far=so_far)
@@ -192,20 +191,15 @@ def test_a_criterion_that_waits_says_what_is_known_so_far_in_words_that_are_not_
 
 
 @pytest.mark.parametrize("exercises", [1, 6])
-def test_the_first_failure_stands_above_all_else_with_its_cause_and_stays(exercises: int) -> None:
-    from rich.console import Console
-
+def test_the_first_failure_stays_on_top_with_its_cause(exercises: int) -> None:
     course = load_course()
     display = ProgressDisplay(course, vanishing=True)
-    output = io.StringIO()
-    display._console = Console(file=output, width=80, height=24, force_terminal=True, color_system=None)
     for lesson in course.lessons[:exercises]:
         display._lines[lesson.id] = {each.id: _Line(0.5, "waiting") for each in lesson.criteria}
     lesson, second = course.lessons[0], failed("a", "b", Cause("another", "it is another " * 50, "do that"))
     for name, verdict, bonus in (("shutdown", FAILURE, True), ("rate", FAILURE, False), ("range", second, False)):
         display.show(CriterionJudged(lesson.id, CriterionResult(name, name, bonus, verdict, 1.0)))
-    display._console.print(display._draw())
-    drawn = output.getvalue().rstrip("\n").split("\n")
+    drawn = draw(display)
     where = "" if exercises == 1 else "i1.1 "
     assert drawn[:3] == [
         f"┃ ✗ {where}rate failed after 1.0 s",
@@ -217,24 +211,27 @@ def test_the_first_failure_stands_above_all_else_with_its_cause_and_stays(exerci
 
 
 def test_no_color_and_dumb_terminals_are_honoured(env: dict[str, str]) -> None:
-    _, out, err = in_terminal(command("check", "i1.1", "--solution"), {**env, "NO_COLOR": "1"})
+    _, out, err = run_in_terminals(fake_engine_command("check", "i1.1", "--solution"), {**env, "NO_COLOR": "1"})
     assert "\x1b[3" not in out
     assert not re.search(r"\x1b\[3[0-9]", err)
-    _, out, err = in_terminal(command("check", "i1.1", "--solution"), {**env, "TERM": "dumb"})
+    _, out, err = run_in_terminals(fake_engine_command("check", "i1.1", "--solution"), {**env, "TERM": "dumb"})
     assert "\x1b" not in out + err
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_an_interrupt_lets_the_engine_clean_up_and_is_130(number: signal.Signals) -> None:
+@pytest.mark.parametrize("signum", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_lets_the_engine_clean_up_and_exits_130(signum: signal.Signals) -> None:
     process = subprocess.Popen(
-        command("check", "i1.1", "--solution", "--slow"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        fake_engine_command("check", "i1.1", "--solution", "--slow"),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
     )
     assert process.stderr is not None
     assert process.stdout is not None
     assert process.stderr.readline() == "started\n"
-    process.send_signal(number)
+    process.send_signal(signum)
     assert process.stderr.readline() == "ros-tutor: stopping everything that was started\n"
-    process.send_signal(number)  # someone is impatient
+    process.send_signal(signum)  # someone is impatient
     rest = process.stderr.read()
     assert process.wait(timeout=LIMIT_S) == 130
     assert rest == "cleaned up\nros-tutor: interrupted; nothing is left running\n"
@@ -243,11 +240,11 @@ def test_an_interrupt_lets_the_engine_clean_up_and_is_130(number: signal.Signals
     process.stderr.close()
 
 
-def test_a_reader_that_goes_away_is_not_an_error() -> None:
+def test_a_closed_stdout_pipe_is_not_an_error() -> None:
     read, write = os.pipe()
     os.close(read)
-    ran = subprocess.run(
-        command("check", "i1.1", "--solution"),
+    result = subprocess.run(
+        fake_engine_command("check", "i1.1", "--solution"),
         stdout=write,
         stderr=subprocess.PIPE,
         text=True,
@@ -255,32 +252,32 @@ def test_a_reader_that_goes_away_is_not_an_error() -> None:
         check=False,
     )
     os.close(write)
-    assert ran.returncode == 1
-    assert ran.stderr == ""
+    assert result.returncode == 1
+    assert result.stderr == ""
 
 
-def test_a_full_disk_is_told(env: dict[str, str]) -> None:
+def test_a_full_disk_is_reported(env: dict[str, str]) -> None:
     with open("/dev/full", "w") as full:
-        ran = subprocess.run(
-            command("check", "i1.1", "--solution"),
+        result = subprocess.run(
+            fake_engine_command("check", "i1.1", "--solution"),
             stdout=full,
             stderr=subprocess.PIPE,
             text=True,
             timeout=LIMIT_S,
             check=False,
         )
-    assert ran.returncode == 3
-    assert ran.stderr == "ros-tutor: cannot write to stdout: No space left on device\n"
+    assert result.returncode == 3
+    assert result.stderr == "ros-tutor: cannot write to stdout: No space left on device\n"
 
 
-def test_a_terminal_that_knows_only_ascii_gets_a_report(env: dict[str, str]) -> None:
-    ran = subprocess.run(
-        command("check", "i1.1", "--solution"),
+def test_an_ascii_only_terminal_gets_a_report(env: dict[str, str]) -> None:
+    result = subprocess.run(
+        fake_engine_command("check", "i1.1", "--solution"),
         capture_output=True,
         text=True,
         timeout=LIMIT_S,
         check=False,
         env={**env, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"},
     )
-    assert ran.returncode == 1
-    assert "? passed" in ran.stdout
+    assert result.returncode == 1
+    assert "? passed" in result.stdout

@@ -1,4 +1,4 @@
-"""The app in a browser: who can reach it, what it is made of, and that nothing of it is left."""
+"""The app in a browser: who can reach it, that its page is self-contained, and that nothing of it is left behind."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ PROGRAM = "import sys; from tutor.cli import main; sys.exit(main(sys.argv[1:]))"
 def workspace(home: Path) -> Workspace:
     """A learner's workspace in which i1.1 is solved."""
     lesson = load_course().find("i1.1")
-    made = Workspace(home / "ws")
-    start(lesson, made)
-    shutil.copyfile(lesson.files[0].solution, made.path_of(lesson.files[0].name))
-    return made
+    workspace = Workspace(home / "ws")
+    start(lesson, workspace)
+    shutil.copyfile(lesson.files[0].solution, workspace.path_of(lesson.files[0].name))
+    return workspace
 
 
 @asynccontextmanager
 async def serving(workspace: Workspace) -> AsyncIterator[tuple[asyncio.subprocess.Process, str]]:
-    """`ros-tutor serve`, and the address that it prints."""
+    """Run `ros-tutor serve`. Yields its process and the address that it prints."""
     process = await asyncio.create_subprocess_exec(
         *(sys.executable, "-c", PROGRAM, "serve", "--port", "0", "--workspace", str(workspace.root)),
         stdout=asyncio.subprocess.PIPE,
@@ -50,9 +50,9 @@ async def serving(workspace: Workspace) -> AsyncIterator[tuple[asyncio.subproces
     try:
         assert process.stdout is not None
         async with asyncio.timeout(LIMIT_S):
-            said = (await process.stdout.readline()).decode()
-        found = re.fullmatch(r"ros-tutor is at (http://127\.0\.0\.1:\d+/)\n", said)
-        assert found is not None, said
+            printed = (await process.stdout.readline()).decode()
+        found = re.fullmatch(r"ros-tutor is at (http://127\.0\.0\.1:\d+/)\n", printed)
+        assert found is not None, printed
         yield process, found[1]
     finally:
         if process.returncode is None:
@@ -61,8 +61,8 @@ async def serving(workspace: Workspace) -> AsyncIterator[tuple[asyncio.subproces
 
 
 @asynccontextmanager
-async def opened(client: aiohttp.ClientSession, url: str) -> AsyncIterator[aiohttp.ClientWebSocketResponse]:
-    """What a browser does when it opens the page; it is left with the lesson's node running."""
+async def open_page(client: aiohttp.ClientSession, url: str) -> AsyncIterator[aiohttp.ClientWebSocketResponse]:
+    """Open the page as a browser does, and press r to run the lesson's node, which is still running on exit."""
     async with client.ws_connect(f"{url}ws?width=120&height=36", origin=url.rstrip("/")) as page:
         drawn = b""
         async with asyncio.timeout(LIMIT_S):
@@ -73,7 +73,7 @@ async def opened(client: aiohttp.ClientSession, url: str) -> AsyncIterator[aioht
 
 
 def processes_with(text: str) -> dict[int, str]:
-    """The living processes that have `text` in their command line."""
+    """The live processes with `text` in their command line."""
     found = {}
     for folder in Path("/proc").glob("[0-9]*"):
         try:
@@ -86,17 +86,17 @@ def processes_with(text: str) -> dict[int, str]:
     return found
 
 
-async def until(seen: Callable[[], bool], what: str) -> None:
+async def wait_until(condition: Callable[[], bool], what: str) -> None:
     try:
         async with asyncio.timeout(LIMIT_S):
-            while not seen():
+            while not condition():
                 await asyncio.sleep(0.02)
     except TimeoutError:
         pytest.fail(f"not seen: {what}")
 
 
-def listening_at(pid: int) -> list[tuple[str, int]]:
-    """The addresses and ports at which a process listens for TCP."""
+def listening_sockets(pid: int) -> list[tuple[str, int]]:
+    """The addresses and ports on which a process listens for TCP connections."""
     own = set()
     for handle in Path(f"/proc/{pid}/fd").iterdir():
         try:
@@ -114,11 +114,11 @@ def listening_at(pid: int) -> list[tuple[str, int]]:
     return found
 
 
-async def test_this_machine_alone_gets_a_page_that_needs_no_internet_and_ctrl_c_ends_it_all(
+async def test_only_this_machine_gets_a_page_that_needs_no_internet_and_ctrl_c_ends_everything(
     workspace: Workspace,
 ) -> None:
     async with serving(workspace) as (server, url), aiohttp.ClientSession() as client:
-        assert listening_at(server.pid) == [("127.0.0.1", int(url.rstrip("/").rpartition(":")[2]))]
+        assert listening_sockets(server.pid) == [("127.0.0.1", int(url.rstrip("/").rpartition(":")[2]))]
 
         async with client.get(url) as answer:
             page = await answer.text()
@@ -130,82 +130,83 @@ async def test_this_machine_alone_gets_a_page_that_needs_no_internet_and_ctrl_c_
         async with client.get(url + "page/page.css") as answer:
             named += [part.removeprefix("../") for part in re.findall(r'url\("([^"]+)"\)', await answer.text())]
         assert len(named) == 6
-        for name in named:  # all of it from here
+        for name in named:  # everything comes from this server
             assert "//" not in name
             async with client.get(url + name) as answer:
                 assert answer.status == 200, name
 
-        for strange in ({"Origin": "http://elsewhere.example"}, {"Origin": "null"}, {"Host": "elsewhere.example"}):
-            async with client.get(url + "ws", headers=strange) as answer:
+        for headers in ({"Origin": "http://elsewhere.example"}, {"Origin": "null"}, {"Host": "elsewhere.example"}):
+            async with client.get(url + "ws", headers=headers) as answer:
                 assert answer.status == 403
-        async with opened(client, url):
-            await until(lambda: len(processes_with("temperature_publisher.py")) >= 1, "the node runs")
+        async with open_page(client, url):
+            await wait_until(lambda: len(processes_with("temperature_publisher.py")) >= 1, "the node runs")
             assert processes_with(f"tutor.serve {workspace.root}")
             server.send_signal(signal.SIGINT)
             async with asyncio.timeout(LIMIT_S):
-                _, said = await server.communicate()
+                _, printed = await server.communicate()
         assert server.returncode == 130
         assert (
-            said.decode()
+            printed.decode()
             == "ros-tutor: Ctrl+C ends it\nros-tutor: ending the app and everything that was started in it\n"
         )
         assert processes_with(str(workspace.root)) == {}
 
 
-async def test_a_server_that_is_killed_takes_app_and_node_along(workspace: Workspace) -> None:
-    async with serving(workspace) as (server, url), aiohttp.ClientSession() as client, opened(client, url):
+async def test_killing_the_server_ends_the_app_and_the_node(workspace: Workspace) -> None:
+    async with serving(workspace) as (server, url), aiohttp.ClientSession() as client, open_page(client, url):
         node = str(workspace.path_of("temperature_publisher.py"))
-        await until(lambda: bool(processes_with(node)), "the node runs")
+        await wait_until(lambda: bool(processes_with(node)), "the node runs")
         server.kill()
-        await until(lambda: not processes_with(str(workspace.root)), "nothing is left")
+        await wait_until(lambda: not processes_with(str(workspace.root)), "nothing is left")
 
 
 @pytest.fixture
-def taken() -> Iterator[int]:
+def taken_port() -> Iterator[int]:
     with socket.create_server(("127.0.0.1", 0)) as other:
         yield other.getsockname()[1]
 
 
-def test_what_cannot_be_had_is_told_in_a_line(run: Run, taken: int) -> None:
-    ran = run("serve", "--port", str(taken))
-    assert (ran.code, ran.out) == (3, "")
-    assert ran.err == (
-        f"ros-tutor: port {taken} of 127.0.0.1 is taken; name another with --port, or leave it out to get a free one\n"
+def test_unusable_ports_and_hosts_are_reported_in_one_line(run: Run, taken_port: int) -> None:
+    result = run("serve", "--port", str(taken_port))
+    assert (result.code, result.out) == (3, "")
+    assert result.err == (
+        f"ros-tutor: port {taken_port} of 127.0.0.1 is taken; "
+        "name another with --port, or leave it out to get a free one\n"
     )
     for wrong in (["--port", "65536"], ["--port", "http"], ["--host", "192.0.2.1"], ["--host", "x" * 64]):
-        ran = run("serve", *wrong)
-        assert (ran.code, ran.out) == (2, "")
-        assert ran.err.count("\n") == 1
-        assert wrong[1] in ran.err
+        result = run("serve", *wrong)
+        assert (result.code, result.out) == (2, "")
+        assert result.err.count("\n") == 1
+        assert wrong[1] in result.err
 
 
-def test_without_the_library_it_says_how_to_get_it(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_textual_serve_it_says_what_to_install(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delitem(sys.modules, "tutor.serve.server", raising=False)
     monkeypatch.setitem(sys.modules, "textual_serve.server", None)
-    ran = run("serve")
-    assert ran.code == 3
-    assert ran.err.startswith("ros-tutor: the app cannot be served: textual_serve.server is not installed; install")
+    result = run("serve")
+    assert result.code == 3
+    assert result.err.startswith("ros-tutor: the app cannot be served: textual_serve.server is not installed; install")
 
 
-def test_a_taken_usual_port_is_replaced_by_a_free_one(taken: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(listening, "USUAL_PORT", taken)
+def test_if_the_usual_port_is_taken_a_free_one_is_used(taken_port: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(listening, "USUAL_PORT", taken_port)
     with listen("127.0.0.1", None) as listener:
-        assert listener.getsockname()[1] != taken
+        assert listener.getsockname()[1] != taken_port
         assert is_loopback(listener)
     with pytest.raises(errors.ServeError):
-        listen("127.0.0.1", taken)
+        listen("127.0.0.1", taken_port)
 
 
-def test_anyone_who_opens_it_to_others_is_warned(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_serving_to_other_machines_prints_a_warning(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     from tutor.serve.server import AppServer
 
-    async def run_shortly(self: AppServer, on_ready: Callable[[], None]) -> None:
+    async def start_and_return(self: AppServer, on_ready: Callable[[], None]) -> None:
         on_ready()
 
-    monkeypatch.setattr(AppServer, "run", run_shortly)
-    ran = run("serve", "--host", "0.0.0.0", "--port", "0")
-    assert re.fullmatch(r"ros-tutor is at http://127\.0\.0\.1:\d+/\?token=[\w-]{22}\n", ran.out)
-    assert "warning: 0.0.0.0 can be reached from other machines, and anyone who has this address can run" in ran.err
+    monkeypatch.setattr(AppServer, "run", start_and_return)
+    result = run("serve", "--host", "0.0.0.0", "--port", "0")
+    assert re.fullmatch(r"ros-tutor is at http://127\.0\.0\.1:\d+/\?token=[\w-]{22}\n", result.out)
+    assert "warning: 0.0.0.0 can be reached from other machines, and anyone who has this address can run" in result.err
     assert "warning" not in run("serve", "--port", "0").err
     with listen("::1", 0) as listener:
         assert address(listener).startswith("http://[::1]:")
@@ -226,11 +227,11 @@ def test_anyone_who_opens_it_to_others_is_warned(run: Run, monkeypatch: pytest.M
         ("", False),
     ],
 )
-def test_which_names_can_only_mean_this_machine(host: str, ours: bool) -> None:
+def test_host_names_that_can_only_mean_this_machine(host: str, ours: bool) -> None:
     assert is_this_machine(host) is ours
 
 
-async def test_from_elsewhere_it_is_opened_with_the_token_only() -> None:
+async def test_other_machines_need_the_token() -> None:
     from tutor.serve.server import AppServer
 
     with listen("0.0.0.0", 0) as listener:
@@ -250,11 +251,11 @@ async def test_from_elsewhere_it_is_opened_with_the_token_only() -> None:
                 async with client.get(f"{url}?token=secret") as answer:
                     assert answer.status == 200
                     assert str(answer.url) == url  # the token is out of the address
-                    cookie_said = answer.history[0].headers["Set-Cookie"]
-                assert "HttpOnly" in cookie_said
-                assert "SameSite=Strict" in cookie_said
-                for strange in ({"Host": f"elsewhere.example:{own}"}, {"Origin": "http://elsewhere.example"}):
-                    async with client.get(url + "ws", headers=strange) as answer:
+                    set_cookie = answer.history[0].headers["Set-Cookie"]
+                assert "HttpOnly" in set_cookie
+                assert "SameSite=Strict" in set_cookie
+                for headers in ({"Host": f"elsewhere.example:{own}"}, {"Origin": "http://elsewhere.example"}):
+                    async with client.get(url + "ws", headers=headers) as answer:
                         assert answer.status == 403
         finally:
             await runner.cleanup()
@@ -271,12 +272,14 @@ async def test_from_elsewhere_it_is_opened_with_the_token_only() -> None:
         ("", False),
     ],
 )
-def test_which_names_another_machine_may_use(host: str, ours: bool) -> None:
+def test_host_names_that_other_machines_may_use(host: str, ours: bool) -> None:
     assert is_address_or_ours(host) is ours
 
 
 @pytest.mark.parametrize("width", ["100000", "-5", "0"])
-async def test_a_page_has_a_size_that_an_app_can_draw(width: str, monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_the_size_of_a_page_is_limited_to_what_an_app_can_draw(
+    width: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     from tutor.serve.server import HIGHEST, WIDEST, AppServer
     from tutor.serve.session import Session
 
@@ -293,8 +296,8 @@ async def test_a_page_has_a_size_that_an_app_can_draw(width: str, monkeypatch: p
         await web.SockSite(runner, listener).start()
         try:
             async with aiohttp.ClientSession() as client:
-                address_ = f"http://127.0.0.1:{listener.getsockname()[1]}/ws?width={width}&height={width}"
-                async with client.ws_connect(address_) as page:
+                page_url = f"http://127.0.0.1:{listener.getsockname()[1]}/ws?width={width}&height={width}"
+                async with client.ws_connect(page_url) as page:
                     await page.receive()
         finally:
             await runner.cleanup()
@@ -303,15 +306,15 @@ async def test_a_page_has_a_size_that_an_app_can_draw(width: str, monkeypatch: p
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "::1"])
-async def test_the_user_at_the_other_end_is_known(host: str) -> None:
+async def test_the_user_at_the_other_end_is_identified(host: str) -> None:
     found: list[int | None] = []
 
-    async def look(request: web.Request) -> web.Response:
+    async def record_owner(request: web.Request) -> web.Response:
         found.append(owner(request))
         return web.Response()
 
     app = web.Application()
-    app.router.add_get("/", look)
+    app.router.add_get("/", record_owner)
     runner = web.AppRunner(app)
     await runner.setup()
     with listen(host, 0) as listener:

@@ -63,26 +63,26 @@ WORKSPACE = ("--workspace", "ws")
 )
 def test_wrong_usage_is_one_line_and_exit_code_2(run: Run, home: Path, argv: list[str], message: str) -> None:
     (home / "file.txt").write_text("read me\n")
-    ran = run(*argv)
-    assert ran.code == 2
-    assert ran.out == ""
-    assert message in ran.err
-    assert ran.err.startswith("ros-tutor: ")
-    assert ran.err.count("\n") == 1
+    result = run(*argv)
+    assert result.code == 2
+    assert result.out == ""
+    assert message in result.err
+    assert result.err.startswith("ros-tutor: ")
+    assert result.err.count("\n") == 1
     assert [path.name for path in home.iterdir()] == ["file.txt"]
 
 
-def test_a_workspace_that_the_environment_names_is_looked_at_too(
+def test_a_workspace_named_by_the_environment_is_validated_too(
     run: Run, home: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (home / "file.txt").write_text("read me\n")
     monkeypatch.setenv("ROS_TUTOR_WORKSPACE", str(home / "file.txt"))
-    ran = run("start", "i1.1")
-    assert (ran.code, ran.out) == (2, "")
-    assert "cannot be your workspace: it is a file" in ran.err
+    result = run("start", "i1.1")
+    assert (result.code, result.out) == (2, "")
+    assert "cannot be your workspace: it is a file" in result.err
 
 
-def test_start_takes_a_folder_with_a_strange_name(run: Run, home: Path) -> None:
+def test_start_takes_a_folder_whose_name_looks_like_an_exercise(run: Run, home: Path) -> None:
     assert run("start", "i1.1", "./i1.2").code == 0
     assert (home / "i1.2" / "temperature_publisher.py").is_file()
 
@@ -93,26 +93,26 @@ def test_an_export_without_a_suffix_is_markdown(run: Run, home: Path) -> None:
     assert run("checklist", "export", "--format", "json", "--output", "mine.txt").code == 0
 
 
-def test_help_shows_all_or_one(run: Run) -> None:
+def test_help_covers_all_commands_or_one(run: Run) -> None:
     assert run("help").out == run("--help").out
     assert run("help", "check").out == run("check", "--help").out
     assert run("help").code == run("help", "check").code == 0
 
 
 def test_without_a_terminal_the_app_says_so(run: Run) -> None:
-    ran = run()
-    assert (ran.code, ran.out) == (2, "")
-    assert "the app needs a terminal" in ran.err
-    assert ran.err.count("\n") == 1
+    result = run()
+    assert (result.code, result.out) == (2, "")
+    assert "the app needs a terminal" in result.err
+    assert result.err.count("\n") == 1
 
 
 @pytest.mark.parametrize(
     "argv", [["--help"], ["check", "-h"], ["checklist", "-h"], ["--version"], ["list", "--version"]]
 )
-def test_help_and_version_are_output(run: Run, argv: list[str]) -> None:
-    ran = run(*argv)
-    assert (ran.code, ran.err) == (0, "")
-    assert "ros-tutor" in ran.out
+def test_help_and_version_go_to_stdout(run: Run, argv: list[str]) -> None:
+    result = run(*argv)
+    assert (result.code, result.err) == (0, "")
+    assert "ros-tutor" in result.out
 
 
 @pytest.mark.parametrize(
@@ -123,15 +123,15 @@ def test_global_options_go_before_and_after_the_command(run: Run, home: Path, ar
     assert (home / "ws" / ".ros-tutor" / "progress.json").is_file()
 
 
-def test_a_fault_of_ours_is_one_line_and_exit_code_3(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_internal_error_is_one_line_and_exit_code_3(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(extra: Path | None = None) -> None:
         raise RuntimeError("it\nbroke")
 
     monkeypatch.setattr("tutor.content.load_course", broken)
-    ran = run("list")
-    assert (ran.code, ran.out) == (3, "")
-    assert "RuntimeError: it broke" in ran.err
-    assert ran.err.count("\n") == 1
+    result = run("list")
+    assert (result.code, result.out) == (3, "")
+    assert "RuntimeError: it broke" in result.err
+    assert result.err.count("\n") == 1
 
     monkeypatch.setenv("ROS_TUTOR_DEBUG", "1")
     assert "Traceback (most recent call last)" in run("list").err

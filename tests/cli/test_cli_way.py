@@ -15,7 +15,7 @@ import pytest
 
 from tests.cli.conftest import Run
 from tests.cli.fake_engine import FAILURE, FakeEngine
-from tests.cli.test_cli_process import command
+from tests.cli.test_cli_process import fake_engine_command
 from tutor.content import load_course
 from tutor.workspace import Workspace, claims, domain_of
 
@@ -32,10 +32,10 @@ def registry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_next_leads_from_exercise_to_exercise(run: Run, engine: FakeEngine) -> None:
-    ran = run("next")
-    assert ran.code == 0
-    assert ran.out.startswith("i1.1 Sensor Publisher (easy)\n")
-    assert ran.out.endswith("Next: ros-tutor start i1.1\n")
+    result = run("next")
+    assert result.code == 0
+    assert result.out.startswith("i1.1 Sensor Publisher (easy)\n")
+    assert result.out.endswith("Next: ros-tutor start i1.1\n")
 
     run("start", "i1.1")
     assert "to edit   " + FILE in run("next").out
@@ -43,29 +43,29 @@ def test_next_leads_from_exercise_to_exercise(run: Run, engine: FakeEngine) -> N
 
     engine.verdicts = {"rate": FAILURE}
     run("check", "i1.1")
-    ran = run("next")
-    assert "not yet   rate\n" in ran.out
-    assert "a hint    ros-tutor hint i1.1\n" in ran.out
-    assert "to run    ros-tutor run i1.1\n" in ran.out
+    result = run("next")
+    assert "not yet   rate\n" in result.out
+    assert "a hint    ros-tutor hint i1.1\n" in result.out
+    assert "to run    ros-tutor run i1.1\n" in result.out
 
     engine.verdicts = {}
     run("check", "i1.1")
     assert run("next").out.startswith("i1.2 ")
 
 
-def test_after_the_last_comes_the_checklist(run: Run, engine: FakeEngine) -> None:
+def test_after_the_last_exercise_next_is_the_checklist(run: Run, engine: FakeEngine) -> None:
     for lesson in load_course().lessons:
         run("start", lesson.id)
         run("check", lesson.id)
-    ran = run("next")
-    assert (ran.code, ran.out) == (0, "You have passed all 6 exercises.\nNext: ros-tutor checklist\n")
+    result = run("next")
+    assert (result.code, result.out) == (0, "You have passed all 6 exercises.\nNext: ros-tutor checklist\n")
     assert "6 of 6 passed. You have done them all: ros-tutor checklist" in run("list").out
 
 
 # --- list --format json ---
 
 
-def test_the_list_as_json(run: Run, engine: FakeEngine, home: Path) -> None:
+def test_list_as_json(run: Run, engine: FakeEngine, home: Path) -> None:
     empty = json.loads(run("list", "--format", "json").out)
     assert empty["schema"] == "ros-tutor/list/1"
     assert empty["workspace"] == {"path": str(home / "ros_tutor_ws"), "exists": False, "ros_domain_id": None}
@@ -77,9 +77,9 @@ def test_the_list_as_json(run: Run, engine: FakeEngine, home: Path) -> None:
     engine.verdicts = {"rate": FAILURE}
     run("check", "i1.1", "--criterion", "rate", "--criterion", "echo")
     run("start", "i1.2")
-    ran = run("list", "--format", "json")
-    assert ran.err == ""
-    document = json.loads(ran.out)
+    result = run("list", "--format", "json")
+    assert result.err == ""
+    document = json.loads(result.out)
     assert document["passed"] == 0
     assert document["workspace"]["ros_domain_id"] == domain_of(Workspace(home / "ros_tutor_ws"))
     first, second, *_ = document["exercises"]
@@ -93,90 +93,90 @@ def test_the_list_as_json(run: Run, engine: FakeEngine, home: Path) -> None:
     assert (last["verdict"], last["judged"], last["passed"]) == ("failed", ["echo", "rate"], ["echo"])
 
 
-def test_what_the_documentation_says_of_the_json_is_so(run: Run, engine: FakeEngine) -> None:
+def test_every_field_of_the_json_is_documented(run: Run, engine: FakeEngine) -> None:
     run("start", "i1.1")
     run("check", "i1.1")
     document = json.loads(run("list", "--format", "json").out)
-    described = (Path(claims.__file__).parents[2] / "docs" / "formats.md").read_text()
+    documentation = (Path(claims.__file__).parents[2] / "docs" / "formats.md").read_text()
     names = {*document, *document["workspace"], *document["next"], *document["exercises"][0]}
     names |= {*document["exercises"][0]["last_attempt"], *document["exercises"][0]["criteria"][0]}
-    assert {name for name in names if f"`{name}`" not in described} == set()
+    assert {name for name in names if f"`{name}`" not in documentation} == set()
 
 
 # --- diff and reset ---
 
 
-def test_diff_shows_what_was_changed(run: Run, home: Path) -> None:
+def test_diff_shows_the_changes(run: Run, home: Path) -> None:
     run("start", "i1.1")
-    ran = run("diff", "i1.1")
-    assert (ran.code, ran.out) == (0, "")
-    assert "nothing differs from the skeleton" in ran.err
+    result = run("diff", "i1.1")
+    assert (result.code, result.out) == (0, "")
+    assert "nothing differs from the skeleton" in result.err
 
     with (home / FILE).open("a") as file:
         file.write("print('\x1b[31mmine')\n")
-    ran = run("diff", "i1.1")
-    assert ran.code == 0
-    assert ran.out.startswith(f"--- skeleton/temperature_publisher.py\n+++ {FILE}\n@@ ")
-    assert "\n+print('" in ran.out
-    assert "\x1b" not in ran.out
+    result = run("diff", "i1.1")
+    assert result.code == 0
+    assert result.out.startswith(f"--- skeleton/temperature_publisher.py\n+++ {FILE}\n@@ ")
+    assert "\n+print('" in result.out
+    assert "\x1b" not in result.out
 
-    ran = run("diff", "i1.1", "--solution")
-    assert ran.out.startswith(f"--- {FILE}\n+++ solution/temperature_publisher.py\n@@ ")
-    assert "\n-print('" in ran.out
+    result = run("diff", "i1.1", "--solution")
+    assert result.out.startswith(f"--- {FILE}\n+++ solution/temperature_publisher.py\n@@ ")
+    assert "\n-print('" in result.out
     assert run("diff", "i1.1", FILE).out == run("diff", "i1.1").out
     assert run("diff", "i1.2").code == 2
 
 
-def test_reset_keeps_what_was_there(run: Run, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reset_keeps_a_backup(run: Run, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "is not started yet; `ros-tutor start i1.1`" in run("reset", "i1.1", "--yes").err
     run("start", "i1.1")
     skeleton = (home / FILE).read_text()
     (home / FILE).write_text("mine\n")
-    ran = run("reset", "i1.1")
-    assert (ran.code, (home / FILE).read_text()) == (2, "mine\n")
-    assert "pass --yes if you are sure" in ran.err
+    result = run("reset", "i1.1")
+    assert (result.code, (home / FILE).read_text()) == (2, "mine\n")
+    assert "pass --yes if you are sure" in result.err
 
-    ran = run("reset", "i1.1", "--yes")
-    assert ran.code == 0
+    result = run("reset", "i1.1", "--yes")
+    assert result.code == 0
     assert (home / FILE).read_text() == skeleton
     assert (home / f"{FILE}.~1~").read_text() == "mine\n"
-    assert f"restored   {FILE}\n" in ran.out
-    assert f"backup     {FILE}.~1~\n" in ran.out
+    assert f"restored   {FILE}\n" in result.out
+    assert f"backup     {FILE}.~1~\n" in result.out
 
     for answer, content in (("\n", "again\n"), ("no\n", "again\n"), ("yes\n", skeleton)):
         (home / FILE).write_text("again\n")
         monkeypatch.setattr("tutor.cli.terminal.is_terminal", lambda stream: True)
         monkeypatch.setattr(sys, "stdin", io.StringIO(answer))
-        ran = run("reset", "i1.1")
-        assert (ran.code, (home / FILE).read_text()) == (0, content)
-        assert "A backup is kept. [y/N]" in ran.err
+        result = run("reset", "i1.1")
+        assert (result.code, (home / FILE).read_text()) == (0, content)
+        assert "A backup is kept. [y/N]" in result.err
 
 
 # --- run ---
 
 
-class Became(BaseException):
-    """This process has become another."""
+class ExecveCalled(BaseException):
+    """Raised instead of replacing the test's process."""
 
 
 @pytest.fixture
-def became(monkeypatch: pytest.MonkeyPatch) -> list[tuple[list[str], dict[str, str], Path]]:
+def execve_calls(monkeypatch: pytest.MonkeyPatch) -> list[tuple[list[str], dict[str, str], Path]]:
     found: list[tuple[list[str], dict[str, str], Path]] = []
 
     def execve(path: str, argv: list[str], env: dict[str, str]) -> None:
         assert path == argv[0]
         found.append((argv, env, Path.cwd()))
-        raise Became
+        raise ExecveCalled
 
     monkeypatch.setattr(os, "execve", execve)
     return found
 
 
-def test_run_hands_on_what_is_the_nodes_own(
-    run: Run, home: Path, became: list[tuple[list[str], dict[str, str], Path]]
+def test_run_passes_on_the_nodes_own_arguments(
+    run: Run, home: Path, execve_calls: list[tuple[list[str], dict[str, str], Path]]
 ) -> None:
     run("start", "i1.1")
-    with pytest.raises(Became):
+    with pytest.raises(ExecveCalled):
         run(
             "--workspace",
             "ros_tutor_ws",
@@ -190,32 +190,32 @@ def test_run_hands_on_what_is_the_nodes_own(
             "-r",
             "a:=b",
         )
-    argv, env, where = became[0]
+    argv, env, where = execve_calls[0]
     assert argv[1:] == [str(home / FILE), "--ros-args", "-p", "publish_rate:=5.0", "--", "-r", "a:=b"]
     assert env["ROS_DOMAIN_ID"] == str(domain_of(Workspace(home / "ros_tutor_ws")))
     assert where == (home / FILE).parent
 
 
 def test_run_takes_any_file_of_the_exercise(
-    run: Run, home: Path, became: list[tuple[list[str], dict[str, str], Path]]
+    run: Run, home: Path, execve_calls: list[tuple[list[str], dict[str, str], Path]]
 ) -> None:
     run("start", "i1.3")
     for words in ([], ["calculator_server"], ["calculator_client.py"]):
-        with pytest.raises(Became):
+        with pytest.raises(ExecveCalled):
             run("--workspace", home / "ros_tutor_ws", "run", "i1.3", *words)
-    assert [Path(argv[1]).name for argv, _, _ in became] == [
+    assert [Path(argv[1]).name for argv, _, _ in execve_calls] == [
         *["calculator_server.py"] * 2,
         "calculator_client.py",
     ]
 
 
 def test_run_runs_a_launch_file_as_ros2_does(
-    run: Run, home: Path, became: list[tuple[list[str], dict[str, str], Path]]
+    run: Run, home: Path, execve_calls: list[tuple[list[str], dict[str, str], Path]]
 ) -> None:
     run("start", "i2.2")
-    with pytest.raises(Became):
+    with pytest.raises(ExecveCalled):
         run("run", "i2.2", "--", "topic:=/news")
-    assert became[0][0][-3:] == [
+    assert execve_calls[0][0][-3:] == [
         "launch",
         str(home / "ros_tutor_ws/src/my_package/launch/my_launch.py"),
         "topic:=/news",
@@ -231,18 +231,18 @@ def test_run_runs_a_launch_file_as_ros2_does(
         (["i9.9"], "There is no exercise"),
     ],
 )
-def test_what_cannot_be_run_is_said(run: Run, argv: list[str], message: str) -> None:
-    ran = run("run", *argv)
-    assert (ran.code, ran.out) == (2, "")
-    assert message in ran.err
+def test_run_says_what_cannot_be_run_and_why(run: Run, argv: list[str], message: str) -> None:
+    result = run("run", *argv)
+    assert (result.code, result.out) == (2, "")
+    assert message in result.err
 
 
-def test_a_double_dash_is_the_nodes_only_for_run(run: Run) -> None:
+def test_a_double_dash_separates_node_arguments_only_for_run(run: Run) -> None:
     assert "There is no exercise 'run'" in run("solution", "--", "run").err
     assert "there is no command 'x'" in run("--workspace", "run", "x", "--", "y").err
 
 
-def test_a_node_that_runs_ends_on_ctrl_c(home: Path, tmp_path: Path) -> None:
+def test_a_running_node_ends_on_ctrl_c(home: Path, tmp_path: Path) -> None:
     program = f"""
 import sys
 from pathlib import Path
@@ -255,21 +255,21 @@ sys.exit(main(sys.argv[1:]))
     arguments = [sys.executable, "-c", program]
     subprocess.run([*arguments, "start", "i1.1"], check=True, capture_output=True)
     node.write_text("import sys, time\nprint(*sys.argv[1:], flush=True)\ntime.sleep(60)\n")
-    ran = subprocess.Popen(
+    process = subprocess.Popen(
         [*arguments, "run", "i1.1", "--", "a", "--b"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
     )
-    assert ran.stdout is not None
-    assert ran.stdout.readline() == b"a --b\n"
-    ran.send_signal(signal.SIGINT)
-    _, err = ran.communicate(timeout=30)
+    assert process.stdout is not None
+    assert process.stdout.readline() == b"a --b\n"
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=30)
     assert b"Ctrl+C ends it" in err
-    assert ran.returncode == -signal.SIGINT
+    assert process.returncode == -signal.SIGINT
 
 
 # --- watch ---
 
 
-def lines_until(stream: IO[str], words: str) -> list[str]:
+def read_until(stream: IO[str], words: str) -> list[str]:
     found = []
     for line in stream:
         found.append(line)
@@ -278,36 +278,36 @@ def lines_until(stream: IO[str], words: str) -> list[str]:
     raise AssertionError(f"{words!r} did not come; there was {found}")
 
 
-def test_watch_checks_again_at_each_save(run: Run, home: Path) -> None:
+def test_watch_checks_again_after_each_save(run: Run, home: Path) -> None:
     run("start", "i1.1")
-    watching = subprocess.Popen(
-        command("watch", "i1.1", "--criterion", "publishes", "--first"),
+    watch = subprocess.Popen(
+        fake_engine_command("watch", "i1.1", "--criterion", "publishes", "--first"),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
         env={**os.environ, "PYTHONPATH": str(Path(claims.__file__).parents[2])},
     )
-    assert watching.stdout is not None
-    assert watching.stderr is not None
+    assert watch.stdout is not None
+    assert watch.stderr is not None
     try:
         for number in range(3):
-            lines_until(watching.stderr, "waiting for the next save of temperature_publisher.py; Ctrl+C ends it")
-            lines_until(watching.stdout, "i1.1 Sensor Publisher  FAILED")
+            read_until(watch.stderr, "waiting for the next save of temperature_publisher.py; Ctrl+C ends it")
+            read_until(watch.stdout, "i1.1 Sensor Publisher  FAILED")
             saved = home / "saved.py"
             saved.write_text(f"# save {number}\n")
             saved.replace(home / FILE)  # as many editors save
-        lines_until(watching.stderr, "waiting for the next save")
+        read_until(watch.stderr, "waiting for the next save")
         (home / FILE).unlink()
-        lines_until(watching.stderr, "i1.1 needs temperature_publisher.py")
-        watching.send_signal(signal.SIGINT)
-        watching.communicate(timeout=30)
+        read_until(watch.stderr, "i1.1 needs temperature_publisher.py")
+        watch.send_signal(signal.SIGINT)
+        watch.communicate(timeout=30)
     finally:
-        watching.kill()
-    assert watching.returncode == 130
+        watch.kill()
+    assert watch.returncode == 130
     assert len(Workspace(home / "ros_tutor_ws").progress().read().of("i1.1").attempts) == 4
 
 
 def test_watch_needs_something_to_watch(run: Run, engine: FakeEngine) -> None:
-    ran = run("watch", "i1.1")
-    assert ran.code == 2
-    assert "ros-tutor start i1.1" in ran.err
+    result = run("watch", "i1.1")
+    assert result.code == 2
+    assert "ros-tutor start i1.1" in result.err

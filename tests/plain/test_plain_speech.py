@@ -1,4 +1,4 @@
-"""How a lesson's text and a verdict sound."""
+"""Lessons and verdicts, rendered for speech."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tutor.plain import speech
 from tutor.plain.speech import Section
 
 
-def test_a_paragraph_is_a_line_and_signs_are_left_out() -> None:
+def test_a_paragraph_becomes_one_line_without_markup() -> None:
     text = (
         "Before all.\n\n## Tasks\n\nA **bold** word, and\n`code_here` with *stress*.\n1. One\n   more.\n2. Two\n"
         "```python\n# no heading\na = 2 * b * c\n\nx\n```\nSee [the site](https://ros.org).\n"
@@ -32,18 +32,18 @@ def test_a_paragraph_is_a_line_and_signs_are_left_out() -> None:
     ]
 
 
-def test_every_lesson_is_said_whole_and_without_markup() -> None:
+def test_every_lesson_is_spoken_completely_and_without_markup() -> None:
     for lesson in load_course().lessons:
         found = speech.sections(lesson.body)
         assert len(found) >= 4
-        said = " ".join(line for section in found for line in (section.title, *section.lines))
-        assert not re.search(r"(?<!\w)\*\*|\*\*(?!\w)", said)  # 2**63 is not markup
-        assert "```" not in said
+        spoken = " ".join(line for section in found for line in (section.title, *section.lines))
+        assert not re.search(r"(?<!\w)\*\*|\*\*(?!\w)", spoken)  # 2**63 is not markup
+        assert "```" not in spoken
         for word in set(re.findall(r"\w+", lesson.body)) - {"python", "bash", "console", "text", "xml", "yaml"}:
-            assert word in said, (lesson.id, word)
+            assert word in spoken, (lesson.id, word)
 
 
-def test_a_verdict_is_said_in_words() -> None:
+def test_a_verdict_is_spoken_in_words() -> None:
     failed = CriterionResult("rate", "The rate is right", False, FAILURE, 1.0)
     assert speech.diagnosis(failed) == [
         "rate: failed.",

@@ -1,4 +1,4 @@
-"""A learner who hears the course: lines in by a pipe, lines out."""
+"""The course for screen readers: lines in through a pipe, lines out."""
 
 from __future__ import annotations
 
@@ -56,12 +56,12 @@ def env(tmp_path: Path) -> dict[str, str]:
     }
 
 
-def says(*lines: str) -> str:
-    return "".join(f"{line}\n" for line in lines)
+def as_input(*commands: str) -> str:
+    return "".join(f"{command}\n" for command in commands)
 
 
-def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[str, str]) -> None:
-    typed = says(
+def test_lesson_check_hints_and_checklist_through_a_pipe(tmp_path: Path, env: dict[str, str]) -> None:
+    typed = as_input(
         *(
             "lessons",
             "read 1",
@@ -79,7 +79,7 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
         *("solution", "no", "2", "next", "i1.1", "chek", "9", "checklist", "tick 1 timers", "untick 2", "tick 99"),
         *("export html", "export pdf", "", "help"),
     )
-    ran = subprocess.run(
+    result = subprocess.run(
         [sys.executable, "-c", WITH_FAKE_ENGINE, "--plain"],
         input=typed,
         capture_output=True,
@@ -88,10 +88,10 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
         check=False,
         env=env,
     )
-    said = ran.stdout
-    assert (ran.returncode, ran.stderr) == (0, "")
-    assert "\x1b" not in said
-    assert not re.search("[\u2500-\u25ff\r\t]", said)  # no boxes, no blocks
+    output = result.stdout
+    assert (result.returncode, result.stderr) == (0, "")
+    assert "\x1b" not in output
+    assert not re.search("[\u2500-\u25ff\r\t]", output)  # no boxes, no blocks
     for line in (
         "Your workspace will be ~/ros_tutor_ws: start creates it.",
         "1: i1.1 Sensor Publisher, easy, not started. You are here.",
@@ -125,13 +125,15 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
         "There is no format pdf: choose markdown, json or html.",
         "tick NUMBER: tick an item of the checklist.",
     ):
-        assert f"{line}\n" in said, line
-    assert said.count("aiting for the first message") == 1  # though every criterion waits for it
-    assert said.count("/node is up, but silent") == 1
-    assert "rate: failed.\nCause: no spin: no callback ran\nsensor-name: passed." in said  # not only at the end
-    assert re.search(r"^1: not ticked: .* Evidence: i1\.1 .*passed, today\.$", said, re.MULTILINE)
-    assert re.search(r"^Hint 1 of 3: \w", said, re.MULTILINE)
-    assert said.endswith("Command: \nThe input has ended.\nGoodbye. Your progress is kept.\n")
+        assert f"{line}\n" in output, line
+    assert output.count("aiting for the first message") == 1  # though every criterion waits for it
+    assert output.count("/node is up, but silent") == 1
+    assert (
+        "rate: failed.\nCause: no spin: no callback ran\nsensor-name: passed." in output
+    )  # at once, not only at the end
+    assert re.search(r"^1: not ticked: .* Evidence: i1\.1 .*passed, today\.$", output, re.MULTILINE)
+    assert re.search(r"^Hint 1 of 3: \w", output, re.MULTILINE)
+    assert output.endswith("Command: \nThe input has ended.\nGoodbye. Your progress is kept.\n")
     progress = Workspace(tmp_path / "ros_tutor_ws").progress().read()
     assert len(progress.ticks) == 1
     assert progress.of("i1.1").hints == 1
@@ -139,7 +141,7 @@ def test_lesson_check_hints_and_checklist_by_a_pipe(tmp_path: Path, env: dict[st
     assert "<html" in (tmp_path / "ros_tutor_ws" / "checklist.html").read_text()
 
 
-def test_a_solved_lesson_is_run_and_really_checked(tmp_path: Path, env: dict[str, str]) -> None:
+def test_a_solved_lesson_is_run_and_checked_for_real(tmp_path: Path, env: dict[str, str]) -> None:
     lesson = load_course().find("i1.1")
     node = Workspace(tmp_path / "ws").path_of("temperature_publisher.py")
     with subprocess.Popen(
@@ -148,70 +150,72 @@ def test_a_solved_lesson_is_run_and_really_checked(tmp_path: Path, env: dict[str
         stdout=subprocess.PIPE,
         text=True,
         env=env,
-    ) as talk:
-        assert talk.stdin is not None
-        assert talk.stdout is not None
-        talk.stdin.write(says("start"))
-        talk.stdin.flush()
-        while "Edit it in your editor" not in talk.stdout.readline():
-            assert talk.poll() is None
+    ) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        process.stdin.write(as_input("start"))
+        process.stdin.flush()
+        while "Edit it in your editor" not in process.stdout.readline():
+            assert process.poll() is None
         node.write_text(lesson.files[0].solution.read_text())
-        talk.stdin.write(says("run", "log", "3", "start", "run", "1", "check", "stop", "lessons", "quit", "never read"))
-        talk.stdin.close()
-        said = talk.stdout.read()
-        assert talk.wait(LIMIT_S) == 0
-    assert "Running in ROS domain 92: ros2 run my_package temperature_publisher\n" in said
-    assert re.search(r"\[INFO\].*\[temperature_publisher\]", said)
-    assert re.search(r"^i1\.1 Sensor Publisher: passed\. 6 of 6 passed, bonus 1 of 1, after \d", said, re.MULTILINE)
-    assert "Well done. next goes to the next lesson" in said
-    assert "Your node temperature_publisher.py: stopped.\nRunning" in said  # before a node of another lesson runs
-    assert "Command: stop\nYour node calculator_server.py: stopped.\n" in said
-    assert "1: i1.1 Sensor Publisher, easy, passed. You are here.\n" in said
-    assert said.endswith("Command: quit\nGoodbye. Your progress is kept.\n")
+        process.stdin.write(
+            as_input("run", "log", "3", "start", "run", "1", "check", "stop", "lessons", "quit", "never read")
+        )
+        process.stdin.close()
+        output = process.stdout.read()
+        assert process.wait(LIMIT_S) == 0
+    assert "Running in ROS domain 92: ros2 run my_package temperature_publisher\n" in output
+    assert re.search(r"\[INFO\].*\[temperature_publisher\]", output)
+    assert re.search(r"^i1\.1 Sensor Publisher: passed\. 6 of 6 passed, bonus 1 of 1, after \d", output, re.MULTILINE)
+    assert "Well done. next goes to the next lesson" in output
+    assert "Your node temperature_publisher.py: stopped.\nRunning" in output  # before a node of another lesson runs
+    assert "Command: stop\nYour node calculator_server.py: stopped.\n" in output
+    assert "1: i1.1 Sensor Publisher, easy, passed. You are here.\n" in output
+    assert output.endswith("Command: quit\nGoodbye. Your progress is kept.\n")
 
 
-def test_ctrl_c_is_130_at_the_prompt_and_during_a_check(tmp_path: Path, env: dict[str, str]) -> None:
-    def stopped(program: str, typed: str, until: str, *arguments: str) -> str:
+def test_ctrl_c_exits_130_at_the_prompt_and_during_a_check(tmp_path: Path, env: dict[str, str]) -> None:
+    def interrupt(program: str, typed: str, wait_for: str, *arguments: str) -> str:
         with subprocess.Popen(
             [sys.executable, "-c", program, "--plain", *arguments],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
             env=env,
-        ) as talk:
-            assert talk.stdin is not None
-            assert talk.stdout is not None
-            talk.stdin.write(typed)
-            talk.stdin.flush()
-            while until not in talk.stdout.readline():
-                assert talk.poll() is None
-            talk.send_signal(signal.SIGINT)
-            said = talk.stdout.read()
-            assert talk.wait(LIMIT_S) == 130
-        return said
+        ) as process:
+            assert process.stdin is not None
+            assert process.stdout is not None
+            process.stdin.write(typed)
+            process.stdin.flush()
+            while wait_for not in process.stdout.readline():
+                assert process.poll() is None
+            process.send_signal(signal.SIGINT)
+            output = process.stdout.read()
+            assert process.wait(LIMIT_S) == 130
+        return output
 
-    assert stopped(PROGRAM, "", "help says what else").endswith("Stopped; nothing is left running.\n")
-    said = stopped(WITH_FAKE_ENGINE, says("start", "check"), "begun", "--slow")
-    assert said == "cleaned up\n\nStopped; nothing is left running.\n"
+    assert interrupt(PROGRAM, "", "help says what else").endswith("Stopped; nothing is left running.\n")
+    output = interrupt(WITH_FAKE_ENGINE, as_input("start", "check"), "begun", "--slow")
+    assert output == "cleaned up\n\nStopped; nothing is left running.\n"
 
 
-def test_a_terminal_shows_what_is_typed_only_once(env: dict[str, str]) -> None:
-    ours, theirs = pty.openpty()
+def test_a_terminal_echoes_what_is_typed_only_once(env: dict[str, str]) -> None:
+    controller, terminal = pty.openpty()
     with subprocess.Popen(
-        [sys.executable, "-c", PROGRAM, "--plain"], stdin=theirs, stdout=subprocess.PIPE, text=True, env=env
-    ) as talk:
-        os.write(ours, b"next\n\x04")
-        assert talk.stdout is not None
-        said = talk.stdout.read()
-        assert talk.wait(LIMIT_S) == 0
-    os.close(ours)
-    os.close(theirs)
-    assert "Command: You are at i1.2" in said
-    assert said.endswith("Goodbye.\n")
+        [sys.executable, "-c", PROGRAM, "--plain"], stdin=terminal, stdout=subprocess.PIPE, text=True, env=env
+    ) as process:
+        os.write(controller, b"next\n\x04")
+        assert process.stdout is not None
+        output = process.stdout.read()
+        assert process.wait(LIMIT_S) == 0
+    os.close(controller)
+    os.close(terminal)
+    assert "Command: You are at i1.2" in output
+    assert output.endswith("Goodbye.\n")
 
 
-def test_a_closed_input_is_one_that_has_ended(env: dict[str, str]) -> None:
-    ran = subprocess.run(
+def test_a_closed_stdin_counts_as_ended(env: dict[str, str]) -> None:
+    result = subprocess.run(
         ["sh", "-c", f'exec "$0" -c "{PROGRAM}" --plain <&-', sys.executable],
         capture_output=True,
         text=True,
@@ -219,17 +223,17 @@ def test_a_closed_input_is_one_that_has_ended(env: dict[str, str]) -> None:
         check=False,
         env=env,
     )
-    assert (ran.returncode, ran.stderr) == (0, "")
-    assert ran.stdout.endswith("The input has ended.\nGoodbye.\n")
+    assert (result.returncode, result.stderr) == (0, "")
+    assert result.stdout.endswith("The input has ended.\nGoodbye.\n")
 
 
-def test_it_goes_without_a_command(capsys: pytest.CaptureFixture[str]) -> None:
+def test_plain_takes_no_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--plain", "list"]) == 2
-    told = "ros-tutor: --plain takes no command: list writes plain text anyway\n"
-    assert capsys.readouterr() == ("", told)
+    message = "ros-tutor: --plain takes no command: list writes plain text anyway\n"
+    assert capsys.readouterr() == ("", message)
 
 
-def test_what_the_nodes_do_is_asked_for(tmp_path: Path, env: dict[str, str]) -> None:
+def test_nodes_are_inspected_and_controlled_with_ros2_commands(tmp_path: Path, env: dict[str, str]) -> None:
     workspace = Workspace(tmp_path / "ws")
     course = load_course()
     for name in ("i2.1", "i1.3"):
@@ -237,12 +241,12 @@ def test_what_the_nodes_do_is_asked_for(tmp_path: Path, env: dict[str, str]) -> 
         for file in course.find(name).files:
             workspace.path_of(file.name).write_text(file.solution.read_text())
     service = "service call /add example_interfaces/srv/AddTwoInts '{a: 2, b: 40}'"
-    typed = says(
+    typed = as_input(
         *("i2.1", "run", "echo /chatter 2", "param set /parameterized_publisher message_prefix Moin"),
         *("echo /chatter 1", "param get /parameterized_publisher publish_rate", "topic list", "echo", "param 'set"),
         *("i1.3", "run", service, "quit"),
     )
-    ran = subprocess.run(
+    result = subprocess.run(
         [sys.executable, "-c", PROGRAM, "--plain", "--workspace", str(workspace.root)],
         input=typed,
         capture_output=True,
@@ -251,28 +255,28 @@ def test_what_the_nodes_do_is_asked_for(tmp_path: Path, env: dict[str, str]) -> 
         check=False,
         env={**env, "ROS_DOMAIN_ID": "91"},
     )
-    said = ran.stdout
-    assert ran.returncode == 0
-    first, second = said.split("Command: echo /chatter 2\n")[1].split("Command:")[0].splitlines()
-    assert re.fullmatch(r"data: .Hello.*", first), said
+    output = result.stdout
+    assert result.returncode == 0
+    first, second = output.split("Command: echo /chatter 2\n")[1].split("Command:")[0].splitlines()
+    assert re.fullmatch(r"data: .Hello.*", first), output
     assert second != first
-    assert "Set parameter successful\n" in said
-    assert re.search(r"Command: echo /chatter 1\ndata: .Moin.*\nCommand", said), said
-    assert "Double value is: 1.0\n" in said
-    assert re.search(r"^/chatter$", said, re.MULTILINE)
-    assert "Which topic? As in: echo /chatter." in said
-    assert "A quotation mark is missing.\n" in said
-    assert "sum=42" in said, said
+    assert "Set parameter successful\n" in output
+    assert re.search(r"Command: echo /chatter 1\ndata: .Moin.*\nCommand", output), output
+    assert "Double value is: 1.0\n" in output
+    assert re.search(r"^/chatter$", output, re.MULTILINE)
+    assert "Which topic? As in: echo /chatter." in output
+    assert "A quotation mark is missing.\n" in output
+    assert "sum=42" in output, output
 
 
-def test_a_topic_on_which_nothing_comes_is_said(tmp_path: Path, env: dict[str, str]) -> None:
-    ran = subprocess.run(
+def test_a_silent_topic_is_reported(tmp_path: Path, env: dict[str, str]) -> None:
+    result = subprocess.run(
         [sys.executable, "-c", PROGRAM, "--plain"],
-        input=says("echo /nothing", "quit"),
+        input=as_input("echo /nothing", "quit"),
         capture_output=True,
         text=True,
         timeout=LIMIT_S,
         check=False,
         env={**env, "ROS_DOMAIN_ID": "90"},
     )
-    assert "0 messages in 10 seconds on /nothing.\n" in ran.stdout
+    assert "0 messages in 10 seconds on /nothing.\n" in result.stdout

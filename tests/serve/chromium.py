@@ -1,4 +1,4 @@
-"""A real browser with one page, driven as a person drives it, over its DevTools socket on this machine."""
+"""A real browser with one page, driven as by a person, over its DevTools socket on this machine."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ import aiohttp
 PROGRAM = shutil.which("chromium")
 LIMIT_S = 60.0
 
-_QUIET = (
+_OPTIONS = (
     "--headless",
     "--no-sandbox",
     "--disable-gpu",
-    "--disable-3d-apis",  # drawn in software they would cost more than all the rest
+    "--disable-3d-apis",  # rendered in software, they would cost more than everything else
     "--disable-dev-shm-usage",
     "--disable-background-networking",
     "--disable-component-update",
@@ -35,78 +35,78 @@ _QUIET = (
     "--no-default-browser-check",
     "--no-first-run",
     "--no-pings",
-    # Whatever the page or the browser asks for: no name but this machine's is ever looked up.
+    # Whatever the page or the browser requests, no name but this machine's is ever resolved.
     "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
     "--no-proxy-server",
     "--window-size=1300,800",
     "--remote-debugging-port=0",
 )
 
-_STEERING = re.compile(r"\x1b\[[0-9;?<>=$]*[ -/]*[@-~]|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\\\)|\x1b.")
+_ESCAPE_SEQUENCE = re.compile(r"\x1b\[[0-9;?<>=$]*[ -/]*[@-~]|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\\\)|\x1b.")
 
 _KEYS = {"Enter": 13, "Escape": 27, "Tab": 9, "ArrowDown": 40, "ArrowUp": 38}
 
 
 class Page:
-    """The page that is open.
+    """The open page.
 
-    `requested` holds every address that it asked for, `complaints` what the browser complained of, and `drawn` what the
-    terminal in it was given to draw, without colours and cursor movements.
+    `requested` holds the URL of every request, `complaints` what the browser logged and the exceptions of its scripts,
+    and `drawn` the text that the terminal in it received, without colours and cursor movements.
     """
 
     def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
         self._socket = socket
-        self._numbers = itertools.count(1)
-        self._answers: dict[int, asyncio.Future[dict[str, Any]]] = {}
+        self._ids = itertools.count(1)
+        self._replies: dict[int, asyncio.Future[dict[str, Any]]] = {}
         self.requested: list[str] = []
         self.complaints: list[str] = []
         self.drawn = ""
 
     async def listen(self) -> None:
-        """Take in what the browser says, until it is closed."""
+        """Handle the browser's messages until it is closed."""
         async for message in self._socket:
-            said = json.loads(message.data)
-            if "id" in said:
-                self._answers.pop(said["id"]).set_result(said)
-            elif said["method"] in ("Network.requestWillBeSent", "Network.webSocketCreated"):
-                self.requested.append(said["params"].get("url") or said["params"]["request"]["url"])
-            elif said["method"] == "Network.webSocketFrameReceived":
-                frame = said["params"]["response"]
+            content = json.loads(message.data)
+            if "id" in content:
+                self._replies.pop(content["id"]).set_result(content)
+            elif content["method"] in ("Network.requestWillBeSent", "Network.webSocketCreated"):
+                self.requested.append(content["params"].get("url") or content["params"]["request"]["url"])
+            elif content["method"] == "Network.webSocketFrameReceived":
+                frame = content["params"]["response"]
                 if frame["opcode"] == 2:
                     text = base64.b64decode(frame["payloadData"]).decode("utf-8", "replace")
-                    self.drawn += _STEERING.sub("", text)
-            elif said["method"] == "Log.entryAdded":
-                self.complaints.append(said["params"]["entry"]["text"])
-            elif said["method"] == "Runtime.exceptionThrown":
-                self.complaints.append(json.dumps(said["params"]["exceptionDetails"]))
+                    self.drawn += _ESCAPE_SEQUENCE.sub("", text)
+            elif content["method"] == "Log.entryAdded":
+                self.complaints.append(content["params"]["entry"]["text"])
+            elif content["method"] == "Runtime.exceptionThrown":
+                self.complaints.append(json.dumps(content["params"]["exceptionDetails"]))
 
-    async def do(self, method: str, **parameters: Any) -> dict[str, Any]:
-        number = next(self._numbers)
-        answer = self._answers[number] = asyncio.get_running_loop().create_future()
-        await self._socket.send_json({"id": number, "method": method, "params": parameters})
+    async def call(self, method: str, **parameters: Any) -> dict[str, Any]:
+        id = next(self._ids)
+        future = self._replies[id] = asyncio.get_running_loop().create_future()
+        await self._socket.send_json({"id": id, "method": method, "params": parameters})
         async with asyncio.timeout(LIMIT_S):
-            said = await answer
-        assert "result" in said, said
-        result: dict[str, Any] = said["result"]
+            reply = await future
+        assert "result" in reply, reply
+        result: dict[str, Any] = reply["result"]
         return result
 
     async def evaluate(self, expression: str) -> Any:
-        answer = await self.do("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
-        return answer["result"].get("value")
+        result = await self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        return result["result"].get("value")
 
     async def press(self, *keys: str) -> None:
-        """Press keys: letters, and the named ones of a keyboard."""
+        """Press keys: letters, and those named in `_KEYS`."""
         for key in keys:
             if key in _KEYS:
-                given: dict[str, Any] = {"key": key, "code": key, "windowsVirtualKeyCode": _KEYS[key]}
+                fields: dict[str, Any] = {"key": key, "code": key, "windowsVirtualKeyCode": _KEYS[key]}
                 text = "\r" if key == "Enter" else ""
             else:
-                given, text = {"key": key}, key
-            await self.do("Input.dispatchKeyEvent", type="keyDown", text=text, **given)
-            await self.do("Input.dispatchKeyEvent", type="keyUp", **given)
+                fields, text = {"key": key}, key
+            await self.call("Input.dispatchKeyEvent", type="keyDown", text=text, **fields)
+            await self.call("Input.dispatchKeyEvent", type="keyUp", **fields)
 
     async def press_for(self, text: str, *keys: str) -> None:
-        """Press keys, and wait until `text` is redrawn."""
+        """Press keys, and wait until `text` is drawn after that."""
         self.drawn = ""
         await self.press(*keys)
         await self.sees(text)
@@ -114,19 +114,19 @@ class Page:
     async def sees(self, text: str) -> None:
         """Wait until `text` has been drawn."""
         try:
-            await until(lambda: text in self.drawn, text)
+            await wait_until(lambda: text in self.drawn, text)
         except AssertionError as error:
             raise AssertionError(f"{error}\n{self.drawn[-6000:]}\n{self.complaints}\n{self.requested}") from None
 
     async def picture(self, file: Path) -> None:
-        file.write_bytes(base64.b64decode((await self.do("Page.captureScreenshot"))["data"]))
+        file.write_bytes(base64.b64decode((await self.call("Page.captureScreenshot"))["data"]))
 
 
-async def until(seen: Callable[[], object], what: str, limit_s: float = LIMIT_S) -> None:
-    """Wait for evidence."""
+async def wait_until(condition: Callable[[], object], what: str, limit_s: float = LIMIT_S) -> None:
+    """Wait until the condition holds, or raise AssertionError."""
     try:
         async with asyncio.timeout(limit_s):
-            while not seen():
+            while not condition():
                 await asyncio.sleep(0.05)
     except TimeoutError:
         raise AssertionError(f"not seen within {limit_s:.0f} s: {what}") from None
@@ -134,12 +134,12 @@ async def until(seen: Callable[[], object], what: str, limit_s: float = LIMIT_S)
 
 @asynccontextmanager
 async def browser(folder: Path) -> AsyncIterator[Page]:
-    """A browser with an empty page; when it is left, no process of it is."""
+    """A browser with an empty page. On exit, none of its processes is left."""
     assert PROGRAM is not None
     environment = {**os.environ, "HOME": str(folder), "XDG_CONFIG_HOME": str(folder), "XDG_CACHE_HOME": str(folder)}
     process = await asyncio.create_subprocess_exec(
         PROGRAM,
-        *_QUIET,
+        *_OPTIONS,
         f"--user-data-dir={folder / 'profile'}",
         "about:blank",
         stdin=asyncio.subprocess.DEVNULL,
@@ -149,7 +149,7 @@ async def browser(folder: Path) -> AsyncIterator[Page]:
         start_new_session=True,
     )
     try:
-        port = await _port(folder / "profile" / "DevToolsActivePort")
+        port = await _read_port(folder / "profile" / "DevToolsActivePort")
         async with aiohttp.ClientSession() as client:
             async with client.get(f"http://127.0.0.1:{port}/json/list") as answer:
                 target = next(each for each in await answer.json() if each["type"] == "page")
@@ -157,9 +157,9 @@ async def browser(folder: Path) -> AsyncIterator[Page]:
                 page = Page(socket)
                 listening = asyncio.create_task(page.listen())
                 for domain in ("Page", "Network", "Log", "Runtime"):
-                    await page.do(f"{domain}.enable")
+                    await page.call(f"{domain}.enable")
                 yield page
-                await page.do("Browser.close")
+                await page.call("Browser.close")
                 await listening
         async with asyncio.timeout(LIMIT_S):
             await process.wait()
@@ -169,6 +169,6 @@ async def browser(folder: Path) -> AsyncIterator[Page]:
         await process.wait()
 
 
-async def _port(file: Path) -> int:
-    await until(lambda: file.is_file() and len(file.read_text().splitlines()) == 2, "the browser's port")
+async def _read_port(file: Path) -> int:
+    await wait_until(lambda: file.is_file() and len(file.read_text().splitlines()) == 2, "the browser's port")
     return int(file.read_text().splitlines()[0])

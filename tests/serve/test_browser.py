@@ -1,4 +1,4 @@
-"""One lesson in a real browser, by its keys: run, check, tick, export. What counts is what is then on the disk."""
+"""One lesson in a real browser, by its keys: run, check, tick, export. Asserts on what is then on disk."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.running import runs
-from tests.serve.chromium import LIMIT_S, PROGRAM, browser, until
+from tests.serve.chromium import LIMIT_S, PROGRAM, browser, wait_until
 from tutor.content import load_course
 from tutor.judge.verdict import Status
 from tutor.workspace import Workspace
@@ -40,29 +40,29 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
     try:
         address = (await server.stdout.readline()).decode().split()[-1]
         async with browser(tmp_path) as page:
-            await page.do("Page.navigate", url=address)
+            await page.call("Page.navigate", url=address)
             await page.sees("Press Enter")
-            # The workspace is there, and the criteria are shown: by their names, where there is no room for more.
+            # The workspace exists, and the criteria are shown, by name only where there is no room for more.
             await page.press_for("publishes, range, random", "Enter")
             assert workspace.progress().read().of("i1.1").started_at
 
             node.write_text(lesson.files[0].solution.read_text())
             await page.press("r")
-            await until(lambda: runs(node), "the node runs")
+            await wait_until(lambda: runs(node), "the node runs")
             await page.press("r")
-            await until(lambda: not runs(node), "the node is stopped")
+            await wait_until(lambda: not runs(node), "the node is stopped")
 
             await page.press("c")
-            await until(lambda: workspace.progress().read().of("i1.1").attempts, "the check is over")
+            await wait_until(lambda: workspace.progress().read().of("i1.1").attempts, "the check is over")
             assert workspace.progress().read().of("i1.1").best is Status.PASSED
 
-            await page.press_for("Tick", "6")  # the footer says it once an item has the focus
+            await page.press_for("Tick", "6")  # the footer shows it once an item has the focus
             await page.press(" ")
-            await until(lambda: workspace.progress().read().ticks, "an item is ticked")
+            await wait_until(lambda: workspace.progress().read().ticks, "an item is ticked")
             await page.press_for("Export the checklist", "x")
             await page.press("Enter")
             exported = workspace.root / "checklist.md"
-            await until(exported.is_file, "the checklist is exported")
+            await wait_until(exported.is_file, "the checklist is exported")
             text = exported.read_text()
             assert text.count("- [x] ") == 1
             assert "i1.1" in text
@@ -70,12 +70,12 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
 
             await page.press_for("6 of 6 passed", "Escape")
             await page.press("r")
-            await until(lambda: runs(node), "the node runs")
+            await wait_until(lambda: runs(node), "the node runs")
 
             elsewhere = [url for url in page.requested if not url.startswith((address, address.replace("http", "ws")))]
             assert elsewhere == []
             assert page.complaints == []
-        await until(lambda: not runs(node), "a page that is closed takes its node along")
+        await wait_until(lambda: not runs(node), "closing the page ends its node")
         server.send_signal(signal.SIGINT)
         async with asyncio.timeout(LIMIT_S):
             await server.communicate()

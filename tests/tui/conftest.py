@@ -1,9 +1,10 @@
-"""A learner in front of the app: what they press, and what they see."""
+"""The `Learner` driver and fixtures: the whole app under Textual's pilot, with fake or real services."""
 
 from __future__ import annotations
 
+import os
 import threading
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from pathlib import Path
 from typing import Any
@@ -17,8 +18,10 @@ from textual.pilot import Pilot
 from textual.widget import Widget
 from textual.widgets import Static
 
+from tests.ros.users_domain import users_domain
 from tests.tui import made
 from tests.tui.person import Person
+from tutor.content import load_course
 from tutor.judge.events import Event
 from tutor.session import Session
 from tutor.session.node import Node
@@ -28,35 +31,44 @@ from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.editor import CodeEditor
 from tutor.tui.widgets.line_view import LineView
+from tutor.workspace import Workspace
 
 
-def _remember_what_textual_compiles() -> None:
-    """Style sheets and queries are the same in every app of a run; each would parse them again, a tenth of its time."""
+def _cache_textual_parsing() -> None:
+    """Cache parsed style sheets and syntax queries. All apps of a run share them; parsing took 10 % of their time."""
     parse_rules, prepare_query = Stylesheet._parse_rules, SyntaxAwareDocument.prepare_query
     rules: dict[object, list[RuleSet]] = {}
     queries: dict[object, object] = {}
 
-    def remembered_rules(self: Stylesheet, *args: Any, **options: Any) -> list[RuleSet]:
+    def cached_rules(self: Stylesheet, *args: Any, **options: Any) -> list[RuleSet]:
         key = (args, frozenset(options.items()), frozenset(self._variables.items()))
         if key not in rules:
             rules[key] = parse_rules(self, *args, **options)
         return rules[key]
 
-    def remembered_query(self: SyntaxAwareDocument, query: str) -> Any:
+    def cached_query(self: SyntaxAwareDocument, query: str) -> Any:
         key = (self.language, query)
         if key not in queries:
             queries[key] = prepare_query(self, query)
         return queries[key]
 
-    Stylesheet._parse_rules = remembered_rules  # type: ignore[method-assign]
-    SyntaxAwareDocument.prepare_query = remembered_query  # type: ignore[method-assign]
+    Stylesheet._parse_rules = cached_rules  # type: ignore[method-assign]
+    SyntaxAwareDocument.prepare_query = cached_query  # type: ignore[method-assign]
 
 
-_remember_what_textual_compiles()
+_cache_textual_parsing()
+
+
+def is_alive(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
 
 
 class Learner(Person[TutorApp]):
-    """Somebody with a workspace."""
+    """Drives the whole app as a learner does."""
 
     def __init__(self, app: TutorApp, pilot: Pilot[int], session: Session) -> None:
         super().__init__(app, pilot)
@@ -76,9 +88,9 @@ class Learner(Person[TutorApp]):
     @property
     def editor(self) -> CodeEditor:
         """The editor of the file that is shown."""
-        found = self.main.query_one(CodePane).editor
-        assert found is not None
-        return found
+        editor = self.main.query_one(CodePane).editor
+        assert editor is not None
+        return editor
 
     @property
     def file(self) -> Path:
@@ -86,63 +98,74 @@ class Learner(Person[TutorApp]):
         return self.main.model.path
 
     def background(self) -> list[str]:
-        """What each node wrote, shown or not."""
+        """The output of every node, whether its log is on the screen or not."""
         nodes = {} if self.app.main is None else self.main.nodes.known
         return [f"{name}: {line.text}" for name, node in nodes.items() for line in node.state.lines]
 
-    async def types(self, text: str) -> None:
+    async def type_text(self, text: str) -> None:
         await self.pilot.press(*("enter" if c == "\n" else _character_to_key(c) for c in text))
 
-    async def edits(self) -> CodeEditor:
-        """Go into the editor; the cursor is at the very beginning where nothing was done in it before."""
+    async def focus_editor(self) -> CodeEditor:
+        """Move the focus to the editor. At first, the cursor is at the very beginning of the file."""
         await self.press("e")
         await self.until(lambda: isinstance(self.app.focused, CodeEditor), "the editor has the focus")
         return self.editor
 
     def diagnosis(self) -> str:
-        """The diagnosis that is shown, whole: on the screen it is folded."""
+        """The full text of the diagnosis, which is folded on the screen."""
         return "\n".join(str(part.render()) for part in self.main.query_one("#diagnosis").query(Static))
 
     def text(self, selector: str) -> str:
-        """The text of one widget, whole."""
+        """The full text of one widget."""
         widget = self.main.query_one(selector, Widget)
         return widget.plain if isinstance(widget, LineView) else str(widget.query_one(Static).render())
 
     def criterion(self, id: str) -> str:
-        """The line of one criterion."""
+        """The row of one criterion, as text."""
         rows = self.main.query_one(CriteriaPanel).rows
         return next(str(row.render()) for row in rows if row.finding.id == id)
 
-    async def told(self, *lines: Event | str) -> None:
-        """Have the engine say this. In a daemon thread: opening the pipe waits for the child."""
-        assert isinstance(self.session, made.FakeServices)
-        thread = threading.Thread(target=self.session.engine.say, args=lines, daemon=True)
+    async def engine_emits(self, *lines: Event | str) -> None:
+        """Have the engine emit these events. In a daemon thread, as opening the pipe blocks until the child reads."""
+        assert isinstance(self.session, made.FakeSession)
+        thread = threading.Thread(target=self.session.engine.emit, args=lines, daemon=True)
         thread.start()
-        await self.until(lambda: not thread.is_alive(), "the engine listens")
+        await self.until(lambda: not thread.is_alive(), "the engine reads")
 
 
 @asynccontextmanager
-async def at(session: Session, size: tuple[int, int] = (120, 36)) -> AsyncIterator[Learner]:
-    """Open the app for a learner; when they leave, nothing runs any more."""
+async def open_app(session: Session, size: tuple[int, int] = (120, 36)) -> AsyncIterator[Learner]:
+    """Run the app for a learner. On exit, everything that it started is ended."""
     app = TutorApp(session)
     app.animation_level = "none"
     async with app.run_test(size=size, notifications=True) as pilot:
         try:
             if session.workspace.exists:
-                await made.opened(app, pilot)
+                await made.wait_until_ready(app, pilot)
             yield Learner(app, pilot, session)
         finally:
-            if isinstance(session, made.FakeServices):
+            if isinstance(session, made.FakeSession):
                 session.engine.close()
             if app.main is not None:
                 await app.main.close_down()
 
 
 @pytest.fixture
+def session(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Session]:
+    """The real course and an empty workspace, on a domain that nobody else uses."""
+    with users_domain() as domain:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        yield Session(load_course(), Workspace(tmp_path / "ws"))
+
+
+@pytest.fixture
 def learner(tmp_path: Path) -> Callable[..., object]:
-    """A learner with a made course, an engine that says what it is told, and nodes without ROS."""
+    """A factory of learners with a fake course, an engine that emits what the test sends, and nodes without ROS."""
 
-    def opened(size: tuple[int, int] = (120, 36), *, started: bool = True) -> AbstractAsyncContextManager[Learner]:
-        return at(made.FakeServices(tmp_path / "learner", started=started), size)
+    def open_learner(
+        size: tuple[int, int] = (120, 36), *, started: bool = True
+    ) -> AbstractAsyncContextManager[Learner]:
+        return open_app(made.FakeSession(tmp_path / "learner", started=started), size)
 
-    return opened
+    return open_learner

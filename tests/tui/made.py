@@ -1,12 +1,14 @@
-"""A made course, made verdicts, and an engine whose events come when the test says so."""
+"""A fake course, fake verdicts, and a fake engine whose events come when the test sends them."""
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import IO
 
 from textual.pilot import Pilot
 
@@ -34,7 +36,7 @@ self.publisher = self.create_publisher(Float64, "/sensor/temperature", 10)
 ```
 """
 
-# A node as far as the app can tell: it logs as rclpy does, and ends on Ctrl+C with exit code 0.
+# A node as far as the app can tell: it logs like rclpy, and exits with code 0 on Ctrl+C.
 NODE = """\
 import signal, sys, threading
 
@@ -62,7 +64,7 @@ CRITERIA = ("publishes", "range", "rate")
 
 
 def course(folder: Path) -> Course:
-    """Three lessons, the second with two files; their skeletons are nodes that run without ROS."""
+    """Three lessons, the second with two files. Their skeletons are nodes that run without ROS."""
     return Course(
         (
             _lesson(folder, "i1.1", "Sensor Publisher", Difficulty.EASY, "I1: Nodes and Topics", ["thermometer.py"]),
@@ -100,8 +102,8 @@ def _lesson(folder: Path, id: str, title: str, difficulty: Difficulty, unit: str
     return Lesson(id, title, difficulty, unit, "Publish.", tuple(files), tuple(criteria), hints, (), body, home)
 
 
-class FakeServices(Session):
-    """The real ones, but for the engine, a script that takes its lines from a pipe, and nodes without ROS."""
+class FakeSession(Session):
+    """A real session, but its engine is a script that reads its lines from a pipe, and its nodes run without ROS."""
 
     def __init__(self, folder: Path, *, started: bool = True, lessons: Course | None = None) -> None:
         folder.mkdir(parents=True, exist_ok=True)
@@ -117,10 +119,10 @@ class FakeServices(Session):
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:
         path = self.path(file)
-        given = run_options.arguments(options, launch=False)
+        arguments = run_options.arguments(options, launch=False)
         return NodeCommand(
             file.name,
-            (sys.executable, "-I", str(path), *given),
+            (sys.executable, "-I", str(path), *arguments),
             {"PYTHONUNBUFFERED": "1"},
             path.parent,
             self.command_line(file, options),
@@ -151,41 +153,40 @@ with open(folder / "engine.fifo") as script:
 
 
 class FakeEngine:
-    """A child that prints what it is told. `say` blocks until the child listens, so call it in a thread."""
+    """A child process that prints what it is sent. `emit` blocks until the child reads, so call it in a thread."""
 
     def __init__(self, folder: Path) -> None:
-        import os
-
         self.folder = folder
         self.fifo = folder / "engine.fifo"
         os.mkfifo(self.fifo)
         script = folder / "engine.py"
         script.write_text(ENGINE)
         self.command = (sys.executable, "-I", str(script), str(folder))
-        self._script: object = None
-        self._former: list[object] = []
+        self._pipe: IO[str] | None = None
+        self._detached: list[IO[str]] = []
 
-    def say(self, *lines: Event | str) -> None:
-        """Have the child print these events; "crash" and "fault" make it end early."""
-        if self._script is None:
-            self._script = self.fifo.open("w")
+    def emit(self, *lines: Event | str) -> None:
+        """Have the child print these events. "crash" and "fault" make it end early."""
+        if self._pipe is None:
+            self._pipe = self.fifo.open("w")
         for line in lines:
-            self._script.write((line if isinstance(line, str) else encode(line)) + "\n")  # type: ignore[attr-defined]
-        self._script.flush()  # type: ignore[attr-defined]
+            self._pipe.write((line if isinstance(line, str) else encode(line)) + "\n")
+        self._pipe.flush()
 
     def close(self) -> None:
-        """The end of the script: the child ends."""
-        for script in self._former:
+        """Close all pipes: a child exits when it reads the end of its own."""
+        for pipe in self._detached:
             with contextlib.suppress(BrokenPipeError):
-                script.close()  # type: ignore[attr-defined]
-        if self._script is not None:
-            self._script.close()  # type: ignore[attr-defined]
-            self._script = None
+                pipe.close()
+        if self._pipe is not None:
+            self._pipe.close()
+            self._pipe = None
 
-    def close_quietly(self) -> None:
-        """The child ends by itself otherwise; the next one is given a script of its own."""
-        self._former.append(self._script)
-        self._script = None
+    def detach(self) -> None:
+        """Give the next child another pipe, and keep the current one open: at its end, the current child would exit."""
+        assert self._pipe is not None
+        self._detached.append(self._pipe)
+        self._pipe = None
 
     @property
     def cleaned_up(self) -> bool:
@@ -213,33 +214,33 @@ def result(id: str, verdict: Verdict, *, bonus: bool = False) -> CriterionResult
     return CriterionResult(id, f"the text of {id}", bonus, verdict, 1.25)
 
 
-def started(exercise: str = "i1.1") -> list[Event]:
+def started_events(exercise: str = "i1.1") -> list[Event]:
     return [CheckStarted(exercise, (*CRITERIA, "shutdown"))]
 
 
-def doing(criterion: str, fraction: float, text: str, exercise: str = "i1.1", so_far: str = "") -> Event:
+def progress_event(criterion: str, fraction: float, text: str, exercise: str = "i1.1", so_far: str = "") -> Event:
     return Progress(exercise, criterion, fraction, text, so_far)
 
 
-def ending(rate: Verdict, exercise: str = "i1.1", shutdown: Verdict | None = None) -> list[Event]:
-    """The rest of a check in which all but `rate` and `shutdown` pass."""
+def final_events(rate: Verdict, exercise: str = "i1.1", shutdown: Verdict | None = None) -> list[Event]:
+    """The remaining events of a check in which `rate` and `shutdown` get these verdicts, and the rest passes."""
     judged = (
         result("publishes", GOOD),
         result("range", GOOD),
         result("rate", rate),
         result("shutdown", shutdown or (GOOD if rate.passed else skipped("rate did not pass")), bonus=True),
     )
-    whole = ExerciseResult(exercise, "Sensor Publisher", ("thermometer.py",), judged, 4.2)
-    report = Report(Environment("jazzy", "bundled", "rmw_fastrtps_cpp", "0.1.0"), (whole,), 4.2)
-    return [*(CriterionJudged(exercise, c) for c in judged), ExerciseJudged(whole), CheckFinished(report)]
+    done = ExerciseResult(exercise, "Sensor Publisher", ("thermometer.py",), judged, 4.2)
+    report = Report(Environment("jazzy", "bundled", "rmw_fastrtps_cpp", "0.1.0"), (done,), 4.2)
+    return [*(CriterionJudged(exercise, c) for c in judged), ExerciseJudged(done), CheckFinished(report)]
 
 
-def whole(lesson: Lesson, middle: Verdict) -> list[Event]:
-    """The end of a check of any lesson, in which `rate`, else the criterion in the middle, has this verdict."""
+def lesson_final_events(lesson: Lesson, middle: Verdict) -> list[Event]:
+    """The final events of a check of any lesson. Its `rate`, or else its middle criterion, gets this verdict."""
     ids = [criterion.id for criterion in lesson.criteria]
-    at = ids.index("rate") if "rate" in ids else len(ids) // 2
+    index = ids.index("rate") if "rate" in ids else len(ids) // 2
     judged = tuple(
-        CriterionResult(c.id, c.text, c.bonus, middle if i == at else GOOD, 1.0 + i)
+        CriterionResult(c.id, c.text, c.bonus, middle if i == index else GOOD, 1.0 + i)
         for i, c in enumerate(lesson.criteria)
     )
     done = ExerciseResult(lesson.id, lesson.title, (lesson.files[0].name,), judged, 4.2)
@@ -247,8 +248,8 @@ def whole(lesson: Lesson, middle: Verdict) -> list[Event]:
     return [*(CriterionJudged(lesson.id, c) for c in judged), ExerciseJudged(done), CheckFinished(report)]
 
 
-async def opened(app: TutorApp, pilot: Pilot[int], limit_s: float = 30.0) -> None:
-    """Wait until the main screen is there, with its lesson and the progress: the app paints before that."""
+async def wait_until_ready(app: TutorApp, pilot: Pilot[int], limit_s: float = 30.0) -> None:
+    """Wait for the main screen with its lesson and the progress: the app paints before it has them."""
     async with asyncio.timeout(limit_s):
         while app.main is None or not app.main.model.progress.exercises:
             await pilot.pause(0.02)

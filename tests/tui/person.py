@@ -1,4 +1,4 @@
-"""Somebody in front of an app: what they press, and what they see."""
+"""Drives an app under Textual's pilot as a person does: what they press, and what they see."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from tests.patience import seen_within
 
 
 class Person[A: App[Any]]:
-    """Uses an app by key and mouse."""
+    """Uses an app by keyboard and mouse."""
 
     limit_s: ClassVar[float] = 15.0
-    """How long they wait for what they want to see."""
+    """Default time limit of every wait."""
 
     def __init__(self, app: A, pilot: Pilot[int]) -> None:
         self.app, self.pilot = app, pilot
@@ -27,28 +27,28 @@ class Person[A: App[Any]]:
         await self.pilot.press(*keys)
 
     async def sees(self, *texts: str) -> None:
-        """Wait until every text is on the screen, in one line each."""
+        """Wait until every text is on the screen, each within one line."""
 
-        def seen() -> bool:
+        def all_seen() -> bool:
             screen = self.screen()
             return all(text in screen for text in texts)
 
-        await self.until(seen, texts)
+        await self.until(all_seen, texts)
 
     async def sees_no(self, text: str) -> None:
-        """Wait until the text is not on the screen, once there is one."""
+        """Wait until the text is not on the screen, and the screen has been laid out."""
         await self.until(lambda: bool(screen := self.screen()) and text not in screen, f"no {text}")
 
-    async def until(self, seen: Callable[[], bool], what: object = "", *, limit_s: float | None = None) -> None:
-        if not await seen_within(seen, self.limit_s if limit_s is None else limit_s):
+    async def until(self, condition: Callable[[], bool], what: object = "", *, limit_s: float | None = None) -> None:
+        if not await seen_within(condition, self.limit_s if limit_s is None else limit_s):
             pytest.fail("\n".join([f"not seen: {what}", self.screen(), *self.background()]))
 
     def background(self) -> list[str]:
-        """What else helps to see why something is not on the screen."""
+        """Further lines for the message of a failed wait, as logs that are not on the screen."""
         return []
 
     def screen(self) -> str:
-        """What is drawn, as text: the top screen over whatever is below."""
+        """The screen as text: the top screen, drawn over those below it. Empty while it is not laid out."""
         width, height = self.app.size
         screen: Screen[object] = self.app.screen
         if screen._compositor.size != (width, height):  # just opened, or just resized: not laid out yet

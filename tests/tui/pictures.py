@@ -1,8 +1,8 @@
-"""Takes pictures of the app in its states: `python -m tests.tui.pictures DIR [ONLY]` writes one SVG for each.
+"""Takes screenshots of the app in its states: `python -m tests.tui.pictures DIR [ONLY]` writes one SVG for each.
 
-For looking at, not for comparing: DIR is not to be committed, but for the few that README shows. Real lessons, made
-verdicts, a node without ROS; the live page watches a real node. ONLY is part of a size or of a state's name. Each state
-is taken dark and light; `--png` lets Chromium turn all into PNG as well, where it is installed.
+They are for looking at, not for comparing: do not commit DIR, except for the few that README shows. The lessons are
+real, the verdicts fake, and the node runs without ROS; the live page watches a real node. ONLY is part of a size or of
+a state's name. Each state is taken dark and light. With `--png`, Chromium, if installed, converts all of them to PNG.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager
 from functools import partial
 from pathlib import Path
 
@@ -44,36 +44,49 @@ _FONT_FACE = re.compile(r"\s*@font-face \{.*?\}", re.DOTALL)
 _FONTS = '"Fira Code", "DejaVu Sans Mono", Menlo, Consolas, monospace'
 
 
-async def until(pilot: Pilot[int], seen: Callable[[], bool]) -> None:
+async def until(pilot: Pilot[int], condition: Callable[[], bool]) -> None:
     async with asyncio.timeout(LIMIT_S):
-        while not seen():
+        while not condition():
             await pilot.pause(0.02)
     await pilot.pause()
 
 
+@contextmanager
+def session_with_solutions(count: int) -> Iterator[Session]:
+    """A real session on a domain of its own. The first `count` lessons are started, their first files solved."""
+    with world() as around, tempfile.TemporaryDirectory() as scratch:
+        for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
+            os.environ[name] = around.environ[name]
+        session = Session(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
+        for lesson in session.lessons[:count]:
+            session.start(lesson)
+            session.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
+        yield session
+
+
 class Album:
-    """One size, dark and light."""
+    """All screenshots of one terminal size, dark and light."""
 
     def __init__(self, folder: Path, size: tuple[int, int]) -> None:
         self.folder, self.size = folder, size
 
     @asynccontextmanager
-    async def opened(self, *, started: bool = True) -> AsyncIterator[tuple[Pilot[int], made.FakeServices]]:
+    async def fake_app(self, *, started: bool = True) -> AsyncIterator[tuple[Pilot[int], made.FakeSession]]:
         with tempfile.TemporaryDirectory() as scratch:
-            session = made.FakeServices(Path(scratch) / "learner", started=started, lessons=load_course())
+            session = made.FakeSession(Path(scratch) / "learner", started=started, lessons=load_course())
             if started:
                 session.path(session.lessons[0].files[0]).write_text(made.NODE)
-            async with self.app(session) as pilot:
+            async with self.open_app(session) as pilot:
                 yield pilot, session
                 session.engine.close()
 
     @asynccontextmanager
-    async def app(self, session: Session) -> AsyncIterator[Pilot[int]]:
+    async def open_app(self, session: Session) -> AsyncIterator[Pilot[int]]:
         app = TutorApp(session)
         app.animation_level = "none"
         async with app.run_test(size=self.size) as pilot:
             if session.workspace.exists:
-                await made.opened(app, pilot)
+                await made.wait_until_ready(app, pilot)
             else:
                 await until(pilot, lambda: isinstance(app.screen, WelcomeScreen))
             yield pilot
@@ -84,20 +97,20 @@ class Album:
         for theme in (LIGHT, DARK):
             pilot.app.theme = theme.name
             await pilot.pause()
-            picture = pilot.app.export_screenshot(title="ros-tutor")
-            picture = _FONT_FACE.sub("", picture).replace("Fira Code, monospace", _FONTS)  # nothing from a network
+            svg = pilot.app.export_screenshot(title="ros-tutor")
+            svg = _FONT_FACE.sub("", svg).replace("Fira Code, monospace", _FONTS)  # load no fonts from the network
             shade = theme.name.rsplit("-", 1)[1]
-            (self.folder / f"{name}-{self.size[0]}x{self.size[1]}-{shade}.svg").write_text(picture)
+            (self.folder / f"{name}-{self.size[0]}x{self.size[1]}-{shade}.svg").write_text(svg)
 
     async def welcome(self) -> None:
-        async with self.opened(started=False) as (pilot, _):
+        async with self.fake_app(started=False) as (pilot, _):
             await self.take(pilot, "welcome")
             await pilot.press("f")
             await self.take(pilot, "welcome-folder")
 
     async def rest(self) -> None:
-        async with self.opened() as (pilot, _):
-            main = screen(pilot)
+        async with self.fake_app() as (pilot, _):
+            main = main_screen(pilot)
             await self.take(pilot, "lesson")
             await pilot.press("2")
             await until(pilot, lambda: main.query_one(CodePane).editor is not None)
@@ -127,8 +140,8 @@ class Album:
             await self.take(pilot, "solution")
 
     async def busy(self) -> None:
-        async with self.opened() as (pilot, _):
-            main = screen(pilot)
+        async with self.fake_app() as (pilot, _):
+            main = main_screen(pilot)
             await pilot.press("r")
             await until(pilot, lambda: any(len(each.state.lines) >= 4 for each in main.nodes.running))
             await self.take(pilot, "running")
@@ -137,16 +150,10 @@ class Album:
             await self.take(pilot, "stopped")
 
     async def live(self) -> None:
-        """The solution of the first lesson, running on a domain of its own, watched."""
-        with world() as around, tempfile.TemporaryDirectory() as scratch:
-            for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
-                os.environ[name] = around.environ[name]
-            session = Session(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
-            lesson = session.lessons[0]
-            session.start(lesson)
-            session.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
-            async with self.app(session) as pilot:
-                main = screen(pilot)
+        """The live page, watching the solution of the first lesson."""
+        with session_with_solutions(1) as session:
+            async with self.open_app(session) as pilot:
+                main = main_screen(pilot)
                 await pilot.press("4")
                 await until(pilot, lambda: (live := main.pages.live) is not None and live.state.ready)
                 await pilot.pause(0.5)
@@ -163,18 +170,12 @@ class Album:
                     await self.take(pilot, f"live-{name}")
 
     async def partner(self) -> None:
-        """The solution of the second lesson with a talker beside it; then a name that is nearly right."""
-        with world() as around, tempfile.TemporaryDirectory() as scratch:
-            for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
-                os.environ[name] = around.environ[name]
-            session = Session(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
-            for lesson in session.lessons[:2]:
-                session.start(lesson)
-                session.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
+        """The solution of the second lesson with a talker beside it; then a misspelled topic name."""
+        with session_with_solutions(2) as session:
             first = session.path(session.lessons[0].files[0])
             first.write_text(first.read_text().replace("/sensor/temperature", "/sensor/temprature"))
-            async with self.app(session) as pilot:
-                main = screen(pilot)
+            async with self.open_app(session) as pilot:
+                main = main_screen(pilot)
                 await pilot.press("n", "r")
                 await until(pilot, lambda: bool(main.nodes.running))
                 await pilot.press("b")
@@ -184,7 +185,7 @@ class Album:
                 await pilot.press("4")
                 await until(pilot, lambda: main.pages.live is not None and "/chatter" in main.pages.live.state.topics)
                 topics = main.query_one(TopicsPanel)
-                await until(pilot, lambda: topics.view is not None and topics.view.came > 16)
+                await until(pilot, lambda: topics.view is not None and topics.view.line_count > 16)
                 await self.take(pilot, "live-talker")
                 await pilot.press("G")
                 await pilot.pause(0.7)
@@ -192,7 +193,7 @@ class Album:
                 await pilot.press("M")
                 await pilot.pause(1.0)
                 await self.take(pilot, "publish")
-                await pilot.press("escape", "p", "r")  # what runs of the other lesson is stopped first
+                await pilot.press("escape", "p", "r")  # the first r stops the other lesson's nodes
                 await until(pilot, lambda: not main.nodes.running)
                 await pilot.press("r")
                 await until(pilot, lambda: len(main.nodes.running) == 1)
@@ -201,56 +202,54 @@ class Album:
                 await self.take(pilot, "live-near-miss")
 
     async def terminal(self) -> None:
-        """Three commands at once against the solution of the first lesson, one of which has ended."""
-        with world() as around, tempfile.TemporaryDirectory() as scratch:
-            for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
-                os.environ[name] = around.environ[name]
-            session = Session(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
-            lesson = session.lessons[0]
-            session.start(lesson)
-            session.path(lesson.files[0]).write_bytes(lesson.files[0].solution.read_bytes())
-            async with self.app(session) as pilot:
-                main = screen(pilot)
+        """Three commands at once with the solution of the first lesson, one of which has ended."""
+        with session_with_solutions(1) as session:
+            async with self.open_app(session) as pilot:
+                main = main_screen(pilot)
                 await pilot.press("7")
                 await until(pilot, lambda: main.pages.terminal is not None)
                 await pilot.pause(0.5)
                 await self.take(pilot, "terminal-nothing")
                 pane = main.pages.open_terminal()
                 output = pane.query_one(OutputView)
-                for line, seen in (
+                for line, expected in (
                     ("ros2 run my_package temperature_publisher", "°C"),
                     ("ros2 topic info /sensor/temperature", "Subscription count"),
                     ("ros2 topic hz /sensor/temperature", "average rate"),
                 ):
                     pane.run_line(line)
-                    await until(pilot, partial(lambda seen: seen in output.plain, seen))
+                    await until(pilot, partial(lambda text: text in output.plain, expected))
                 pilot.app.screen.query_one(Prompt).value = "ros2 topic echo /sensor/temp"
                 await self.take(pilot, "terminal")
 
     async def check(self, passing: bool) -> None:
-        async with self.opened() as (pilot, session):
-            main = screen(pilot)
+        async with self.fake_app() as (pilot, session):
+            main = main_screen(pilot)
             lesson = session.lessons[0]
             await pilot.press("c")
             names = [c.id for c in lesson.criteria]
-            say: list[Event] = [CheckStarted(lesson.id, tuple(names))]
-            say += [made.doing(names[n], f, t, lesson.id, so_far) for n, f, t, so_far in STEPS if n < len(names)]
-            say += [CriterionJudged(lesson.id, made.result(names[0], made.GOOD))]
-            await asyncio.to_thread(session.engine.say, *say)
+            events: list[Event] = [CheckStarted(lesson.id, tuple(names))]
+            events += [
+                made.progress_event(names[n], f, t, lesson.id, so_far) for n, f, t, so_far in STEPS if n < len(names)
+            ]
+            events += [CriterionJudged(lesson.id, made.result(names[0], made.GOOD))]
+            await asyncio.to_thread(session.engine.emit, *events)
             await until(pilot, lambda: main.model.findings[lesson.id].criteria[0].verdict is not None)
             if not passing:
                 await self.take(pilot, "checking")
                 failed = CriterionJudged(lesson.id, made.result("rate", made.BAD))
-                await asyncio.to_thread(session.engine.say, failed)
+                await asyncio.to_thread(session.engine.emit, failed)
                 await until(pilot, lambda: main.chosen_criterion == "rate")
                 await self.take(pilot, "checking-failed")
-            await asyncio.to_thread(session.engine.say, *made.whole(lesson, made.GOOD if passing else made.BAD))
+            await asyncio.to_thread(
+                session.engine.emit, *made.lesson_final_events(lesson, made.GOOD if passing else made.BAD)
+            )
             session.engine.close()
             await until(pilot, lambda: main.checks.running is None)
             await until(pilot, lambda: main.model.progress.of(lesson.id).last is not None)
-            found = main.model.findings[lesson.id].result
-            assert found is not None
-            assert (found.verdict is Status.PASSED) == passing
+            result = main.model.findings[lesson.id].result
+            assert result is not None
+            assert (result.verdict is Status.PASSED) == passing
             await self.take(pilot, "passed" if passing else "failed")
             await pilot.press("6")
             await pilot.pause(0.3)
@@ -264,7 +263,7 @@ class Album:
         await self.check(passing=True)
 
     async def ready(self) -> None:
-        async with self.opened() as (pilot, session):
+        async with self.fake_app() as (pilot, session):
             for item in session.course.checklist.items[:-1]:
                 session.tick(item.id, True)
             await pilot.press("6")
@@ -277,14 +276,14 @@ class Album:
             await self.take(pilot, "export")
 
     async def crash(self) -> None:
-        async with self.opened() as (pilot, session):
+        async with self.fake_app() as (pilot, session):
             await pilot.press("c")
-            await asyncio.to_thread(session.engine.say, "crash")
-            await until(pilot, lambda: screen(pilot).checks.running is None)
+            await asyncio.to_thread(session.engine.emit, "crash")
+            await until(pilot, lambda: main_screen(pilot).checks.running is None)
             await self.take(pilot, "crashed")
 
 
-STEPS = (
+STEPS = (  # progress events: the index of the criterion, fraction, text, findings so far
     (1, 0.8, "listening for 2 s more", ""),
     (2, 0.35, "collecting 20 values, 7 so far", ""),
     (
@@ -300,14 +299,14 @@ STEPS = (
 )
 
 
-def screen(pilot: Pilot[int]) -> MainScreen:
+def main_screen(pilot: Pilot[int]) -> MainScreen:
     assert isinstance(pilot.app, TutorApp)
     assert pilot.app.main is not None
     return pilot.app.main
 
 
-def as_png(picture: Path) -> None:
-    """Beside it, as Chromium shows it."""
+def write_png(picture: Path) -> None:
+    """Write it next to the SVG as Chromium renders it."""
     chromium = shutil.which("chromium") or shutil.which("google-chrome")
     assert chromium is not None, "Chromium is not installed"
     with tempfile.TemporaryDirectory() as profile:
@@ -332,12 +331,12 @@ async def main(folder: Path, only: str = "") -> None:
         for group in (*states, album.checked, album.ready, album.crash):
             if only in f"{size[0]}x{size[1]} {group.__name__}":
                 await group()
-    print(f"{len(list(folder.glob('*.svg')))} pictures in {folder}")
+    print(f"{len(list(folder.glob('*.svg')))} screenshots in {folder}")
 
 
 if __name__ == "__main__":
-    given = [each for each in sys.argv[1:] if each != "--png"]
-    asyncio.run(main(Path(given[0]), *given[1:2]))
+    arguments = [each for each in sys.argv[1:] if each != "--png"]
+    asyncio.run(main(Path(arguments[0]), *arguments[1:2]))
     if "--png" in sys.argv:
-        for each in sorted(Path(given[0]).glob("*.svg")):
-            as_png(each)
+        for each in sorted(Path(arguments[0]).glob("*.svg")):
+            write_png(each)

@@ -1,4 +1,4 @@
-"""Checking: the engine is a child process whose events come when the test says so."""
+"""Checks, by a fake engine: a child process whose events come when the test sends them."""
 
 from __future__ import annotations
 
@@ -10,43 +10,45 @@ from typing import Any
 import pytest
 
 from tests.tui import made
-from tests.tui.conftest import at
+from tests.tui.conftest import open_app
 from tutor.judge.events import CriterionJudged, ExerciseJudged
 
 SIZES = [(120, 36), (80, 24)]
 
 
-async def begin(me: Any) -> None:
+async def start_check(me: Any) -> None:
     await me.press("c")
-    await me.told(*made.started())
+    await me.engine_emits(*made.started_events())
 
 
 @pytest.mark.parametrize("size", SIZES)
-async def test_while_checking_each_criterion_tells_what_is_done_to_the_node(learner: Any, size: Any) -> None:
+async def test_during_a_check_each_criterion_shows_its_progress(learner: Any, size: Any) -> None:
     async with learner(size) as me:
-        await begin(me)
-        await me.told(made.doing("rate", 0.6, "setting publish_rate to 5.0"))
+        await start_check(me)
+        await me.engine_emits(made.progress_event("rate", 0.6, "setting publish_rate to 5.0"))
         await me.sees("60%", "setting publish_rate to 5.0", "waiting", "c Cancel", "Esc cancels")
-        await me.told(CriterionJudged("i1.1", made.result("publishes", made.GOOD)))
+        await me.engine_emits(CriterionJudged("i1.1", made.result("publishes", made.GOOD)))
         await me.until(lambda: "✓ publishes" in me.criterion("publishes"))
         assert "60%" in me.criterion("rate")
 
 
 @pytest.mark.parametrize("size", SIZES)
-async def test_while_a_criterion_waits_it_says_what_is_known_so_far_and_its_verdict_takes_that_place(
-    learner: Any, size: Any
-) -> None:
+async def test_a_waiting_criterion_shows_the_findings_so_far_until_its_verdict(learner: Any, size: Any) -> None:
     async with learner(size) as me:
-        await begin(me)
-        await me.told(made.doing("publishes", 0.1, "waiting for the first message", so_far="/node is up, but silent"))
+        await start_check(me)
+        await me.engine_emits(
+            made.progress_event("publishes", 0.1, "waiting for the first message", so_far="/node is up, but silent")
+        )
         await me.sees("so far: /node is up, but silent")
-        await me.told(made.doing("publishes", 0.1, "waiting", so_far="likely [b]no spin[/b]: it never spins"))
+        await me.engine_emits(
+            made.progress_event("publishes", 0.1, "waiting", so_far="likely [b]no spin[/b]: it never spins")
+        )
         await me.until(lambda: "so far: likely [b]no spin[/b]" in me.criterion("publishes"))
-        await me.told(made.doing("publishes", 0.8, "pressing Ctrl+C"))
+        await me.engine_emits(made.progress_event("publishes", 0.8, "pressing Ctrl+C"))
         await me.until(lambda: "pressing Ctrl+C" in me.criterion("publishes"))
         assert "so far" not in me.criterion("publishes")
-        await me.told(made.doing("publishes", 0.1, "waiting", so_far="/node is up"))
-        await me.told(*made.ending(made.BAD))
+        await me.engine_emits(made.progress_event("publishes", 0.1, "waiting", so_far="/node is up"))
+        await me.engine_emits(*made.final_events(made.BAD))
         await me.until(lambda: "✓ publishes" in me.criterion("publishes"))
         assert "so far" not in me.screen()
 
@@ -54,8 +56,8 @@ async def test_while_a_criterion_waits_it_says_what_is_known_so_far_and_its_verd
 @pytest.mark.parametrize("size", SIZES)
 async def test_a_failure_is_shown_with_its_diagnosis(learner: Any, size: Any) -> None:
     async with learner(size) as me:
-        await begin(me)
-        await me.told(*made.ending(made.BAD))
+        await start_check(me)
+        await me.engine_emits(*made.final_events(made.BAD))
         await me.sees("✗ rate  ", "Expected", "Observed", "Cause", "Next step", "2 of 3 passed")
         await me.sees("0.20 Hz over 3 messages", "rate used as a period")
         assert "line 18" not in me.diagnosis()  # the evidence is folded
@@ -70,42 +72,44 @@ async def test_a_failure_is_shown_with_its_diagnosis(learner: Any, size: Any) ->
 
 
 @pytest.mark.parametrize("size", SIZES)
-async def test_the_first_failure_is_shown_at_once_while_the_check_goes_on_and_stays(learner: Any, size: Any) -> None:
+async def test_the_first_failure_is_shown_at_once_and_stays_while_the_check_continues(learner: Any, size: Any) -> None:
     async with learner(size) as me:
-        await begin(me)
-        await me.told(CriterionJudged("i1.1", made.result("shutdown", made.BAD, bonus=True)))
-        await me.told(CriterionJudged("i1.1", made.result("rate", made.BAD)))
+        await start_check(me)
+        await me.engine_emits(CriterionJudged("i1.1", made.result("shutdown", made.BAD, bonus=True)))
+        await me.engine_emits(CriterionJudged("i1.1", made.result("rate", made.BAD)))
         await me.sees("✗ rate  ", "Next step  Give create_timer", "rate used as a period", "checking")
-        await me.told(CriterionJudged("i1.1", made.result("publishes", made.BAD)))
+        await me.engine_emits(CriterionJudged("i1.1", made.result("publishes", made.BAD)))
         await me.until(lambda: "✗ publishes" in me.criterion("publishes"))
-        await me.told(*made.ending(made.BAD))
+        await me.engine_emits(*made.final_events(made.BAD))
         await me.sees("2 of 3 passed")
         assert me.main.chosen_criterion == "rate"
         assert "✗ rate" in me.diagnosis()
 
 
-async def test_a_criterion_that_is_chosen_while_it_waits_says_all_that_is_known_until_its_verdict(learner: Any) -> None:
+async def test_a_selected_waiting_criterion_shows_the_full_findings_until_its_verdict(learner: Any) -> None:
     async with learner() as me:
-        await begin(me)
-        await me.told(made.doing("range", 0.2, "collecting values", so_far="no messages yet, " + "words " * 20 + "end"))
+        await start_check(me)
+        await me.engine_emits(
+            made.progress_event("range", 0.2, "collecting values", so_far="no messages yet, " + "words " * 20 + "end")
+        )
         await me.press("5")
         await me.pilot.click(me.main.query("CriterionRow")[1])
-        await me.until(lambda: "So far, and not final: no messages yet" in me.diagnosis(), "the words so far, whole")
+        await me.until(lambda: "So far, and not final: no messages yet" in me.diagnosis(), "the full findings so far")
         assert "end" in me.diagnosis()
-        await me.told(CriterionJudged("i1.1", made.result("rate", made.BAD)))
+        await me.engine_emits(CriterionJudged("i1.1", made.result("rate", made.BAD)))
         await me.until(lambda: "✗ rate" in me.criterion("rate"))
-        assert "range" in me.diagnosis()  # what was chosen stays
-        await me.told(CriterionJudged("i1.1", made.result("range", made.GOOD)))
+        assert "range" in me.diagnosis()  # the selection stays
+        await me.engine_emits(CriterionJudged("i1.1", made.result("range", made.GOOD)))
         await me.until(lambda: "54 values from 20.03 to 29.87" in me.diagnosis())
         assert "So far" not in me.diagnosis()
 
 
-async def test_a_check_ends_at_its_first_failure_where_that_is_wanted(learner: Any) -> None:
+async def test_a_check_can_be_set_to_end_at_its_first_failure(learner: Any) -> None:
     async with learner() as me:
         await me.press("F")
         await me.sees("A check now ends at its first failure")
-        await begin(me)
-        await me.told(*made.ending(made.BAD))
+        await start_check(me)
+        await me.engine_emits(*made.final_events(made.BAD))
         me.session.engine.close()
         await me.until(lambda: me.main.checks.running is None)
         assert me.session.first
@@ -113,20 +117,20 @@ async def test_a_check_ends_at_its_first_failure_where_that_is_wanted(learner: A
         await me.until(lambda: not me.session.first)
 
 
-async def test_choosing_another_criterion_shows_what_was_measured(learner: Any) -> None:
+async def test_selecting_another_criterion_shows_what_was_measured(learner: Any) -> None:
     async with learner() as me:
-        await begin(me)
-        await me.told(*made.ending(made.BAD))
+        await start_check(me)
+        await me.engine_emits(*made.final_events(made.BAD))
         await me.sees("Next step")
         await me.pilot.click(me.main.query("CriterionRow")[1])
         await me.sees("✓ range  ", "54 values from 20.03 to 29.87")
 
 
 @pytest.mark.parametrize("size", SIZES)
-async def test_passing_is_good_news_and_says_what_comes_next(learner: Any, size: Any) -> None:
+async def test_a_pass_is_celebrated_and_names_the_next_step(learner: Any, size: Any) -> None:
     async with learner(size) as me:
-        await begin(me)
-        await me.told(*made.ending(made.GOOD))
+        await start_check(me)
+        await me.engine_emits(*made.final_events(made.GOOD))
         await me.sees("I1.1 Sensor Publisher passed", "Well done", "Next: press n for", "3 of 3 passed")
         await me.press("n")
         await me.sees("I1.3  Calculator Service")
@@ -141,8 +145,8 @@ async def test_passing_is_good_news_and_says_what_comes_next(learner: Any, size:
 @pytest.mark.parametrize("key", ["escape", "c"])
 async def test_cancelling_interrupts_the_engine_and_waits_for_it(learner: Any, key: str) -> None:
     async with learner() as me:
-        await begin(me)
-        await me.told(made.doing("rate", 0.3, "listening"))
+        await start_check(me)
+        await me.engine_emits(made.progress_event("rate", 0.3, "listening"))
         await me.sees("listening")
         pid = me.session.engine.pid
         await me.press(key)
@@ -154,10 +158,10 @@ async def test_cancelling_interrupts_the_engine_and_waits_for_it(learner: Any, k
         assert me.session.progress().of("i1.1").last is None
 
 
-async def test_a_crash_of_the_engine_is_our_fault_and_no_traceback_over_the_screen(learner: Any) -> None:
+async def test_a_crash_of_the_engine_is_our_fault_and_prints_no_traceback_over_the_screen(learner: Any) -> None:
     async with learner() as me:
-        await begin(me)
-        await me.told(CriterionJudged("i1.1", made.result("publishes", made.GOOD)), "crash")
+        await start_check(me)
+        await me.engine_emits(CriterionJudged("i1.1", made.result("publishes", made.GOOD)), "crash")
         await me.sees("! error", "the check ended before it was done", "not of your code")
         await me.press("i")
         await me.until(lambda: "RuntimeError: the engine has a bug" in me.diagnosis())
@@ -166,43 +170,43 @@ async def test_a_crash_of_the_engine_is_our_fault_and_no_traceback_over_the_scre
         assert me.session.progress().of("i1.1").last is None
 
 
-async def test_a_fault_that_the_engine_knows_is_told_in_its_words(learner: Any) -> None:
+async def test_a_known_engine_error_is_shown_in_the_engines_words(learner: Any) -> None:
     async with learner() as me:
-        await begin(me)
-        await me.told("fault")
+        await start_check(me)
+        await me.engine_emits("fault")
         await me.sees("! error")
         assert "no domain is free. End other checks first." in me.diagnosis()
 
 
-async def test_a_line_that_is_not_an_event_is_a_fault_too(learner: Any) -> None:
+async def test_a_line_that_is_not_an_event_is_an_error_too(learner: Any) -> None:
     async with learner() as me:
-        await begin(me)
-        await me.told("hello [red]world[/red]")
+        await start_check(me)
+        await me.engine_emits("hello [red]world[/red]")
         await me.sees("! error")
         assert "not understood: 'hello [red]world[/red]" in me.diagnosis()
 
 
-async def test_an_engine_that_cannot_be_started_is_told(learner: Any) -> None:
+async def test_an_engine_that_cannot_be_started_is_reported(learner: Any) -> None:
     async with learner() as me:
         me.session.engine.command = ("/nowhere/python",)
         await me.press("c")
         await me.sees("! error", "could not be started")
 
 
-async def test_a_check_goes_on_while_another_lesson_is_read(learner: Any) -> None:
+async def test_a_check_continues_while_another_lesson_is_open(learner: Any) -> None:
     async with learner() as me:
-        await begin(me)
+        await start_check(me)
         await me.press("n")
         await me.sees("I1.3  Calculator Service", "checking I1.1")
-        await me.told(*made.ending(made.GOOD))
+        await me.engine_emits(*made.final_events(made.GOOD))
         me.session.engine.close()
         await me.sees("I1.1 passed.", "○ Criteria  publishes, range, rate")
 
 
 async def test_quitting_ends_the_check(learner: Any) -> None:
     async with learner() as me:
-        await begin(me)
-        await me.told(made.doing("rate", 0.3, "listening"))
+        await start_check(me)
+        await me.engine_emits(made.progress_event("rate", 0.3, "listening"))
         await me.sees("listening")
         pid = me.session.engine.pid
         await me.press("q")
@@ -212,29 +216,29 @@ async def test_quitting_ends_the_check(learner: Any) -> None:
             os.kill(pid, 0)
 
 
-async def test_a_save_checks_again_and_the_running_check_gives_way(learner: Any) -> None:
+async def test_a_save_replaces_the_running_check_by_a_new_one(learner: Any) -> None:
     async with learner() as me:
         await me.press("w")
         await me.sees("a save checks")
-        await begin(me)
-        await me.told(made.doing("rate", 0.3, "listening"))
+        await start_check(me)
+        await me.engine_emits(made.progress_event("rate", 0.3, "listening"))
         await me.sees("listening")
         first = me.session.engine.pid
-        me.session.engine.close_quietly()
-        await me.edits()
+        me.session.engine.detach()
+        await me.focus_editor()
         await me.press("#", "ctrl+s")
         await me.until(lambda: me.main.checks.running is not None and me.session.engine.pid != first, "checked again")
         with pytest.raises(ProcessLookupError):
             os.kill(first, 0)
-        await me.told(*made.started(), *made.ending(made.GOOD))
+        await me.engine_emits(*made.started_events(), *made.final_events(made.GOOD))
         me.session.engine.close()
         await me.until(lambda: me.main.model.progress.of("i1.1").best is not None)
 
 
-async def test_attempts_are_kept_and_shown_over_time(learner: Any) -> None:
+async def test_attempts_are_recorded_and_listed(learner: Any) -> None:
     async with learner((180, 50)) as me:
-        await begin(me)
-        await me.told(*made.ending(made.BAD))
+        await start_check(me)
+        await me.engine_emits(*made.final_events(made.BAD))
         me.session.engine.close()
         await me.sees("1 attempt", "2 of 3", "not yet: rate")
         await me.until(lambda: me.main.checks.running is None)
@@ -242,13 +246,13 @@ async def test_attempts_are_kept_and_shown_over_time(learner: Any) -> None:
         await me.sees("I1.1: your attempts", "today")
 
 
-async def test_in_the_editor_the_keys_that_are_named_are_those_that_work_there(learner: Any) -> None:
+async def test_in_the_editor_the_hints_name_keys_that_work_there(learner: Any) -> None:
     async with learner() as me:
-        await me.edits()
+        await me.focus_editor()
         await me.press("f9")
-        await me.told(*made.started())
+        await me.engine_emits(*made.started_events())
         await me.sees("F9 cancels")
-        await me.told(*made.ending(made.GOOD))
+        await me.engine_emits(*made.final_events(made.GOOD))
         await me.sees("Next: press Esc, then n for I1.3")
         await me.press("escape")
         await me.sees("Next: press n for I1.3")
@@ -257,13 +261,13 @@ async def test_in_the_editor_the_keys_that_are_named_are_those_that_work_there(l
         assert me.session.path(me.session.lessons[0].files[0]).read_text() == made.NODE
 
 
-async def test_verdicts_on_code_that_has_changed_since_are_marked_until_it_is_back(learner: Any) -> None:
+async def test_verdicts_are_marked_stale_while_the_code_differs_from_what_was_checked(learner: Any) -> None:
     async with learner() as me:
-        await begin(me)
-        await me.told(*made.ending(made.BAD))
+        await start_check(me)
+        await me.engine_emits(*made.final_events(made.BAD))
         await me.sees("Next step")
         changed = "your code has changed since this check"
-        await me.edits()
+        await me.focus_editor()
         await me.press("#")
         await me.sees(changed, "✗ rate")
         await me.press("ctrl+z")
@@ -272,12 +276,12 @@ async def test_verdicts_on_code_that_has_changed_since_are_marked_until_it_is_ba
         await me.sees(changed)
 
 
-async def test_after_a_restart_the_last_check_is_told(tmp_path: Path) -> None:
-    session = made.FakeServices(tmp_path / "learner")
-    done = made.ending(made.BAD)[-2]
+async def test_after_a_restart_the_last_check_is_shown(tmp_path: Path) -> None:
+    session = made.FakeSession(tmp_path / "learner")
+    done = made.final_events(made.BAD)[-2]
     assert isinstance(done, ExerciseJudged)
     session.record(done.result)
-    async with at(session) as me:
+    async with open_app(session) as me:
         await me.press("2", "5")
         await me.sees("Criteria", "last check today", "2 of 3 met", "✓ publishes", "○ rate")
         await me.press("down", "down", "down", "enter")
@@ -291,10 +295,10 @@ LONG = replace(
 )
 
 
-async def test_the_next_step_comes_first_and_is_in_sight_whole_with_no_note_over_it(learner: Any) -> None:
+async def test_the_next_step_comes_first_and_no_notification_covers_it(learner: Any) -> None:
     async with learner((120, 36)) as me:
-        await begin(me)
-        await me.told(*made.ending(LONG))
+        await start_check(me)
+        await me.engine_emits(*made.final_events(LONG))
         await me.sees("Next step  Change this", "then check again.", "Cause")
         me.main.say("A note that is as long as notes are. " * 5)
         await me.sees("A note that", "Next step  Change this", "check again.", "Cause")
@@ -305,10 +309,10 @@ async def test_the_next_step_comes_first_and_is_in_sight_whole_with_no_note_over
         assert "passed  " not in me.criterion("publishes")
 
 
-async def test_a_hint_begins_with_what_failed_and_goes_on_with_the_general_ones(learner: Any) -> None:
+async def test_hints_begin_with_what_failed_and_continue_with_the_general_ones(learner: Any) -> None:
     async with learner() as me:
-        await begin(me)
-        await me.told(*made.ending(made.BAD))
+        await start_check(me)
+        await me.engine_emits(*made.final_events(made.BAD))
         await me.sees("Next step")
         await me.press("h")
         await me.sees("I1.1: a hint for what failed", "✗ rate", "Declare it.", "h: general hint")
@@ -319,7 +323,7 @@ async def test_a_hint_begins_with_what_failed_and_goes_on_with_the_general_ones(
         await me.sees("hint 1 of 3", "Declare it.", "Think of a timer.")
 
 
-async def test_while_reading_the_unchecked_criteria_are_one_line_that_opens(learner: Any) -> None:
+async def test_on_the_lesson_page_unchecked_criteria_collapse_into_one_line(learner: Any) -> None:
     async with learner() as me:
         whole = "Float64 messages arrive on /sensor/temperature"
         await me.sees("○ Criteria  publishes, range, rate, 1 bonus", "5 opens")
@@ -331,6 +335,6 @@ async def test_while_reading_the_unchecked_criteria_are_one_line_that_opens(lear
         await me.press("2")
         await me.sees(whole)
         await me.press("1")
-        await begin(me)
-        await me.told(*made.ending(made.BAD))
+        await start_check(me)
+        await me.engine_emits(*made.final_events(made.BAD))
         await me.sees("Next step", "✗ rate")

@@ -1,4 +1,4 @@
-"""The self-assessment checklist: opening it, ticking, what the checks have shown, ready, and exporting it."""
+"""The self-assessment checklist: ticking, evidence from the checks, completion, and export."""
 
 from __future__ import annotations
 
@@ -31,55 +31,55 @@ def course(monkeypatch: pytest.MonkeyPatch) -> None:
 pytestmark = pytest.mark.usefixtures("course")
 
 
-def checklist(me: Learner) -> ChecklistScreen:
-    found = me.app.screen
-    assert isinstance(found, ChecklistScreen)
-    return found
+def checklist_screen(me: Learner) -> ChecklistScreen:
+    screen = me.app.screen
+    assert isinstance(screen, ChecklistScreen)
+    return screen
 
 
 def ticks(me: Learner) -> set[str]:
     return set(me.session.progress().ticks)
 
 
-def attempt(me: Learner, exercise: str, *criteria: str) -> None:
-    """A check in another terminal, in which these criteria passed and others did not."""
+def record_attempt(me: Learner, exercise: str, *criteria: str) -> None:
+    """Record a check from another terminal in which only these criteria passed."""
     done = ExerciseProgress(now(), (Attempt(now(), Status.FAILED, criteria),), Status.FAILED)
     me.session.workspace.progress(print).change(lambda progress: progress.with_exercise(exercise, done))
 
 
-async def test_i_tick_what_i_can_do_and_it_is_kept_at_once(learner: Any) -> None:
+async def test_ticks_are_saved_at_once(learner: Any) -> None:
     async with learner() as me:
         await me.sees("6 Checklist")
         await me.press("6")
         await me.sees("0 of 15 ticked", "rclpy Fundamentals", "Communication Patterns", "0 of 3")
         await me.press("space")
         await me.sees("1 of 15 ticked", "1 of 4", "[✓] Create nodes that publish and nodes that subscribe")
-        await me.until(lambda: ticks(me) == {"publish-and-subscribe"}, "kept")
+        await me.until(lambda: ticks(me) == {"publish-and-subscribe"}, "saved")
         await me.press("down", "enter", "up", "space")
         await me.sees("1 of 15 ticked", "[ ] Create nodes that publish and nodes that subscribe")
-        await me.until(lambda: ticks(me) == {"timers"}, "kept")
+        await me.until(lambda: ticks(me) == {"timers"}, "saved")
 
-        # By mouse: a tick, and taken away as fast as one can click.
+        # By mouse: ticked, then unticked and ticked again as fast as one can click.
         item = "#item-callback-groups"
         await me.pilot.click(item)
         await me.sees("2 of 15 ticked", "[✓] Use callback groups the right way")
         await me.pilot.click(item)
         await me.pilot.click(item)
         await me.sees("2 of 15 ticked")
-        await me.until(lambda: ticks(me) == {"timers", "callback-groups"}, "kept")
+        await me.until(lambda: ticks(me) == {"timers", "callback-groups"}, "saved")
 
-        # By the arrows from card to card.
-        order = [row.item.id for row in checklist(me).rows]
+        # With the arrow keys from card to card.
+        order = [row.item.id for row in checklist_screen(me).rows]
         for key, place in (("home", 0), ("right", 4), ("left", 0), ("end", -1), ("down", -1), ("left", -5), ("up", -6)):
             await me.press(key)
             assert me.app.focused is not None
             assert me.app.focused.id == f"item-{order[place]}", key
 
-        # What cannot be kept is not shown as kept.
+        # A tick that cannot be saved is not shown as saved.
         file = me.session.workspace.progress(print).path
         text = file.read_text()
         file.unlink()
-        file.mkdir()  # as good as a disk that is gone, for root too
+        file.mkdir()  # as good as a broken disk, even for root
         await me.press("space")
         await me.sees("Your progress could not be saved", "2 of 15 ticked")
         file.rmdir()
@@ -91,17 +91,17 @@ async def test_i_tick_what_i_can_do_and_it_is_kept_at_once(learner: Any) -> None
         await me.sees("2 of 15 ticked", "[✓] Call a function at a fixed period with a timer")
 
 
-async def test_beside_each_item_i_see_what_my_checks_have_shown(learner: Any) -> None:
+async def test_each_item_shows_the_evidence_from_checks(learner: Any) -> None:
     async with learner((180, 48)) as me:
-        attempt(me, "i2.1", "validation", "shutdown")
+        record_attempt(me, "i2.1", "validation", "shutdown")
         await me.press("6")
         await me.sees("✓ i2.1 validation passed, today", "1 shown by your checks")
         await me.sees("○ not yet shown by i2.1 runtime-params and timer")
         await me.sees("○ no check shows this: you are the judge")
-        assert "shutdown passed" not in me.screen()  # the skeleton passes that, too
-        assert "[ ] Refuse parameter values that make no sense" in me.screen()  # ticking is mine alone
+        assert "shutdown passed" not in me.screen()  # the skeleton passes it, too, so it shows nothing
+        assert "[ ] Refuse parameter values that make no sense" in me.screen()  # only the learner ticks items
 
-        # A check ends, and another terminal ticks something, while I look.
+        # While the checklist is open, a check ends, and another terminal ticks an item.
         lesson = me.session.course.find("i1.1")
         judged = tuple(CriterionResult(c.id, c.text, c.bonus, made.GOOD, 1.0) for c in lesson.criteria)
         await asyncio.to_thread(me.session.tick, "custom-messages", True)
@@ -109,7 +109,7 @@ async def test_beside_each_item_i_see_what_my_checks_have_shown(learner: Any) ->
         await me.sees("✓ i1.1 rate passed, today", "✓ i1.1 shutdown passed, today", "1 of 15 ticked")
 
 
-async def test_in_a_small_terminal_i_tick_the_last_item_and_am_told_what_comes_next(learner: Any) -> None:
+async def test_ticking_the_last_item_in_a_small_terminal_shows_what_comes_next(learner: Any) -> None:
     async with learner((80, 24)) as me:
         *most, last = (item.id for item in me.session.course.checklist.items)
         already = dict.fromkeys(most, now())
@@ -119,7 +119,7 @@ async def test_in_a_small_terminal_i_tick_the_last_item_and_am_told_what_comes_n
         await me.sees("Tick what you can do by now")
         await me.press("down", "enter")
         await me.sees("14 of 15 ticked", "Space Tick", "x Export", "Esc Back")
-        for row in checklist(me).rows:
+        for row in checklist_screen(me).rows:
             assert me.app.focused is row
             await me.sees(f"[{' ' if row.item.id == last else '✓'}] {row.item.text[:40]}")
             assert "Ready for Advanced?" not in me.screen()
@@ -127,7 +127,7 @@ async def test_in_a_small_terminal_i_tick_the_last_item_and_am_told_what_comes_n
         await me.press("space")
         await me.sees("15 of 15 ticked", "Ready for Advanced?", "Well done!", "URDF", "6 exercises are not passed yet")
         await me.sees("[✓] Say when two callbacks", "Esc Back")  # the banner hides neither the item nor the keys
-        await me.until(lambda: len(ticks(me)) == 15, "kept")
+        await me.until(lambda: len(ticks(me)) == 15, "saved")
         await me.press("x")
         await me.sees("Export the checklist", "(•) Markdown", "A new file in", "Enter exports")
         await me.press("enter")
@@ -139,14 +139,14 @@ async def test_in_a_small_terminal_i_tick_the_last_item_and_am_told_what_comes_n
         await me.until(lambda: "Ready for Advanced?" not in me.screen())
 
 
-async def test_i_export_in_each_format_and_no_file_is_replaced_unasked(learner: Any) -> None:
+async def test_each_format_is_exported_and_no_file_is_replaced_without_asking(learner: Any) -> None:
     async with learner((100, 30)) as me:
         root: Path = me.session.workspace.root
         page = root / "checklist.html"
         page.write_text("mine")
         await me.press("6")
         await me.sees("0 of 15 ticked")
-        await me.press("space", "x")  # the export has the tick, however soon it is asked for
+        await me.press("space", "x")  # the export has the tick, however soon it comes
         await me.sees("(•) Markdown", "checklist.md")
         await me.press("down")
         await me.sees("(•) JSON", "checklist.json")
@@ -162,14 +162,14 @@ async def test_i_export_in_each_format_and_no_file_is_replaced_unasked(learner: 
         await me.pilot.click("#yes")
         await me.sees("Replace the file?")
         await me.press("escape")
-        await me.sees("Export the checklist", "checklist.html")  # asked again: another name, perhaps
+        await me.sees("Export the checklist", "checklist.html")  # back in the dialog, perhaps to change the name
         assert page.read_text() == "mine"
         await me.press("enter")
         await me.sees("Replace the file?")
         await me.press("enter")
         await me.until(lambda: page.read_text().startswith("<!DOCTYPE html>"), "replaced")
 
-        # Another place.
+        # Another path.
         await me.until(lambda: isinstance(me.app.screen, ChecklistScreen), "back")
         await me.press("x")
         await me.sees("(•) Markdown")
@@ -180,7 +180,7 @@ async def test_i_export_in_each_format_and_no_file_is_replaced_unasked(learner: 
         await me.press("ctrl+u", *"y.json", "enter")
         await me.until(lambda: (root / "y.json").exists(), "written")
 
-        # A name that no disk takes.
+        # A name too long for any file system.
         await me.until(lambda: isinstance(me.app.screen, ChecklistScreen), "back")
         await me.press("x")
         await me.sees("(•) Markdown")
@@ -189,7 +189,7 @@ async def test_i_export_in_each_format_and_no_file_is_replaced_unasked(learner: 
         await me.sees("Your checklist could not be written")
 
 
-async def test_the_last_pass_leads_to_the_checklist_and_capital_x_exports_there_too(learner: Any) -> None:
+async def test_the_last_pass_leads_to_the_checklist_where_capital_x_exports_too(learner: Any) -> None:
     async with learner() as me:
         done = {lesson.id: ExerciseProgress(now(), (), Status.PASSED) for lesson in me.session.lessons[1:]}
         me.session.workspace.progress(print).change(
@@ -199,7 +199,7 @@ async def test_the_last_pass_leads_to_the_checklist_and_capital_x_exports_there_
         await me.sees("5 of 6 passed")
         await me.press("c")
         lesson = me.session.lessons[0]
-        await me.told(*made.started(), *made.whole(lesson, made.GOOD))
+        await me.engine_emits(*made.started_events(), *made.lesson_final_events(lesson, made.GOOD))
         await me.sees("Every exercise is passed now.", "Next: press 6 for the checklist")
         await me.press("6")
         await me.sees("of 15 ticked")

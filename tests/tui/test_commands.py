@@ -1,4 +1,4 @@
-"""The table of commands."""
+"""The command table."""
 
 from __future__ import annotations
 
@@ -12,5 +12,5 @@ async def test_every_command_has_a_handler(learner: Any) -> None:
         assert {me.main.can(command) for command in all_commands()} == {True, False}
 
 
-def test_every_command_is_listed_once_under_a_name_of_its_own() -> None:
+def test_command_names_are_unique() -> None:
     assert len(BY_NAME) == sum(len(group) for _, group in GROUPS)

@@ -1,4 +1,4 @@
-"""A check of the app that is killed with all that looks after it: what a learner's program has started comes to us."""
+"""When a check is killed together with its supervisor, orphans of the learner's program are reparented to the app."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tests.patience import seen_within
 from tutor.process.supervisor import processes
 from tutor.session.engine_child import EngineChild
 
-KILLED = """
+DAEMONIZES_AND_KILLS_ITSELF = """
 import os, signal, sys, time
 if os.fork() == 0:
     os.setsid()
@@ -27,8 +27,8 @@ os.kill(os.getpid(), signal.SIGKILL)
 """
 
 
-async def test_a_daemon_does_not_outlive_it(tmp_path: Path) -> None:
-    child = await EngineChild.start([sys.executable, "-I", "-S", "-c", KILLED], tmp_path)
+async def test_a_daemon_does_not_outlive_a_killed_check(tmp_path: Path) -> None:
+    child = await EngineChild.start([sys.executable, "-I", "-S", "-c", DAEMONIZES_AND_KILLS_ITSELF], tmp_path)
     assert await seen_within((tmp_path / "daemon").exists, 20)
     daemon = int((tmp_path / "daemon").read_text())
     assert await child.ended() == -9

@@ -10,7 +10,7 @@ import pytest
 from tests.tui import made
 
 
-async def test_start_puts_the_skeleton_there_and_shows_it(learner: Any) -> None:
+async def test_start_copies_the_skeleton_and_shows_it(learner: Any) -> None:
     async with learner() as me:
         await me.press("n", "2")
         await me.sees("server.py is not in your workspace yet")
@@ -20,7 +20,7 @@ async def test_start_puts_the_skeleton_there_and_shows_it(learner: Any) -> None:
         await me.until(lambda: "started" in me.screen().partition("Calculator Service")[2])
 
 
-async def test_a_file_that_was_put_there_by_hand_is_a_start(learner: Any) -> None:
+async def test_a_file_created_by_hand_counts_as_started(learner: Any) -> None:
     async with learner() as me:
         lesson = me.session.lessons[1]
         assert "new" in me.screen().partition("Calculator Service")[2]
@@ -30,7 +30,7 @@ async def test_a_file_that_was_put_there_by_hand_is_a_start(learner: Any) -> Non
         await me.until(lambda: "started" in me.screen().partition("Calculator Service")[2])
 
 
-async def test_start_never_touches_what_is_there(learner: Any) -> None:
+async def test_start_never_touches_an_existing_file(learner: Any) -> None:
     async with learner() as me:
         path: Path = me.session.path(me.session.lessons[0].files[0])
         path.write_text("mine = 1\n")
@@ -40,7 +40,7 @@ async def test_start_never_touches_what_is_there(learner: Any) -> None:
 
 
 @pytest.mark.parametrize("key", ["r", "c", "e", "E"])
-async def test_where_the_file_is_missing_the_start_is_offered(learner: Any, key: str) -> None:
+async def test_if_the_file_is_missing_the_app_offers_to_start_the_exercise(learner: Any, key: str) -> None:
     async with learner() as me:
         await me.press("n", key)
         await me.sees("server.py is not in your workspace yet, so there is", "Put the skeleton there?")
@@ -65,7 +65,7 @@ async def test_hints_come_one_by_one_and_are_remembered(learner: Any) -> None:
         await me.sees("hint 2 of 3")
 
 
-async def test_the_solution_is_shown_only_after_a_question(learner: Any) -> None:
+async def test_the_solution_is_shown_only_after_confirmation(learner: Any) -> None:
     async with learner() as me:
         await me.press("v")
         await me.sees("Show our solution all the same?")
@@ -77,13 +77,13 @@ async def test_the_solution_is_shown_only_after_a_question(learner: Any) -> None
         await me.until(lambda: "# the solution" not in me.screen())
 
 
-async def test_without_a_terminal_to_hand_over_the_editor_is_refused_in_words(learner: Any) -> None:
+async def test_without_a_terminal_to_hand_over_the_outside_editor_is_refused_with_a_message(learner: Any) -> None:
     async with learner() as me:
         await me.press("E")
         await me.sees("cannot be handed")
 
 
-async def test_damaged_progress_is_told_and_kept_aside(learner: Any) -> None:
+async def test_damaged_progress_is_reported_and_set_aside(learner: Any) -> None:
     async with learner() as me:
         file = me.session.workspace.root / ".ros-tutor" / "progress.json"
         file.write_text("{ not json")

@@ -1,9 +1,8 @@
-"""Names, values and lines that were made to break a screen: in each panel and dialog they are text and nothing else."""
+"""Names, values and lines crafted to break a screen: every panel and dialog shows them as plain text."""
 
 from __future__ import annotations
 
 import unicodedata
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -34,25 +33,25 @@ HOSTILE = (
 ALL = "".join(HOSTILE[:-1])
 
 
-def harmful(text: str) -> set[str]:
-    """What a terminal would obey, or could not be given."""
+def harmful_chars(text: str) -> set[str]:
+    """The characters that a terminal would obey, or that cannot be encoded."""
     return {char for char in text if unicodedata.category(char) in ("Cc", "Cs") or char in "\u202e\u2066"}
 
 
-def prove_harmless(me: Any) -> None:
+def assert_harmless(me: Any) -> None:
     width, _ = me.app.size
     for strip in me.app.screen._compositor.render_strips():
         text = strip.text
-        assert not harmful(text), repr(text)
+        assert not harmful_chars(text), repr(text)
         assert cell_len(text) == width, repr(text)
 
 
-def everything(name: str) -> tuple[Update, ...]:
+def hostile_updates(name: str) -> tuple[Update, ...]:
     node, topic = f"/{name}", f"/t/{name}"
-    ends = (TopicEndpoint(topic, name, node), TopicEndpoint(topic, "std_msgs/msg/String", node))
+    endpoints = (TopicEndpoint(topic, name, node), TopicEndpoint(topic, "std_msgs/msg/String", node))
     return (
         Ready(1),
-        Graph((node,), ends, ends, (ServiceEndpoint(f"/s/{name}", name, node),)),
+        Graph((node,), endpoints, endpoints, (ServiceEndpoint(f"/s/{name}", name, node),)),
         TopicUpdate(topic, name, QoS(), 1, 0, None, 0.1, f"data: {name}", (name,), name, ((1.0, 2.0), (2.0, 3.0))),
         TopicUpdate(topic, name, QoS(), 0, 0, None, None, problem=name),
         NodeParameters(node, True, (Parameter(node, name, "string", name), Parameter(node, f"z{name}", name, [name]))),
@@ -68,25 +67,25 @@ def everything(name: str) -> tuple[Update, ...]:
     )
 
 
-async def test_on_the_live_page(learner: Any) -> None:
+async def test_hostile_text_on_the_live_page(learner: Any) -> None:
     async with learner() as me:
         await me.press("4")
         pane = me.main.query_one(LivePane)
         for name in HOSTILE:
-            for update in everything(name):
+            for update in hostile_updates(name):
                 pane.post_message(LivePane.Arrived(update))
             await me.pilot.pause()
             for tab in TABS:
                 pane.open_tab(tab)
                 pane.focus_content()
                 await me.press("down", "enter")
-                prove_harmless(me)
+                assert_harmless(me)
                 await me.press("enter", "escape")
-            prove_harmless(me)
+            assert_harmless(me)
             me.app.clear_notifications()
 
 
-async def test_in_dialogs_and_notes(learner: Any) -> None:
+async def test_hostile_text_in_dialogs_and_notifications(learner: Any) -> None:
     async with learner() as me:
         for name in HOSTILE:
             file = LessonFile(name, True, Path(__file__), Path(__file__))
@@ -98,45 +97,44 @@ async def test_in_dialogs_and_notes(learner: Any) -> None:
             ):
                 await me.app.push_screen(screen)
                 await me.pilot.pause()
-                prove_harmless(me)
+                assert_harmless(me)
                 me.app.pop_screen()
             me.main.post_message(messages.ErrorOccurred(name))
             me.main.say(name)
             me.app.notify(name)
             me.session.notify(name)
             await me.sees("a")
-            prove_harmless(me)
+            assert_harmless(me)
             me.app.clear_notifications()
 
 
-async def test_in_the_log_the_terminal_and_the_code(learner: Any) -> None:
+async def test_hostile_text_in_the_log_the_terminal_and_the_code(learner: Any) -> None:
     async with learner() as me:
-        said = ALL.replace("\ud800", "")
-        comment = said.translate(dict.fromkeys(map(ord, "\0\n\r")))
-        me.session.path(me.session.lessons[0].files[0]).write_text(f"# {comment}\nprint({said!r})\n")
-        (me.session.workspace.root / "all.txt").write_text(said)
+        printed = ALL.replace("\ud800", "")
+        comment = printed.translate(dict.fromkeys(map(ord, "\0\n\r")))
+        me.session.path(me.session.lessons[0].files[0]).write_text(f"# {comment}\nprint({printed!r})\n")
+        (me.session.workspace.root / "all.txt").write_text(printed)
         await me.press("2")
         await me.pilot.pause()
-        prove_harmless(me)
+        assert_harmless(me)
         await me.press("r", "3")
         await me.sees("gain")
-        prove_harmless(me)
+        assert_harmless(me)
         await me.press("7")
-        await me.types(f"cat {me.session.workspace.root}/all.txt\n")
+        await me.type_text(f"cat {me.session.workspace.root}/all.txt\n")
         await me.sees("gain")
-        prove_harmless(me)
+        assert_harmless(me)
 
 
-async def test_in_a_verdict_and_the_attempts(learner: Any) -> None:
+async def test_hostile_text_in_a_verdict_and_the_attempts(learner: Any) -> None:
     verdict = failed(ALL, ALL, Cause(ALL, ALL, ALL), [*HOSTILE, ALL])
-    ending = [replace(each) for each in made.ending(verdict)]
     async with learner() as me:
         await me.press("c")
-        await me.told(*made.started(), made.doing("rate", 0.5, ALL.replace("\ud800", "")))
+        await me.engine_emits(*made.started_events(), made.progress_event("rate", 0.5, ALL.replace("\ud800", "")))
         await me.press("5")
-        prove_harmless(me)
-        await me.told(*ending)
+        assert_harmless(me)
+        await me.engine_emits(*made.final_events(verdict))
         await me.sees("2 of 3")
         for key in ("down", "down", "i", "a"):
             await me.press(key)
-            prove_harmless(me)
+            assert_harmless(me)

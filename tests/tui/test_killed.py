@@ -1,4 +1,4 @@
-"""The app, killed: in a terminal of its own, with real nodes and checks. Nothing is left behind, nothing is lost."""
+"""Killing the app in a real terminal, with real nodes and checks: nothing is left behind, and nothing is lost."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from tutor.workspace import Progress, Workspace, start
 APP = "import sys; from tutor.cli import main; sys.exit(main())"
 LIMIT_S = 40.0
 GONE_S = 10.0
-"""A check that went on to its end would take longer."""
+"""Time for all processes to end. A check that ran to completion would take longer."""
 
 
-class Killed:
-    """A learner who has passed the first exercise, and their app."""
+class KillableApp:
+    """The app of a learner who has passed the first exercise, in a terminal of its own."""
 
     def __init__(self, folder: Path, domain: int) -> None:
         self.known: set[int] = set()
@@ -38,7 +38,7 @@ class Killed:
         start(lesson, self.workspace)
         self.file = self.workspace.path_of(lesson.files[0].name)
         self.file.write_bytes(lesson.files[0].solution.read_bytes())
-        passed = made.whole(lesson, made.GOOD)[-2]
+        passed = made.lesson_final_events(lesson, made.GOOD)[-2]
         assert isinstance(passed, ExerciseJudged)
         self.before = self.workspace.progress().change(
             lambda progress: progress.with_attempt(passed.result, whole=True)
@@ -50,38 +50,38 @@ class Killed:
         self.app.until(b"1 of 6 passed")
 
     def running(self) -> dict[int, str]:
-        """The living processes of this app, itself too, by what started them."""
+        """The live processes of this app, including itself: each pid with its command line."""
         self.known |= {self.app.pid, *(process.pid for process in descendants(self.app.pid))}
         found = {}
         for pid, process in processes().items():
             try:
-                if process.alive and (pid in self.known or self.bears_token(pid)):
+                if process.alive and (pid in self.known or self.has_token(pid)):
                     found[pid] = Path(f"/proc/{pid}/cmdline").read_bytes().replace(b"\0", b" ").decode()
             except OSError:
                 continue
         return found
 
-    def bears_token(self, pid: int) -> bool:
-        """Whether it has our token in its environment, which those of our own do not let everybody read."""
+    def has_token(self, pid: int) -> bool:
+        """Whether a process has our token in its environment. Some programs of ours do not let others read theirs."""
         try:
             return self.token.encode() in Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
         except PermissionError:
             return False
 
     def runs(self, *parts: str) -> bool:
-        """Whether there is a process for each of these."""
+        """Whether each of these parts occurs in the command line of a live process."""
         running = self.running().values()
         return all(any(part in line for line in running) for part in parts)
 
-    def until(self, true: Callable[[], bool], what: str) -> None:
-        """Wait until this is so; the app draws meanwhile."""
+    def until(self, condition: Callable[[], bool], what: str) -> None:
+        """Wait until the condition holds, and meanwhile read what the app draws."""
         deadline = time.monotonic() + LIMIT_S
-        while not true():
+        while not condition():
             assert time.monotonic() < deadline, f"waited in vain for {what}; there are {self.running()}"
             self.app.read(0.02)
 
-    def is_killed(self) -> None:
-        """Kill the app, and wait until no process of it is left."""
+    def kill_app(self) -> None:
+        """Kill the app, and wait until none of its processes is left."""
         self.app.kill()
         deadline = time.monotonic() + GONE_S
         while left := self.running():
@@ -89,7 +89,7 @@ class Killed:
             time.sleep(0.01)
 
     def progress(self) -> Progress:
-        """What the progress file holds; a damaged one fails the test."""
+        """The content of the progress file. A damaged one fails the test."""
         return self.workspace.progress(pytest.fail).read()
 
     def close(self) -> None:
@@ -99,18 +99,18 @@ class Killed:
 
 
 @pytest.fixture
-def learner(tmp_path: Path) -> Iterator[Killed]:
+def learner(tmp_path: Path) -> Iterator[KillableApp]:
     with users_domain() as domain:
-        learner = Killed(tmp_path, domain)
+        learner = KillableApp(tmp_path, domain)
         try:
             yield learner
         finally:
             learner.close()
 
 
-def test_while_the_node_runs_and_is_watched_with_an_edit_on_its_way(learner: Killed) -> None:
+def test_killed_while_a_node_is_watched_and_an_edit_is_pending(learner: KillableApp) -> None:
     learner.app.press(b"4")
-    learner.until(lambda: learner.runs("tutor.live"), "the watching process")
+    learner.until(lambda: learner.runs("tutor.live"), "the watcher process")
     learner.app.press(b"r")
     learner.app.until(b"publishes 2.0")
     assert learner.runs("temperature_publisher.py", "tutor.live")
@@ -118,12 +118,12 @@ def test_while_the_node_runs_and_is_watched_with_an_edit_on_its_way(learner: Kil
     learner.app.press(b"e")
     learner.app.until(b"Commands")
     learner.app.press(b"# new")
-    learner.is_killed()
+    learner.kill_app()
     assert learner.file.read_text() in (whole, "# new" + whole)
     assert learner.progress() == learner.before
 
 
-def test_while_a_check_runs_right_after_a_save(learner: Killed) -> None:
+def test_killed_during_a_check_right_after_a_save(learner: KillableApp) -> None:
     whole = learner.file.read_text()
     learner.app.press(b"e")
     learner.app.until(b"Commands")
@@ -131,45 +131,45 @@ def test_while_a_check_runs_right_after_a_save(learner: Killed) -> None:
     learner.app.until(b"is saved.")
     learner.app.press(b"\x1b[20~")  # F9
     learner.until(lambda: learner.runs("tutor.engine", "temperature_publisher.py"), "the check's nodes")
-    learner.is_killed()
+    learner.kill_app()
     assert learner.file.read_text() == "# new\n" + whole
     assert learner.progress() == learner.before
 
 
-@pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM])
-def test_asked_to_end_it_ends_its_nodes_by_ctrl_c_and_leaves_no_shared_memory(
-    learner: Killed, number: signal.Signals
+@pytest.mark.parametrize("signum", [signal.SIGHUP, signal.SIGTERM])
+def test_a_termination_signal_interrupts_its_nodes_and_leaves_no_shared_memory(
+    learner: KillableApp, signum: signal.Signals
 ) -> None:
     ended = learner.file.with_name("ended")
     text = f"import atexit, pathlib\natexit.register(pathlib.Path({str(ended)!r}).touch)\n"
     learner.file.write_text(text + learner.file.read_text().partition("\n")[2])
     learner.app.press(b"4")
-    learner.until(lambda: learner.runs("tutor.live"), "the watching process")
+    learner.until(lambda: learner.runs("tutor.live"), "the watcher process")
     learner.app.press(b"r")
     learner.app.until(b"publishes 2.0")
     segments = [path for pid in learner.running() for path in segments_of(pid)]
     assert segments
-    if number == signal.SIGHUP:
-        learner.app.detach()  # the window is closed: this sends it
+    if signum == signal.SIGHUP:
+        learner.app.detach()  # closing the terminal sends SIGHUP
     else:
-        os.kill(learner.app.pid, number)
+        os.kill(learner.app.pid, signum)
     assert learner.app.ended(LIMIT_S)
     assert ended.exists()
     assert not [path for path in segments if path.exists()]
 
 
 def segments_of(pid: int) -> set[Path]:
-    """What a process has mapped of Fast DDS's shared memory that has a name of its own."""
+    """The uniquely named shared memory segments of Fast DDS that a process has mapped."""
     maps = Path(f"/proc/{pid}/maps").read_text()
     return {Path(name) for name in re.findall(r"/dev/shm/fastrtps_[0-9a-f]{16}$", maps, re.MULTILINE)}
 
 
-def test_the_moment_a_save_or_a_check_begins(learner: Killed) -> None:
+def test_killed_the_moment_a_save_or_a_check_begins(learner: KillableApp) -> None:
     whole = learner.file.read_text()
     learner.app.press(b"e")
     learner.app.until(b"Commands")
     learner.app.press(b"# new\r\x13\x1b[20~")
     learner.until(lambda: learner.file.read_text() != whole, "the save")
-    learner.is_killed()
+    learner.kill_app()
     assert learner.file.read_text() == "# new\n" + whole
     assert learner.progress() == learner.before

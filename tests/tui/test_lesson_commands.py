@@ -1,4 +1,4 @@
-"""Which commands a lesson's text shows."""
+"""Extracting the commands from a lesson's text, and running them."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ $ ros2 topic list
 """
 
 
-def test_commands_are_in_shell_examples_only_and_each_is_one_line() -> None:
+def test_commands_come_from_shell_examples_only_and_each_is_joined_into_one_line() -> None:
     assert commands_in(TEXT) == (
         "ros2 topic list",
         "python3 node.py --ros-args -p rate:=5.0 -p name:='a # b'",
@@ -39,7 +39,7 @@ def test_commands_are_in_shell_examples_only_and_each_is_one_line() -> None:
     )
 
 
-def test_each_line_of_an_example_leads_to_its_command() -> None:
+def test_each_line_of_an_example_maps_to_its_command() -> None:
     example = "one \\\n  more\ntwo # why\n"
     assert [command_at(example, line) for line in range(4)] == ["one more", "one more", "two", ""]
 
@@ -57,7 +57,7 @@ def test_history_goes_back_and_returns_to_the_draft() -> None:
     assert History().older("x") == "x"
 
 
-def test_programs_write_as_on_a_terminal_but_the_nodes_of_a_launch_do_not() -> None:
+def test_programs_run_unbuffered_but_launch_files_do_not() -> None:
     shell = Shell({}, Path("/"))
     assert shell.command("python3 node.py").env["PYTHONUNBUFFERED"] == "1"
     assert shell.command("ros2 run my_package talker").env["PYTHONUNBUFFERED"] == "1"

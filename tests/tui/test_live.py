@@ -1,4 +1,4 @@
-"""The live page, by key and mouse, on real nodes."""
+"""The live page, driven by keyboard and mouse, with real nodes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from itertools import pairwise
 
 import pytest
 from textual.color import Color
-from textual.pilot import Pilot
 
 from tests.live.world import METRONOME, THERMOMETER, LiveApp, World, world
 from tests.tui.person import Person
@@ -24,33 +23,29 @@ from tutor.tui.live.topics_panel import TopicsPanel
 
 
 class Watcher(Person[LiveApp]):
-    """Somebody in front of the live page."""
+    """Drives the live page."""
 
     limit_s = 30.0
 
-    def __init__(self, app: LiveApp, pilot: Pilot[int], around: World) -> None:
-        super().__init__(app, pilot)
-        self.around = around
-
     async def open_tab(self, tab: str) -> None:
         await self.pilot.click("#live-tabs", offset=(self.screen().splitlines()[0].index(tab) + 1, 0))
-        await self.until(lambda: tab in self.marked(), f"{tab} marked among the tabs")
+        await self.until(lambda: tab in self.bold_tab(), f"{tab} marked among the tabs")
 
-    def marked(self) -> str:
-        """What is written in bold in the line of the tabs."""
+    def bold_tab(self) -> str:
+        """The bold text in the row of tabs, which marks the open one."""
         line = self.app.screen._compositor.render_strips()[0]
         return "".join(segment.text for segment in line if segment.style and segment.style.bold)
 
     def topics(self) -> TopicsPanel:
         return self.app.pane.query_one(TopicsPanel)
 
-    def count(self) -> int:
+    def message_count(self) -> int:
         view = self.topics().view
         return view.update.count if view and view.update else 0
 
 
 @pytest.fixture(scope="module")
-def warm() -> Iterator[World]:
+def thermometer_world() -> Iterator[World]:
     """A domain with the thermometer on it."""
     with world() as around:
         around.run(THERMOMETER)
@@ -58,7 +53,7 @@ def warm() -> Iterator[World]:
 
 
 @pytest.fixture
-def cold() -> Iterator[World]:
+def empty_world() -> Iterator[World]:
     """A domain with nothing on it."""
     with world() as around:
         yield around
@@ -69,13 +64,13 @@ async def watching(around: World, size: tuple[int, int] = (80, 20)) -> AsyncIter
     app = LiveApp(around)
     async with app.run_test(size=size, notifications=True) as pilot:
         try:
-            yield Watcher(app, pilot, around)
+            yield Watcher(app, pilot)
         finally:
             await app.pane.close_down()
 
 
-async def test_a_topic_is_followed_with_enter_and_shown_as_echo_writes_it_with_numbers_and_a_plot(warm: World) -> None:
-    async with watching(warm) as me:
+async def test_a_topic_followed_with_enter_shows_its_echo_statistics_and_a_plot(thermometer_world: World) -> None:
+    async with watching(thermometer_world) as me:
         await me.sees("Topics 3", "/sensor/temperature", "std_msgs/Float64", "1 node")
         await me.press("down", "down")
         await me.sees("Not followed: press Enter")
@@ -86,19 +81,19 @@ async def test_a_topic_is_followed_with_enter_and_shown_as_echo_writes_it_with_n
         await me.sees("Not followed: press Enter")
 
 
-async def test_a_paused_topic_stands_still_and_is_counted_all_the_same(
-    warm: World, monkeypatch: pytest.MonkeyPatch
+async def test_a_paused_topic_freezes_its_view_and_keeps_counting(
+    thermometer_world: World, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     counts: list[int] = []
-    hear = TopicView.receive
+    receive = TopicView.receive
 
-    def heard(view: TopicView, update: TopicUpdate, now: float) -> None:
+    def count_and_receive(view: TopicView, update: TopicUpdate, now: float) -> None:
         counts.append(update.count)
-        hear(view, update, now)
+        receive(view, update, now)
 
-    monkeypatch.setattr(TopicView, "receive", heard)
-    async with watching(warm) as me:
-        await me.sees("Topics 3", "/cmd_vel")  # all three: else the rows still move
+    monkeypatch.setattr(TopicView, "receive", count_and_receive)
+    async with watching(thermometer_world) as me:
+        await me.sees("Topics 3", "/cmd_vel")  # all three: until then, the rows still move
         await me.pilot.click("#topics-table", offset=(5, 2))
         await me.until(lambda: me.topics().chosen == "/cmd_vel")
         await me.sees("Not followed", "Enter Follow")
@@ -106,53 +101,55 @@ async def test_a_paused_topic_stands_still_and_is_counted_all_the_same(
         await me.sees("linear:", "angular:")
         await me.press("space")
         await me.sees("▮▮ paused", "Go on")
-        before = me.count()
-        await me.until(lambda: me.count() > before + 10)
+        before = me.message_count()
+        await me.until(lambda: me.message_count() > before + 10)
         await me.pilot.click("#topic-actions", offset=(3, 0))
         await me.sees_no("paused")
         await me.press("x")
-        await me.until(lambda: counts[-1] > 0 and any(after < former for former, after in pairwise(counts)), "again")
+        await me.until(
+            lambda: counts[-1] > 0 and any(after < former for former, after in pairwise(counts)), "counting restarts"
+        )
 
 
-async def test_what_comes_while_another_tab_is_open_is_in_the_list_when_i_am_back(cold: World) -> None:
-    async with watching(cold) as me:
+async def test_messages_received_while_another_tab_is_open_are_in_the_list_afterwards(empty_world: World) -> None:
+    async with watching(empty_world) as me:
         await me.sees("No node runs")
         me.topics().follow("/ticks")
-        cold.run(METRONOME, "100", "300")
+        empty_world.run(METRONOME, "100", "300")
         await me.sees("/ticks", " messages · ")
         await me.press("right_square_bracket")
         await me.sees("Allowed")
-        await me.until(lambda: me.count() == 300, "all have come")
+        await me.until(lambda: me.message_count() == 300, "all have arrived")
         await me.press("left_square_bracket")
         await me.sees("300 messages · ")
         await me.until(lambda: any("/ticks" in line and " 300 " in line for line in me.screen().splitlines()))
 
 
-async def test_the_cursor_of_a_list_shows_whether_the_keys_go_to_it_also_when_that_changed_unseen(warm: World) -> None:
-    async with watching(warm) as me:
+async def test_the_cursor_of_a_list_shows_its_focus_even_if_that_changed_while_hidden(thermometer_world: World) -> None:
+    async with watching(thermometer_world) as me:
         blurred, focused = (
             Color.parse(me.app.theme_variables[name]).rich_color.triplet
             for name in ("block-cursor-blurred-background", "block-cursor-background")
         )
 
-        def cursor() -> object:
+        def cursor_color() -> object:
             line = next(strip for strip in me.app.screen._compositor.render_strips() if "/cmd_vel" in strip.text)
             segment = next(segment for segment in line if "/cmd_vel" in segment.text)
             return segment.style and segment.style.bgcolor and segment.style.bgcolor.triplet
 
         await me.sees("Topics 3", "/cmd_vel")
         await me.press("down")
-        await me.until(lambda: cursor() == focused, "the list has the focus")
+        await me.until(lambda: cursor_color() == focused, "the list has the focus")
         await me.press("right_square_bracket")
         await me.sees("Allowed")
         await me.open_tab("Topics")
-        await me.until(lambda: cursor() == blurred, "the tabs have it")
+        await me.until(lambda: cursor_color() == blurred, "the tabs have the focus")
         await me.press("tab")
-        await me.until(lambda: cursor() == focused, "the list has it again")
+        await me.until(lambda: cursor_color() == focused, "the list has the focus again")
 
 
-async def test_any_numeric_field_can_be_plotted(warm: World) -> None:
-    async with watching(warm) as me:
+async def test_any_numeric_field_can_be_plotted(thermometer_world: World) -> None:
+    async with watching(thermometer_world) as me:
         await me.sees("/cmd_vel")
         me.topics().follow("/cmd_vel")
         await me.sees("linear.x = ", "1 of 6")
@@ -164,8 +161,8 @@ async def test_any_numeric_field_can_be_plotted(warm: World) -> None:
         await me.sees("5 s ago")
 
 
-async def test_the_lessons_topic_and_service_are_chosen_by_themselves(warm: World) -> None:
-    async with watching(warm) as me:
+async def test_the_lessons_topic_and_service_are_selected_automatically(thermometer_world: World) -> None:
+    async with watching(thermometer_world) as me:
         me.app.pane.show_for(load_course().find("i1.1"))
         await me.sees("/sensor/temperature", "data: 2")
         me.app.pane.show_for(load_course().find("i1.3"))
@@ -173,8 +170,8 @@ async def test_the_lessons_topic_and_service_are_chosen_by_themselves(warm: Worl
         await me.sees("/add  example_interfaces/AddTwoInts", "a int64", "b int64")
 
 
-async def test_a_parameter_is_set_in_the_table_and_what_the_node_says_is_kept(warm: World) -> None:
-    async with watching(warm) as me:
+async def test_a_parameter_is_set_in_the_table_and_the_nodes_response_is_kept(thermometer_world: World) -> None:
+    async with watching(thermometer_world) as me:
         await me.sees("Parameters 5")
         await me.open_tab("Parameters")
         await me.sees("publish_rate", "0.1 to 50", "read-only")
@@ -193,12 +190,12 @@ async def test_a_parameter_is_set_in_the_table_and_what_the_node_says_is_kept(wa
         await me.sees("serial is read-only")
 
 
-async def test_a_parameter_that_the_node_changes_itself_is_shown_again(warm: World) -> None:
-    async with watching(warm) as me:
+async def test_a_parameter_that_the_node_changes_itself_is_updated(thermometer_world: World) -> None:
+    async with watching(thermometer_world) as me:
         await me.sees("Services 2")
         await me.open_tab("Parameters")
         await me.sees("calls")
-        held = {each.name: each.value for each in me.app.pane.state.listed_parameters()}
+        before = {each.name: each.value for each in me.app.pane.state.listed_parameters()}
         await me.open_tab("Services")
         me.app.pane.focus_content()
         await me.press("enter")
@@ -207,13 +204,16 @@ async def test_a_parameter_that_the_node_changes_itself_is_shown_again(warm: Wor
         await me.sees("sum: 0")
         await me.open_tab("Parameters")
         await me.until(
-            lambda: {e.name: e.value for e in me.app.pane.state.listed_parameters()}["calls"] == held["calls"] + 1
+            lambda: (
+                {each.name: each.value for each in me.app.pane.state.listed_parameters()}["calls"]
+                == before["calls"] + 1
+            )
         )
         await me.sees("calls")
 
 
-async def test_a_service_is_called_by_its_form_and_the_answer_has_its_time(warm: World) -> None:
-    async with watching(warm) as me:
+async def test_a_service_is_called_by_its_form_and_the_response_time_is_shown(thermometer_world: World) -> None:
+    async with watching(thermometer_world) as me:
         await me.sees("Services 2")
         await me.open_tab("Services")
         me.app.pane.focus_content()
@@ -225,8 +225,8 @@ async def test_a_service_is_called_by_its_form_and_the_answer_has_its_time(warm:
         await me.sees("✓", "/add a=4, b=38", "answered in", "sum: 42")
 
 
-async def test_a_slow_call_holds_nothing_up_and_can_be_cancelled(warm: World) -> None:
-    async with watching(warm) as me:
+async def test_a_slow_call_blocks_nothing_and_can_be_cancelled(thermometer_world: World) -> None:
+    async with watching(thermometer_world) as me:
         await me.sees("Services 2")
         await me.open_tab("Services")
         me.app.pane.focus_content()
@@ -242,9 +242,11 @@ async def test_a_slow_call_holds_nothing_up_and_can_be_cancelled(warm: World) ->
         await me.sees("■", "cancelled after")
 
 
-async def test_a_call_without_an_answer_says_so(warm: World, monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_a_call_without_a_response_times_out_with_a_message(
+    thermometer_world: World, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(services_panel, "LIMIT_S", 0.5)
-    async with watching(warm) as me:
+    async with watching(thermometer_world) as me:
         await me.sees("Services 2")
         panel = me.app.pane.query_one(ServicesPanel)
         await me.open_tab("Services")
@@ -255,76 +257,78 @@ async def test_a_call_without_an_answer_says_so(warm: World, monkeypatch: pytest
 
 
 @pytest.mark.parametrize("size", [(80, 20), (120, 40)])
-async def test_the_graph_says_in_words_why_two_are_not_connected(warm: World, size: tuple[int, int]) -> None:
-    async with watching(warm, size) as me:
+async def test_the_graph_explains_why_two_nodes_are_not_connected(
+    thermometer_world: World, size: tuple[int, int]
+) -> None:
+    async with watching(thermometer_world, size) as me:
         await me.sees("Graph ✗ 1")
         await me.open_tab("Graph")
         await me.sees("──✗", "not connected", "reliability best_effort", "──▶")
 
 
-async def test_where_nothing_runs_the_page_says_what_to_do_and_nodes_come_and_go(cold: World) -> None:
-    async with watching(cold) as me:
-        await me.sees(f"No node runs in domain {cold.domain}: press r to run yours")
+async def test_on_an_empty_domain_the_page_says_what_to_do_and_nodes_come_and_go(empty_world: World) -> None:
+    async with watching(empty_world) as me:
+        await me.sees(f"No node runs in domain {empty_world.domain}: press r to run yours")
         me.app.pane.show_for(load_course().find("i1.1"))
-        node = await asyncio.to_thread(cold.run, THERMOMETER)
+        node = await asyncio.to_thread(empty_world.run, THERMOMETER)
         await me.sees("data: 2", "1 node")
-        await asyncio.to_thread(cold.interrupt, node)
+        await asyncio.to_thread(empty_world.interrupt, node)
         await me.sees("No node runs in domain", "silent for", "0 nodes")
 
 
-async def test_what_my_node_publishes_is_followed_and_shown_by_itself_and_stays_away_once_i_unfollowed_it(
-    cold: World,
+async def test_my_nodes_topic_is_followed_automatically_but_not_once_it_was_unfollowed(
+    empty_world: World,
 ) -> None:
-    async with watching(cold) as me:
+    async with watching(empty_world) as me:
         await me.sees("No node runs")
         me.app.pane.show_for(load_course().find("i1.1"))
         me.app.pane.nodes_run(True)
-        await asyncio.to_thread(cold.run, METRONOME, "5", "1000")
+        await asyncio.to_thread(empty_world.run, METRONOME, "5", "1000")
         await me.sees("/ticks  std_msgs/", "messages · ", "Hz")
         await me.press("delete")
         await me.sees("Not followed: press Enter")
-        await asyncio.to_thread(cold.run, THERMOMETER)
+        await asyncio.to_thread(empty_world.run, THERMOMETER)
         await me.sees("/cmd_vel")
         assert "/ticks" not in me.app.pane.state.topics
         assert "/sensor/temperature" in me.app.pane.state.topics
 
 
-async def test_a_name_that_is_almost_the_one_asked_for_is_told_with_the_node_that_has_it(cold: World) -> None:
-    async with watching(cold, (120, 24)) as me:
+async def test_a_misspelled_topic_name_is_reported_with_its_node(empty_world: World) -> None:
+    async with watching(empty_world, (120, 24)) as me:
         await me.sees("No node runs")
         me.app.pane.show_for(load_course().find("i1.1"))
-        slip = ("--ros-args", "-r", "/sensor/temperature:=/sensor/temprature")
-        node = await asyncio.to_thread(cold.run, THERMOMETER, "20", *slip)
+        misspelling = ("--ros-args", "-r", "/sensor/temperature:=/sensor/temprature")
+        node = await asyncio.to_thread(empty_world.run, THERMOMETER, "20", *misspelling)
         await me.sees("/thermometer publishes /sensor/temprature; the exercise asks for /sensor/temperature. Did you")
         me.app.pane.show_for(load_course().find("i1.3"))
         await me.sees_no("Did you mean")
         me.app.pane.show_for(load_course().find("i1.1"))
         await me.sees("Did you mean")
-        await asyncio.to_thread(cold.interrupt, node)
+        await asyncio.to_thread(empty_world.interrupt, node)
         await me.sees_no("Did you mean")
 
 
-async def test_topics_of_a_lesson_that_i_left_go_with_the_node_that_published_them(cold: World) -> None:
-    async with watching(cold) as me:
+async def test_topics_of_a_previous_lesson_disappear_with_their_publisher(empty_world: World) -> None:
+    async with watching(empty_world) as me:
         me.app.pane.show_for(load_course().find("i1.1"))
-        node = await asyncio.to_thread(cold.run, THERMOMETER)
+        node = await asyncio.to_thread(empty_world.run, THERMOMETER)
         await me.sees("data: 2")
         me.app.pane.show_for(load_course().find("i1.2"))
         await me.until(lambda: me.topics().chosen == "/chatter")
         await me.sees("/sensor/temperature")
-        await asyncio.to_thread(cold.interrupt, node)
+        await asyncio.to_thread(empty_world.interrupt, node)
         await me.sees_no("/sensor/temperature")
         await me.sees("No node runs")
 
 
-async def test_the_echo_keeps_what_came_to_be_scrolled_back_to(cold: World) -> None:
-    async with watching(cold) as me:
+async def test_the_echo_keeps_messages_to_scroll_back_to(empty_world: World) -> None:
+    async with watching(empty_world) as me:
         await me.sees("No node runs")
         me.topics().follow("/ticks")
-        await asyncio.to_thread(cold.run, METRONOME, "4", "12")
+        await asyncio.to_thread(empty_world.run, METRONOME, "4", "12")
         echo = me.topics().query_one(EchoView)
-        await me.until(lambda: me.count() == 12, "all have come")
-        await me.until(lambda: echo.plain.count("---") >= 10, "and are kept")
+        await me.until(lambda: me.message_count() == 12, "all have arrived")
+        await me.until(lambda: echo.plain.count("---") >= 10, "all are kept")
         await me.until(lambda: echo.is_vertical_scroll_end, "the newest is shown")
         echo.focus()
         await me.press("home")
@@ -334,27 +338,27 @@ async def test_the_echo_keeps_what_came_to_be_scrolled_back_to(cold: World) -> N
         await me.until(lambda: echo.is_vertical_scroll_end)
 
 
-async def test_the_plot_marks_its_samples_and_shows_the_values_that_are_asked_for(cold: World) -> None:
-    async with watching(cold, (120, 30)) as me:
+async def test_the_plot_marks_its_samples_and_the_required_range(empty_world: World) -> None:
+    async with watching(empty_world, (120, 30)) as me:
         me.app.pane.show_for(load_course().find("i1.1"))
-        await asyncio.to_thread(cold.run, THERMOMETER, "2")
+        await asyncio.to_thread(empty_world.run, THERMOMETER, "2")
         await me.sees("asked: 20 to 30", "•", "╌╌╌", "30┤", "20┤")
 
 
-async def test_watching_that_breaks_is_told_and_can_begin_again(cold: World) -> None:
-    async with watching(cold) as me:
+async def test_a_dead_watcher_is_reported_and_can_be_restarted(empty_world: World) -> None:
+    async with watching(empty_world) as me:
         await me.sees("No node runs")
         child = me.app.pane._child
         assert child is not None
         child.kill()
         await me.sees("Nothing is watched", "! not watching")
         await me.until(lambda: bool(me.app.told), "a toast")
-        me.app.pane.start_watching(cold.command)
+        me.app.pane.start_watching(empty_world.command)
         await me.sees("No node runs")
 
 
-async def test_the_app_leaves_at_once_and_nothing_of_it_is_left(cold: World) -> None:
-    app = LiveApp(cold)
+async def test_the_app_quits_at_once_and_leaves_no_watcher_process(empty_world: World) -> None:
+    app = LiveApp(empty_world)
     async with app.run_test() as pilot:
         while app.pane._child is None:
             await pilot.pause(0.02)

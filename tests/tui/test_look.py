@@ -1,4 +1,4 @@
-"""Opening the app, looking around, and the shape of the screen."""
+"""Opening the app, navigation, and the layout of the screen."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SIZES = [(120, 36), (80, 24)]
 
 
 @pytest.mark.parametrize("size", SIZES)
-async def test_a_new_learner_is_told_where_the_work_will_be_and_begins_with_enter(learner: Any, size: Any) -> None:
+async def test_the_welcome_screen_says_where_the_work_will_be_and_enter_begins(learner: Any, size: Any) -> None:
     async with learner(size, started=False) as me:
         await me.sees("Learn ROS 2", "Your work will be in", "Press Enter")
         assert not me.session.workspace.exists
@@ -35,7 +35,7 @@ async def test_a_new_learner_is_told_where_the_work_will_be_and_begins_with_ente
 
 async def test_the_workspace_can_be_elsewhere_and_is_found_the_next_time(learner: Any, tmp_path: Path) -> None:
     async with learner((80, 24), started=False) as me:
-        usual, other = me.session.workspace.root, tmp_path / "elsewhere"
+        default, other = me.session.workspace.root, tmp_path / "elsewhere"
         (tmp_path / "file").touch()
         await me.sees("Your work will be in")
         await me.press("f", "ctrl+u")
@@ -50,10 +50,10 @@ async def test_the_workspace_can_be_elsewhere_and_is_found_the_next_time(learner
         await me.press("enter")
         await me.sees("I1.1  Sensor Publisher", "Objective")
         assert me.file.is_relative_to(other)
-        assert usual.resolve() == other
+        assert default.resolve() == other
 
 
-async def test_anyone_who_leaves_the_welcome_screen_has_no_workspace(learner: Any) -> None:
+async def test_quitting_the_welcome_screen_creates_no_workspace(learner: Any) -> None:
     async with learner(started=False) as me:
         await me.sees("Your work will be in")
         await me.press("q")
@@ -61,7 +61,7 @@ async def test_anyone_who_leaves_the_welcome_screen_has_no_workspace(learner: An
         assert not me.session.workspace.exists
 
 
-async def test_the_lessons_show_difficulty_and_standing_in_words(learner: Any) -> None:
+async def test_the_list_of_lessons_shows_difficulty_and_progress_in_words(learner: Any) -> None:
     async with learner() as me:
         await me.sees(
             "I1.1 Sensor Publisher", "●○○ easy", "started", "●●○ medium", "●●● challenge", "new", "0 of 3 passed"
@@ -99,7 +99,7 @@ async def test_in_a_small_terminal_the_lessons_are_a_drawer_and_the_criteria_a_t
         await me.sees("The publishing rate can be set with a parameter")
 
 
-async def test_the_panels_unfold_when_the_terminal_grows_and_fold_again(learner: Any) -> None:
+async def test_the_panels_unfold_when_the_terminal_grows_and_fold_when_it_shrinks(learner: Any) -> None:
     async with learner((80, 24)) as me:
         await me.press("5")
         await me.pilot.resize_terminal(120, 36)
@@ -118,13 +118,13 @@ def test_the_layout_follows_the_size() -> None:
     assert layout_for(200, 50) == Layout(True, Criteria.BESIDE)
 
 
-async def test_the_focus_moves_its_frame_and_leaves_the_text_and_the_keys_alone(
+async def test_moving_the_focus_restyles_frames_but_neither_text_nor_footer_keys(
     learner: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     styled: list[object] = []
     apply = Stylesheet.apply
 
-    def noted(sheet: Stylesheet, node: Any, **options: Any) -> None:
+    def record_and_apply(sheet: Stylesheet, node: Any, **options: Any) -> None:
         styled.append(node)
         apply(sheet, node, **options)
 
@@ -135,7 +135,7 @@ async def test_the_focus_moves_its_frame_and_leaves_the_text_and_the_keys_alone(
         frame = pages.styles.border_bottom
         assert texts
         assert keys
-        monkeypatch.setattr(Stylesheet, "apply", noted)
+        monkeypatch.setattr(Stylesheet, "apply", record_and_apply)
         while not criteria.has_focus_within:
             await me.press("tab")
         await me.until(lambda: criteria.styles.border_bottom == frame)
@@ -145,7 +145,7 @@ async def test_the_focus_moves_its_frame_and_leaves_the_text_and_the_keys_alone(
         assert [*me.main.query(FooterKey)] == keys
 
 
-async def test_the_header_says_how_far_i_am(learner: Any) -> None:
+async def test_the_header_shows_the_learners_progress(learner: Any) -> None:
     async with learner() as me:
         await me.until(lambda: "0 of 3 passed" in me.screen().partition("\n")[0])
         await me.pilot.resize_terminal(80, 24)
@@ -182,7 +182,7 @@ async def test_the_theme_is_switched(learner: Any) -> None:
 
 
 @pytest.mark.parametrize("theme", [DARK, LIGHT], ids=lambda theme: theme.name)
-def test_every_text_colour_can_be_read_on_every_ground(theme: Any) -> None:
+def test_every_text_colour_has_enough_contrast_on_every_background(theme: Any) -> None:
     def luminance(color: Color) -> float:
         parts = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color.normalized]
         return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
@@ -198,7 +198,7 @@ def test_every_text_colour_can_be_read_on_every_ground(theme: Any) -> None:
             assert ratio >= 4.5, f"{name} on {ground}: {ratio:.2f}"
 
 
-async def test_the_code_is_shown_with_line_numbers_and_follows_the_disk(learner: Any) -> None:
+async def test_the_code_is_shown_with_line_numbers_and_follows_the_file_on_disk(learner: Any) -> None:
     async with learner() as me:
         await me.press("2")
         await me.sees("1  import signal", "thermometer.py")
@@ -212,7 +212,7 @@ async def test_the_code_is_shown_with_line_numbers_and_follows_the_disk(learner:
         assert not removed.render_line(0).text.strip(), "painted until the next layout, though its styles are gone"
 
 
-async def test_a_lesson_with_two_files_shows_the_other_one(learner: Any) -> None:
+async def test_f_shows_the_other_file_of_a_lesson_with_two(learner: Any) -> None:
     async with learner() as me:
         await me.press("n", "s")
         await me.sees("server.py and client.py", "1  import signal")
@@ -222,7 +222,7 @@ async def test_a_lesson_with_two_files_shows_the_other_one(learner: Any) -> None
         assert (await asyncio.to_thread(me.session.path(me.session.lessons[1].files[1]).read_text)) == made.NODE
 
 
-async def test_home_and_end_choose_in_the_lists_and_the_keys_of_the_help_work_where_they_are_pressed(
+async def test_home_and_end_work_in_the_lists_and_keys_from_the_help_work_everywhere(
     learner: Any,
 ) -> None:
     async with learner() as me:

@@ -1,4 +1,4 @@
-"""E hands the terminal to the learner's own editor, and gets it back whatever becomes of that."""
+"""E hands the terminal over to the learner's own editor, and takes it back however that ends."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from tutor.workspace import Workspace, start
 APP = "import sys; from tutor.cli import main; sys.exit(main())"
 
 
-class Seated:
-    """A learner in a real terminal, with editors of their own on PATH."""
+class TerminalLearner:
+    """A learner in a real terminal, whose PATH holds only the editors that the test installs."""
 
     def __init__(self, folder: Path) -> None:
         self.programs = folder / "bin"
@@ -33,58 +33,60 @@ class Seated:
         self.file = self.workspace.path_of(lesson.files[0].name)
         self.app: Terminal | None = None
 
-    def installs(self, name: str, script: str) -> Path:
+    def install(self, name: str, script: str) -> Path:
         program = self.programs / name
         program.write_text(script)
         program.chmod(0o755)
         return program
 
-    def opens(self, **environ: str) -> Terminal:
+    def open_app(self, **environ: str) -> Terminal:
         kept = {name: value for name, value in os.environ.items() if name not in ("EDITOR", "VISUAL")}
         argv = [sys.executable, "-c", APP, "--workspace", str(self.workspace.root)]
         self.app = Terminal(argv, {**kept, "PATH": str(self.programs), **environ})
         self.app.until(b"Objective")
         return self.app
 
-    def works_on(self) -> None:
-        """The app is there, and takes keys."""
+    def assert_responsive(self) -> None:
+        """Assert that the app is still running and reacts to keys."""
         assert self.app is not None
         self.app.press(b"?")
         self.app.until(b"Read the lesson, start")
 
 
 @pytest.fixture
-def me(tmp_path: Path) -> Iterator[Seated]:
-    seated = Seated(tmp_path)
+def me(tmp_path: Path) -> Iterator[TerminalLearner]:
+    learner = TerminalLearner(tmp_path)
     try:
-        yield seated
+        yield learner
     finally:
-        if seated.app is not None:
-            seated.app.close()
+        if learner.app is not None:
+            learner.app.close()
 
 
-WRITES = '#!/bin/sh\necho "opened by ${0##*/}"\nfor last; do :; done\necho "# edited with $# words: $1" > "$last"\n'
+EDITOR_SCRIPT = (
+    '#!/bin/sh\necho "opened by ${0##*/}"\nfor last; do :; done\necho "# edited with $# words: $1" > "$last"\n'
+)
 
 
 @pytest.mark.parametrize("environ", [{}, {"EDITOR": ""}, {"EDITOR": " "}], ids=["unset", "empty", "blank"])
-def test_without_an_editor_of_their_choice_the_one_that_is_there_opens(me: Seated, environ: dict[str, str]) -> None:
-    me.installs("vi", WRITES)
-    app = me.opens(**environ)
+def test_without_a_configured_editor_an_installed_one_opens(me: TerminalLearner, environ: dict[str, str]) -> None:
+    me.install("vi", EDITOR_SCRIPT)
+    app = me.open_app(**environ)
     app.press(b"E")
     app.until(b"opened by vi")
     app.until(b"# edited with 1 words")
-    me.works_on()
+    me.assert_responsive()
 
 
-def test_an_editor_with_arguments(me: Seated) -> None:
-    me.installs("code", WRITES)
-    app = me.opens(EDITOR="code -w")
+def test_an_editor_with_arguments(me: TerminalLearner) -> None:
+    me.install("code", EDITOR_SCRIPT)
+    app = me.open_app(EDITOR="code -w")
     app.press(b"E")
     app.until(b"# edited with 2 words: -w")
 
 
 @pytest.mark.parametrize(
-    ("editor", "script", "told"),
+    ("editor", "script", "message"),
     [
         ("no-such-editor", "", b"There is no program no-such-editor"),
         ("'unclosed", "", b"is not a command"),
@@ -92,36 +94,36 @@ def test_an_editor_with_arguments(me: Seated) -> None:
         ("fails", "#!/bin/sh\nexit 3\n", b"fails ended with exit code 3"),
     ],
 )
-def test_an_editor_that_fails_is_told_in_the_app_which_goes_on(
-    me: Seated, editor: str, script: str, told: bytes
+def test_a_failing_editor_is_reported_in_the_app_which_continues(
+    me: TerminalLearner, editor: str, script: str, message: bytes
 ) -> None:
     if script:
-        me.installs(editor, script)
-    app = me.opens(EDITOR=editor)
+        me.install(editor, script)
+    app = me.open_app(EDITOR=editor)
     app.press(b"E")
-    app.until(told)
-    me.works_on()
+    app.until(message)
+    me.assert_responsive()
 
 
-def there(*names: str) -> Callable[[str], str | None]:
+def which_of(*names: str) -> Callable[[str], str | None]:
     return lambda name: f"/usr/bin/{name}" if name in names else None
 
 
-def test_which_editor_it_is() -> None:
-    assert editor_command({"VISUAL": "code -w", "EDITOR": "nano"}, there("code", "nano")) == ["code", "-w"]
-    assert editor_command({"VISUAL": "", "EDITOR": "nano"}, there("nano", "vi")) == ["nano"]
-    assert editor_command({}, there("sensible-editor", "nano")) == ["sensible-editor"]
-    assert editor_command({}, there("vim", "vi")) == ["vim"]
+def test_the_order_in_which_editors_are_chosen() -> None:
+    assert editor_command({"VISUAL": "code -w", "EDITOR": "nano"}, which_of("code", "nano")) == ["code", "-w"]
+    assert editor_command({"VISUAL": "", "EDITOR": "nano"}, which_of("nano", "vi")) == ["nano"]
+    assert editor_command({}, which_of("sensible-editor", "nano")) == ["sensible-editor"]
+    assert editor_command({}, which_of("vim", "vi")) == ["vim"]
     with pytest.raises(EditorError, match="No editor is installed"):
-        editor_command({}, there())
+        editor_command({}, which_of())
 
 
-def test_what_an_editor_leaves_running_is_not_ours(me: Seated) -> None:
-    """As VS Code does: the command ends, and its window is a daemon."""
+def test_processes_that_an_editor_leaves_behind_are_not_adopted_by_the_app(me: TerminalLearner) -> None:
+    """As VS Code does: the command exits, and its window stays behind as a daemon."""
     left = me.file.with_name("left")
-    me.installs("ed", f"#!/bin/sh\n(sleep 60 & echo $! >{left}.new; mv {left}.new {left}) </dev/null\n")
-    app = me.opens(EDITOR="ed", PATH=f"{me.programs}{os.pathsep}{os.environ['PATH']}")
-    for _ in range(2):  # after the first, the app is again who gets orphans
+    me.install("ed", f"#!/bin/sh\n(sleep 60 & echo $! >{left}.new; mv {left}.new {left}) </dev/null\n")
+    app = me.open_app(EDITOR="ed", PATH=f"{me.programs}{os.pathsep}{os.environ['PATH']}")
+    for _ in range(2):  # the second time, too: after each editor, the app adopts orphans again
         app.press(b"E")
         deadline = time.monotonic() + 30
         while not left.exists():

@@ -1,25 +1,17 @@
-"""Running the learner's node: a real process."""
+"""Running the learner's node, as a real process."""
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 import pytest
 
 from tests.tui import made
+from tests.tui.conftest import is_alive
 from tutor.session.node import Phase
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.line_view import Row
 from tutor.tui.widgets.log_view import _wrapped
-
-
-def alive(pid: int) -> bool:
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    return True
 
 
 @pytest.mark.parametrize("size", [(120, 36), (80, 24)])
@@ -32,7 +24,7 @@ async def test_the_log_of_a_running_node_is_shown_with_its_levels(learner: Any, 
         await me.sees("ended", "stopped", "bye", "r Run")
 
 
-async def test_a_node_that_ignores_ctrl_c_is_ended_all_the_same(learner: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_a_node_that_ignores_ctrl_c_is_ended_anyway(learner: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tutor.session.node.INTERRUPT_S", 0.2)
     async with learner() as me:
         me.session.path(me.session.lessons[0].files[0]).write_text(
@@ -43,10 +35,10 @@ async def test_a_node_that_ignores_ctrl_c_is_ended_all_the_same(learner: Any, mo
         pid = int(me.node.state.lines[0].text)
         await me.press("r")
         await me.sees("ignored Ctrl+C")
-        await me.until(lambda: not alive(pid))
+        await me.until(lambda: not is_alive(pid))
 
 
-async def test_a_node_that_breaks_shows_its_traceback_and_its_exit(learner: Any) -> None:
+async def test_a_crashing_node_shows_its_traceback_and_exit_code(learner: Any) -> None:
     async with learner() as me:
         me.session.path(me.session.lessons[0].files[0]).write_text("print('[not markup]')\nraise ValueError('wrong')\n")
         await me.press("r")
@@ -66,7 +58,7 @@ async def test_a_flood_of_lines_leaves_the_app_usable(learner: Any) -> None:
         await me.until(lambda: me.node.state.phase is Phase.ENDED)
 
 
-async def test_the_node_runs_on_while_another_lesson_is_read_and_the_terminal_changes(learner: Any) -> None:
+async def test_the_node_keeps_running_while_another_lesson_is_open_and_the_terminal_is_resized(learner: Any) -> None:
     async with learner() as me:
         await me.press("r")
         await me.sees("ready")
@@ -86,16 +78,16 @@ async def test_quitting_ends_the_node(learner: Any) -> None:
         await me.sees("ready")
         await me.until(lambda: any(line.text.isdecimal() for line in me.node.state.lines))
         pid = int(next(line.text for line in me.node.state.lines if line.text.isdecimal()))
-        assert alive(pid)
+        assert is_alive(pid)
         await me.press("q")
         await me.until(lambda: me.app.return_code == 0)
-        assert not alive(pid)
+        assert not is_alive(pid)
 
 
 ECHO = "import os, sys\nprint('given', *sys.argv[1:], flush=True)\nprint('pid', os.getpid(), flush=True)\n"
 
 
-async def test_a_node_is_run_with_the_parameters_and_remaps_of_the_learners_choice(learner: Any) -> None:
+async def test_a_node_runs_with_the_parameters_and_remaps_that_the_learner_sets(learner: Any) -> None:
     async with learner() as me:
         me.file.write_text(ECHO + made.NODE)
         await me.press("o")
@@ -111,33 +103,33 @@ async def test_a_node_is_run_with_the_parameters_and_remaps_of_the_learners_choi
         await me.until(lambda: me.session.app_state().run_of("i1.1").parameters == ("rate:=5.0",), "remembered")
 
 
-async def test_a_save_restarts_the_node_where_that_is_wanted(learner: Any) -> None:
+async def test_a_save_restarts_the_node_if_enabled(learner: Any) -> None:
     async with learner() as me:
         me.file.write_text(text := ECHO + made.NODE)
         pane = me.main.query_one(CodePane)
-        # Else the node is started again for it, once more than this test looks for.
+        # Otherwise, this write restarts the node later, one restart more than the test expects.
         await me.until(lambda: pane.knows(me.file) and pane.text(me.file) == text, "the new text is noticed")
         await me.press("W")
         await me.sees("a save restarts")
         await me.press("r")
         await me.sees("the sensor is warm")
         before = me.node
-        await me.edits()
+        await me.focus_editor()
         await me.press("end", "#", "ctrl+s")
-        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "run again")
+        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "restarted")
         assert before.over.is_set()
         await me.until(lambda: "the sensor is warm" in me.screen())
 
 
-async def test_a_change_from_outside_restarts_the_node_and_leaves_who_types_at_their_line(learner: Any) -> None:
+async def test_an_outside_change_restarts_the_node_and_leaves_the_focus_in_the_editor(learner: Any) -> None:
     async with learner() as me:
         await me.press("W", "r")
         await me.sees("the sensor is warm")
         before = me.node
-        await me.edits()
+        await me.focus_editor()
         me.file.write_text(ECHO + made.NODE)
-        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "run again")
-        await me.until(lambda: any("pid" in line.text for line in me.node.state.lines), "the new file's")
+        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "restarted")
+        await me.until(lambda: any("pid" in line.text for line in me.node.state.lines), "output of the new file")
         assert me.main.page == "code"
         assert me.app.focused is me.editor
         await me.press("escape", "1")
@@ -194,7 +186,7 @@ async def test_a_server_and_its_client_run_side_by_side(learner: Any) -> None:
         await me.sees("■ ended  client.py", "running server.py")
 
 
-def test_the_hint_behind_a_line_of_a_traceback_is_never_broken() -> None:
+def test_the_hint_after_a_traceback_line_is_never_wrapped() -> None:
     for length in range(1, 240):
         line: Row = ((" stderr ", "warn"), ("x" * length, "link"), ("  ← g or click", "quiet"))
         rows = ["".join(text for text, _ in row) for row in _wrapped(line, 80)]
@@ -215,7 +207,7 @@ tick(12)
 
 
 @pytest.mark.parametrize("size", [(120, 36), (80, 24)])
-async def test_after_a_crash_the_exceptions_last_line_is_in_sight(learner: Any, size: Any) -> None:
+async def test_after_a_crash_the_last_line_of_the_exception_is_visible(learner: Any, size: Any) -> None:
     async with learner(size) as me:
         me.file.write_text(CRASHES)
         await me.press("r")
@@ -223,7 +215,7 @@ async def test_after_a_crash_the_exceptions_last_line_is_in_sight(learner: Any, 
 
 
 @pytest.mark.parametrize("size", [(120, 36), (80, 24)])
-async def test_a_log_that_fills_while_its_page_is_hidden_is_followed_all_the_same(learner: Any, size: Any) -> None:
+async def test_a_log_that_fills_while_its_page_is_hidden_is_still_followed(learner: Any, size: Any) -> None:
     async with learner(size) as me:
         go = me.file.with_name("go")
         me.file.write_text(f"import os, time\nwhile not os.path.exists({str(go)!r}):\n    time.sleep(0.05)\n" + CRASHES)

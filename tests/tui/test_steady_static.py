@@ -1,4 +1,4 @@
-"""A text that is given again what it says already."""
+"""Updating a text with what it shows already."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from textual.visual import VisualType
 from tutor.tui.widgets.steady_static import SteadyStatic
 
 
-class Counted(SteadyStatic):
-    """Counts how often it asks to be painted again."""
+class RefreshCounter(SteadyStatic):
+    """Counts its requests to be repainted."""
 
-    asked = 0
+    refreshes = 0
 
-    def refresh(self, *args: object, **keys: object) -> Counted:
-        """Count it."""
-        self.asked += 1
+    def refresh(self, *args: object, **keys: object) -> RefreshCounter:
+        """Count the request."""
+        self.refreshes += 1
         return self
 
 
@@ -25,11 +25,11 @@ class OneText(App[None]):
     """An app with one text."""
 
     def compose(self) -> ComposeResult:
-        yield Counted(Content.styled("running", "bold"))
+        yield RefreshCounter(Content.styled("running", "bold"))
 
 
 @pytest.mark.parametrize(
-    ("shown", "given", "painted"),
+    ("shown", "given", "repainted"),
     [
         (Content.styled("a", "bold"), Content.styled("a", "bold"), False),
         (Content.styled("a", "bold"), Content.styled("a", "italic"), True),
@@ -39,12 +39,12 @@ class OneText(App[None]):
         ("a", Content("a"), True),
     ],
 )
-async def test_only_what_differs_is_painted(shown: VisualType, given: VisualType, painted: bool) -> None:
+async def test_only_a_different_content_is_repainted(shown: VisualType, given: VisualType, repainted: bool) -> None:
     app = OneText()
     async with app.run_test():
-        text = app.query_one(Counted)
+        text = app.query_one(RefreshCounter)
         text.update(shown)
-        before = text.asked
+        before = text.refreshes
         text.update(given)
-        assert (text.asked > before) is painted
+        assert (text.refreshes > before) is repainted
         assert text.content == given

@@ -1,4 +1,4 @@
-"""What is typed faster than the app keeps up with: all of it is done, in the order in which it was typed."""
+"""Typing faster than the app can keep up with: every key takes effect, in the order typed."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ APP = "import sys; from tutor.cli import main; sys.exit(main())"
 END, HOME, LEFT, DELETE = b"\x1b[F", b"\x1b[H", b"\x1b[D", b"\x1b[3~"
 
 
-def ahead(me: Any, *typed: str | Paste) -> None:
-    """Type all this before the app has dealt with any of it."""
+def type_ahead(me: Any, *typed: str | Paste) -> None:
+    """Send all of these keys before the app has handled any of them."""
     for each in typed:
         if isinstance(each, str):
             key = _character_to_key(each) if len(each) == 1 else each
@@ -33,30 +33,30 @@ def ahead(me: Any, *typed: str | Paste) -> None:
 
 async def test_moves_and_letters_in_the_editor_keep_their_order(learner: Any) -> None:
     async with learner() as me:
-        editor = await me.edits()
-        ahead(me, *"ab", "home", *"c", "end", *"d", "left", "left", *"e", "enter", *"f", "backspace", *"g", "home")
-        ahead(me, Paste("pasted"), "end", *"!")
+        editor = await me.focus_editor()
+        type_ahead(me, *"ab", "home", *"c", "end", *"d", "left", "left", *"e", "enter", *"f", "backspace", *"g", "home")
+        type_ahead(me, Paste("pasted"), "end", *"!")
         await me.until(lambda: "!" in editor.text)
         first, second = (made.NODE.split("\n")[0] + "d"), "pastedg"
         typed = "cab" + first
         assert editor.text.split("\n")[:2] == [typed[:-2] + "e", second + typed[-2:] + "!"]
 
 
-async def test_what_is_typed_after_a_command_goes_where_the_command_leads(learner: Any) -> None:
+async def test_keys_typed_after_a_command_go_where_the_command_leads(learner: Any) -> None:
     async with learner() as me:
         await me.press("2")
         await me.until(lambda: me.main.query_one(CodeBody).has_focus)
         await me.sees("1  import signal")
-        editor, meant = me.editor, made.NODE.replace("import", "rcqimport", 1).replace("ing\n", "ingx\n", 1)
-        ahead(me, "e", *"rcq", "escape", *"1", "n", "p", "3", "2", "e", "end", *"x")
-        await me.until(lambda: editor.text == meant)
+        editor, expected = me.editor, made.NODE.replace("import", "rcqimport", 1).replace("ing\n", "ingx\n", 1)
+        type_ahead(me, "e", *"rcq", "escape", *"1", "n", "p", "3", "2", "e", "end", *"x")
+        await me.until(lambda: editor.text == expected)
         assert me.main.page == "code"
         assert me.app.focused is editor
 
 
-async def test_what_is_typed_after_a_dialog_was_asked_for_goes_into_the_dialog(learner: Any) -> None:
+async def test_keys_typed_after_opening_a_dialog_go_into_the_dialog(learner: Any) -> None:
     async with learner() as me:
-        ahead(me, "o", *"rate:=2.0", "enter", *"b:=1", "f5", "2", "e", *"z")
+        type_ahead(me, "o", *"rate:=2.0", "enter", *"b:=1", "f5", "2", "e", *"z")
         await me.until(lambda: me.main.model.run_options.parameters == ("rate:=2.0", "b:=1"), "the options")
         await me.until(
             lambda: "zimport" in (editor.text if (editor := me.main.query_one(CodePane).editor) else ""),
@@ -64,17 +64,17 @@ async def test_what_is_typed_after_a_dialog_was_asked_for_goes_into_the_dialog(l
         )
 
 
-async def test_keys_work_on_after_the_widget_that_had_them_is_gone(learner: Any) -> None:
+async def test_keys_still_work_after_the_focused_widget_is_gone(learner: Any) -> None:
     async with learner() as me:
-        editor = await me.edits()
+        editor = await me.focus_editor()
         me.file.unlink()
-        ahead(me, "down", "end")
+        type_ahead(me, "down", "end")
         await editor.remove()
-        ahead(me, "f1")
+        type_ahead(me, "f1")
         await me.sees("Read the lesson, start")
 
 
-def test_a_burst_of_bytes_in_a_real_terminal_becomes_the_text_that_was_meant(tmp_path: Path) -> None:
+def test_a_burst_of_bytes_in_a_real_terminal_becomes_the_intended_text(tmp_path: Path) -> None:
     lesson = load_course().lessons[0]
     workspace = Workspace(tmp_path / "ws")
     start(lesson, workspace)

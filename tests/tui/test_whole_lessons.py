@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 
 import pytest
 
-from tests.ros.users_domain import users_domain
 from tests.running import runs
-from tests.tui.conftest import Learner, at
+from tests.tui.conftest import Learner, open_app
 from tutor.content import load_course
 from tutor.session import Session
 from tutor.session.node import NodeState
@@ -20,33 +19,24 @@ from tutor.workspace import AppState, Workspace
 
 pytestmark = pytest.mark.timeout(300)
 CHECK_S = 60.0
-"""A check may take that long where the machine has much else to do."""
-
-
-@pytest.fixture
-def session(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Session]:
-    """A workspace in which nothing has been done yet, on a domain that nobody else uses."""
-    with users_domain() as domain:
-        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-        yield Session(load_course(), Workspace(tmp_path / "ws"))
+"""Time limit for a check, generous for a busy machine."""
 
 
 @asynccontextmanager
-async def doing(session: Session, exercise: str) -> AsyncIterator[Learner]:
-    """A learner who has written our solution of this exercise."""
+async def solving(session: Session, exercise: str) -> AsyncIterator[Learner]:
+    """A learner whose workspace holds our solution of this exercise."""
     lesson = session.course.find(exercise)
     session.start(lesson)
     for file in lesson.files:
         session.path(file).write_bytes(file.solution.read_bytes())
     session.keep(AppState(lesson=lesson.id))
-    async with at(session) as me:
+    async with open_app(session) as me:
         await me.sees(f"{lesson.id.upper()}  {lesson.title}", "Objective")
         yield me
 
 
-async def test_i_run_my_node_as_i_like_and_watch_and_change_it_live(session: Session) -> None:
-    async with doing(session, "i1.1") as me:
+async def test_a_node_is_run_with_options_watched_and_changed_live(session: Session) -> None:
+    async with solving(session, "i1.1") as me:
         await me.press("o")
         await me.sees("F5 runs")
         me.app.screen.query_one("#run-parameters").text = "publish_rate:=5.0"  # type: ignore[attr-defined]
@@ -74,24 +64,24 @@ async def test_i_run_my_node_as_i_like_and_watch_and_change_it_live(session: Ses
         assert not runs(me.file)
 
 
-async def test_i_check_i_fix_it_and_what_i_have_passed_stands_in_my_checklist(session: Session) -> None:
-    async with doing(session, "i1.3") as me:
-        right = me.file.read_text()
-        me.file.write_text(right.replace("request.a - request.b", "request.b - request.a"))
+async def test_a_failure_is_fixed_and_the_pass_is_evidence_in_the_checklist(session: Session) -> None:
+    async with solving(session, "i1.3") as me:
+        correct = me.file.read_text()
+        me.file.write_text(correct.replace("request.a - request.b", "request.b - request.a"))
         await me.press("c")
         await me.until(lambda: "✗ operations  " in me.screen(), "a failure", limit_s=CHECK_S)
         await me.sees("Expected   /subtract: ", "Observed   -", "wrong result: the operands are the", "3 of 4 passed")
 
         await me.press("w")
         await me.sees("a save checks")
-        editor = await me.edits()
+        editor = await me.focus_editor()
         line = next(n for n, text in enumerate(editor.text.splitlines()) if "request.b - request.a" in text)
         editor.move_cursor((line, editor.document.get_line(line).index("request.b - request.a")))
         await me.press(*["delete"] * len("request.b - request.a"))
-        await me.types("request.a - request.b")
+        await me.type_text("request.a - request.b")
         await me.press("ctrl+s")
         await me.until(lambda: "I1.3 Calculator Service passed" in me.screen(), "a pass", limit_s=CHECK_S)
-        assert me.file.read_text() == right
+        assert me.file.read_text() == correct
         await me.sees("Next: press Esc, then n for", "4 of 4 passed")
 
         await me.press("escape", "6")
@@ -106,10 +96,10 @@ async def test_i_check_i_fix_it_and_what_i_have_passed_stands_in_my_checklist(se
         await me.sees("I2.1  Parameterized Publisher")
 
 
-async def test_i_start_the_talker_beside_my_node_and_end_it_and_nothing_is_left_when_i_leave(
+async def test_the_talker_starts_and_stops_beside_the_node_and_quitting_ends_both(
     session: Session,
 ) -> None:
-    async with doing(session, "i1.2") as me:
+    async with solving(session, "i1.2") as me:
         await me.press("r")
         await me.sees("● running  message_stats.py", "Waiting for messages on /chatter")
         await me.press("b")
@@ -128,8 +118,8 @@ async def test_i_start_the_talker_beside_my_node_and_end_it_and_nothing_is_left_
         assert not any(Path(f"/proc/{pid}").exists() for pid in pids)
 
 
-async def test_the_log_is_beside_live_where_there_is_room(session: Session) -> None:
-    async with doing(session, "i1.1") as me:
+async def test_the_log_is_beside_the_live_page_where_there_is_room(session: Session) -> None:
+    async with solving(session, "i1.1") as me:
         await me.press("r")
         await me.sees("Lessons", "● running  temperature_publisher.py")
         await me.press("4")
@@ -148,7 +138,7 @@ async def test_the_log_is_beside_live_where_there_is_room(session: Session) -> N
         assert "INFO" not in me.screen()
 
 
-async def run_to_its_end(me: Learner) -> NodeState:
+async def run_to_completion(me: Learner) -> NodeState:
     """Press r, and wait until the node has ended."""
     shown = me.node
     await me.press("r")
@@ -157,13 +147,13 @@ async def run_to_its_end(me: Learner) -> NodeState:
     return me.node.state
 
 
-async def test_our_server_answers_my_client_and_my_own_server_runs_beside_it_too(session: Session) -> None:
-    async with doing(session, "i1.3") as me:
+async def test_a_client_runs_beside_our_server_and_beside_the_learners_own(session: Session) -> None:
+    async with solving(session, "i1.3") as me:
         await me.press("f")
         await me.sees("calculator_client.py")
         await me.press("b")
         await me.sees("● running  our server", "Calculator is up")
-        client = await run_to_its_end(me)
+        client = await run_to_completion(me)
         assert not client.failed, client
         await me.sees("calculator_client.py", "add(10, 5) = 15", "■ ended")
         await me.press("b")
@@ -176,24 +166,24 @@ async def test_our_server_answers_my_client_and_my_own_server_runs_beside_it_too
         await me.sees("■ ended  calculator_server.py")
 
 
-def in_a_field(me: Learner) -> bool:
+def field_has_focus(me: Learner) -> bool:
     return me.app.focused is not None and any(isinstance(each, FieldRow) for each in me.app.focused.ancestors)
 
 
-async def test_i_publish_a_message_by_hand_once_and_at_a_rate_and_my_node_hears_it(session: Session) -> None:
-    async with doing(session, "i1.2") as me:
+async def test_messages_published_by_hand_once_and_at_a_rate_reach_the_node(session: Session) -> None:
+    async with solving(session, "i1.2") as me:
         await me.press("r")
         await me.sees("Waiting for messages on /chatter")
         await me.press("4")
         await me.sees("/chatter", "1 node")
         await me.press("M")
         await me.sees("Publish a message", "std_msgs/msg/String", "data", "Times per second")
-        await me.until(lambda: in_a_field(me), "the first field has the focus")
+        await me.until(lambda: field_has_focus(me), "the first field has the focus")
         await me.press(*"Hello: 7", "enter")
         await me.sees("✓ published once on /chatter: 1 listens", "data: 'Hello: 7'")
         await me.press("M")
         await me.sees("Publish a message", "Times per second")
-        await me.until(lambda: in_a_field(me), "the first field has the focus")
+        await me.until(lambda: field_has_focus(me), "the first field has the focus")
         await me.press(*"Hello: 8", "tab", *"fast", "enter")
         await me.sees("✗ Write a rate")
         await me.press("ctrl+u", *"20", "enter")
@@ -204,9 +194,9 @@ async def test_i_publish_a_message_by_hand_once_and_at_a_rate_and_my_node_hears_
         await me.sees("■ published on /chatter")
 
 
-async def test_i_play_a_course_from_elsewhere(tmp_path: Path, session: Session) -> None:
+async def test_a_course_from_another_folder_is_played(tmp_path: Path, session: Session) -> None:
     course = Path(__file__).parents[1] / "courses" / "greeting"
     mine = Session(load_course(course), Workspace(tmp_path / "ws"), course)
-    async with doing(mine, "h1.1") as me:
+    async with solving(mine, "h1.1") as me:
         await me.press("c")
         await me.until(lambda: "H1.1 Greeter passed" in me.screen(), "a pass", limit_s=CHECK_S)
