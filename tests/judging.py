@@ -38,7 +38,7 @@ class Outcome:
     verdict: str = "none"
 
 
-def find(wanted: Sequence[str] = ()) -> tuple[list[Case], list[ContentError]]:
+def find_cases(wanted: Sequence[str] = ()) -> tuple[list[Case], list[ContentError]]:
     """Return the cases whose names start with one of `wanted` (all if empty), and the errors of unreadable ones."""
     cases: list[Case] = []
     broken: list[ContentError] = []

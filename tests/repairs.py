@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tests.judging import check_folder, find
+from tests.judging import check_folder, find_cases
 from tutor.content.submissions import WRONG
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.step_parsing import NotAnEdit, apply_step
@@ -133,7 +133,7 @@ def main() -> int:
     arguments = parser.parse_args()
     folders = [Path(each) for each in arguments.wanted if Path(each).is_dir()]
     names = [each for each in arguments.wanted if not Path(each).is_dir()]
-    cases = [] if folders and not names else find(names)[0]
+    cases = [] if folders and not names else find_cases(names)[0]
     chosen = [(str(case), case.exercise, case.folder) for case in cases if case.kind == WRONG]
     for folder in folders:
         submissions = [folder] if re.match(r"i\d_\d_", folder.name) else sorted(folder.glob("i?_?_*"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 
-def runs(file: Path) -> bool:
+def is_running(file: Path) -> bool:
     """Return whether a running process has this file on its command line."""
     for folder in Path("/proc").glob("[0-9]*"):
         try:

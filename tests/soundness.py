@@ -24,7 +24,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-from tests.judging import Outcome, find, holds_here, judge
+from tests.judging import Outcome, find_cases, holds_here, judge
 from tests.sampling import changed
 from tutor.content.submissions import Case
 
@@ -142,7 +142,7 @@ def main() -> int:
     parser.add_argument("--busy", action="store_true", help="run a busy loop on each core meanwhile")
     parser.add_argument("--json", action="store_true", help="also print the wrong ones as JSON")
     arguments = parser.parse_args()
-    found, broken = find(arguments.wanted)
+    found, broken = find_cases(arguments.wanted)
     for error in broken:
         print(f"! {error}", file=sys.stderr)
     here = [case for case in found if holds_here(case)]

@@ -17,7 +17,7 @@ HOLD_TWO_FOLDERS = """
 import sys, tempfile, time
 from tutor import private_folders
 tempfile.tempdir = sys.argv[1]
-one, two = private_folders.create("run")[0], private_folders.until_exit("ros2")
+one, two = private_folders.create("run")[0], private_folders.create_until_exit("ros2")
 (one / "x").touch()
 print(one, two, sep="\\n", flush=True)
 time.sleep(600)

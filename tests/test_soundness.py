@@ -22,14 +22,14 @@ import pytest
 
 from tests import soundness
 from tests.hostile import find_hostile
-from tests.judging import ROOT, Outcome, compare, find, holds_here, judge
+from tests.judging import ROOT, Outcome, compare, find_cases, holds_here, judge
 from tests.sampling import changed, sample, shows
 from tutor.content.submissions import Case, Expected
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
 
 JOBS = 6
-ALL_CASES, BROKEN = find()
+ALL_CASES, BROKEN = find_cases()
 EXCLUDED = {
     "i1.1/hostile/joins-them-all",  # tests/hostile/test_beside.py judges it
     # Slow and expensive; tests/engine/test_bounded_bytes.py covers them.

@@ -32,10 +32,10 @@ if __name__ == "__main__":
     sys.unraisablehook = _unraisable_hook
     if handles_sigint:  # during the imports there is nothing to clean up
         signal.signal(signal.SIGINT, _exit_interrupted)
-    from tutor.interpreter import answer_ctrl_c, collect_garbage_seldom
+    from tutor.interpreter import reduce_gc_frequency, unblock_sigint
 
-    answer_ctrl_c()
-    collect_garbage_seldom()
+    unblock_sigint()
+    reduce_gc_frequency()
     from tutor.cli import main
 
     try:

@@ -12,9 +12,9 @@ from typing import NoReturn
 FLAGS = ("-I", "-B", "-X", "utf8")
 """Ignore PYTHON* variables, the current folder and user packages; write no bytecode next to a learner's files."""
 
-CTRL_C_LATER = "$(env --block-signal=INT true 2>/dev/null && echo env --block-signal=INT)"
-"""Shell prefix for a program that calls `answer_ctrl_c`: it blocks Ctrl+C while Python starts, where that would print a
-traceback."""
+BLOCK_SIGINT_PREFIX = "$(env --block-signal=INT true 2>/dev/null && echo env --block-signal=INT)"
+"""Shell prefix for a program that calls `unblock_sigint`: it blocks Ctrl+C while Python starts, where it would print
+a traceback."""
 
 
 def module_command(module: str, *arguments: str) -> tuple[str, ...]:
@@ -22,7 +22,7 @@ def module_command(module: str, *arguments: str) -> tuple[str, ...]:
     return (sys.executable, *FLAGS, "-m", module, *arguments)
 
 
-def collect_garbage_seldom() -> None:
+def reduce_gc_frequency() -> None:
     """Run the cyclic garbage collector less often: by default, it takes a fifth of the app's CPU time.
 
     Call this before most imports.
@@ -39,15 +39,15 @@ def add_python_path(environ: Mapping[str, str] = os.environ) -> None:
     sys.path += [entry for entry in entries if os.path.isabs(entry) and entry not in sys.path]
 
 
-def answer_ctrl_c() -> None:
-    """Unblock SIGINT, which the starter of this process may have blocked, as `become` does."""
+def unblock_sigint() -> None:
+    """Unblock SIGINT, which the starter of this process may have blocked, as `exec_program` does."""
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 
 
-def become(command: Sequence[str], env: Mapping[str, str]) -> NoReturn:
-    """Replace this process with another of our programs, which must call `answer_ctrl_c`. Raises OSError."""
+def exec_program(command: Sequence[str], env: Mapping[str, str]) -> NoReturn:
+    """Replace this process with another of our programs, which must call `unblock_sigint`. Raises OSError."""
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         os.execve(command[0], list(command), env)
     finally:
-        answer_ctrl_c()
+        unblock_sigint()

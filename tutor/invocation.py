@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 PROGRAM = "ros-tutor"
-VARIABLE = "ROS_TUTOR_STARTED_AS"
+STARTED_AS_VARIABLE = "ROS_TUTOR_STARTED_AS"
 """Holds a process id and the name by which that process was started. It only counts for that process and its children:
 in a terminal opened from here, the program may have another name."""
 
@@ -36,12 +36,12 @@ def with_program_name(text: str) -> str:
 
 def export_program_name() -> None:
     """Make the children of this process (the engine, a served app) use the same program name."""
-    os.environ[VARIABLE] = f"{os.getpid()} {program()}"
+    os.environ[STARTED_AS_VARIABLE] = f"{os.getpid()} {program()}"
 
 
 def detect_program_name(environ: Mapping[str, str], argv: Sequence[str]) -> str:
     """Return what `program` does, given an environment and argv."""
-    pid, _, name = environ.get(VARIABLE, "").partition(" ")
+    pid, _, name = environ.get(STARTED_AS_VARIABLE, "").partition(" ")
     if name and pid in (str(os.getpid()), str(os.getppid())):
         return name if name == PROGRAM else shlex.quote(name)
     started = argv[0] if argv else ""

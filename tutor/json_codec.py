@@ -42,7 +42,7 @@ def write_document(schema: str, **members: Any) -> str:
 
 
 def read_document(text: str, schema: str) -> dict[str, Any]:
-    """Return the members of a document from `write_document`, to be passed to `read_as`. Raises ValueError."""
+    """Return the members of a document from `write_document`, to be passed to `convert_to`. Raises ValueError."""
     try:
         document = json.loads(text)
         found = document["schema"]
@@ -55,7 +55,7 @@ def read_document(text: str, schema: str) -> dict[str, Any]:
     return {str(key): value for key, value in document.items()}
 
 
-def read_as[T](kind: type[T], value: Any) -> T:
+def convert_to[T](kind: type[T], value: Any) -> T:
     """Convert a JSON value to a type, ignoring members that the type does not have. Raises ValueError."""
     import msgspec
 

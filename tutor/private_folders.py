@@ -73,7 +73,7 @@ def temporary(name: str) -> Iterator[Path]:
         os.close(handle)
 
 
-def until_exit(name: str) -> Path:
+def create_until_exit(name: str) -> Path:
     """Create a folder that lasts as long as this process. Raises OSError."""
     path, _ = create(name)
     atexit.register(_remove, path)

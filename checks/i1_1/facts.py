@@ -101,7 +101,9 @@ class RateProbe:
 
     @property
     def agrees(self) -> bool:
-        return self.rate is not None and self.rate.covers(window_s(self.asked_hz)) and self.rate.agrees(self.asked_hz)
+        return (
+            self.rate is not None and self.rate.covers(window_s(self.asked_hz)) and self.rate.agrees_with(self.asked_hz)
+        )
 
     def __str__(self) -> str:
         return (
@@ -139,7 +141,7 @@ class NameProbes:
     probes: tuple[NameProbe, ...]
 
 
-def units(name: str) -> tuple[str, ...]:
+def possible_units(name: str) -> tuple[str, ...]:
     """Return the units that a parameter's name suggests; all of them if it is neutral or ambiguous."""
     lower = name.casefold()
     as_rate = any(word in lower for word in ("rate", "hz", "freq"))
@@ -186,4 +188,4 @@ def count_agreeing(group: Iterable[RateProbe]) -> int:
 
 def find_inverted_probes(group: Iterable[RateProbe]) -> list[RateProbe]:
     """The probes whose rate is the reciprocal of the requested one: a rate taken for a period, or vice versa."""
-    return [probe for probe in group if probe.rate is not None and probe.rate.agrees(1 / probe.asked_hz)]
+    return [probe for probe in group if probe.rate is not None and probe.rate.agrees_with(1 / probe.asked_hz)]

@@ -56,7 +56,7 @@ def _traces(*facts: PlainStart | CollectedValues | RateProbes | NameProbes) -> l
 
 
 def _with_steps[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
-    return with_applicable_steps(judge, _traces, steps.anything)
+    return with_applicable_steps(judge, _traces, steps.find_any_step)
 
 
 @_with_steps

@@ -36,7 +36,7 @@ from checks.i1_1.facts import (
     group_probes,
     numeric_parameters,
     parameter_and_unit,
-    units,
+    possible_units,
 )
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
@@ -228,7 +228,7 @@ async def _probe_declared(
         return bool(find_agreeing_groups(tried))
 
     numeric = numeric_parameters(declared or ())
-    with_known_unit = [parameter for parameter in numeric if len(units(parameter.name)) < len(UNITS)]
+    with_known_unit = [parameter for parameter in numeric if len(possible_units(parameter.name)) < len(UNITS)]
     for group in (with_known_unit, *([other] for other in numeric if other not in with_known_unit)):
         if await attempt(list(_plan_attempts(group))):
             return RateProbes(declared, tuple(tried))
@@ -286,7 +286,7 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, as_integ
             # The first gap may be irregular, for example if the node publishes once right at start-up.
             samples = run.samples_on(TOPIC)
             overall, tail = measure(samples), measure(samples[1:])
-            rate = tail if tail and tail.covers(window) and tail.agrees(asked_hz) else overall
+            rate = tail if tail and tail.covers(window) and tail.agrees_with(asked_hz) else overall
             return RateProbe(name, unit, value, rate, len(samples), run.trace())
 
         def decided(min_s: float) -> bool:
@@ -303,13 +303,16 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, as_integ
         for stretch in range(1, TRIES + 2):
             await run.until(lambda min_s=stretch * window: decided(min_s), window + 1 / asked_hz + 1)  # type: ignore[misc]
             probe = measured()
-            lost_s, of_s = run.node_cpu_wait_s() - cpu_wait_s, run.now() - since
+            lost_s, elapsed_s = run.node_cpu_wait_s() - cpu_wait_s, run.now() - since
             ended = run.exit is not None
             if (
                 probe.agrees
                 or ended
                 or (probe.rate is not None and probe.rate.is_far_above(asked_hz, window))
-                or (stretch > 1 and not too_few_by_cpu_wait(probe.messages, asked_hz, cpu_wait_s=lost_s, of_s=of_s))
+                or (
+                    stretch > 1
+                    and not too_few_by_cpu_wait(probe.messages, asked_hz, cpu_wait_s=lost_s, elapsed_s=elapsed_s)
+                )
             ):
                 break
         else:
@@ -325,7 +328,7 @@ def _plan_attempts(group: Sequence[Parameter]) -> Iterable[_Attempt]:
     for parameter in group:
         as_integer = parameter.type == "integer"
         low, high = parameter.minimum, parameter.maximum
-        for unit in units(parameter.name):
+        for unit in possible_units(parameter.name):
             allowed = [
                 value
                 for value in (*PROBE_VALUES[unit], *FALLBACK_VALUES[unit])

@@ -33,7 +33,7 @@ def draw_values(trace: Trace | None) -> str:
     seeding = [
         remove_statement(read.text, statement)
         for call in read.calls("seed")
-        if read.tick is not None and read.function_around(call) in read.reached(read.tick)
+        if read.timer_callback is not None and read.function_around(call) in read.reachable_from(read.timer_callback)
         for statement in [read.statement(call)]
     ]
     return (
@@ -110,7 +110,7 @@ def diagnose_name(trace: Trace, name: str) -> Cause:
     return Cause("parameter ignored", f"{name} is declared, but its value is not logged", step or advice)
 
 
-def anything(trace: Trace) -> str:
+def find_any_step(trace: Trace) -> str:
     """Step for any fault: remove other types from the topic, or else rewrite the program.
 
     Return "" if Python cannot parse the file.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from checks.i1_2.facts import EVERY, FAST_ENOUGH_HZ, FAST_HZ, Trial
+from checks.i1_2.facts import FAST_ENOUGH_HZ, FAST_HZ, SUMMARY_EVERY, Trial
 from checks.i1_2.summaries import Summary, find_summaries, group_lines
 
 TOLERATED_LOSSES = 4
@@ -26,7 +26,7 @@ class LostMessages:
     excused: bool
 
 
-def fast_enough(fast: Trial) -> bool:
+def was_sent_fast_enough(fast: Trial) -> bool:
     """Whether the messages were sent fast enough that a node that handles ten per second loses some."""
     return len(fast.sent) < 2 or (len(fast.sent) - 1) / (fast.sent[-1].at - fast.sent[0].at) >= FAST_ENOUGH_HZ
 
@@ -46,7 +46,7 @@ def find_lost(fast: Trial, steady: Trial) -> LostMessages | None:
             continue
         stated = [value for number in summary.numbers for value in number.values if 0 < value < until]
         missing = min((until - int(value) for value in stated), default=until)
-        allowed = TOLERATED_LOSSES + FAST_HZ * (fast.cpu_wait_s + max(fast.most_late_s, 0.0))
+        allowed = TOLERATED_LOSSES + FAST_HZ * (fast.cpu_wait_s + max(fast.max_delay_s, 0.0))
         if worst is None or missing > worst[0]:
             worst = missing, LostMessages(summary, until, missing <= allowed)
     return worst[1] if worst else None
@@ -65,9 +65,9 @@ def count_summarised(fast: Trial, steady: Trial) -> int:
     return max((order[number] for number in quoted if number in order), default=0)
 
 
-def missing_summary(fast: Trial, steady: Trial) -> bool:
+def is_summary_missing(fast: Trial, steady: Trial) -> bool:
     """Whether no summary covers the last ten messages, apart from those that may be lost by chance."""
-    return count_summarised(fast, steady) < (len(fast.sent) - TOLERATED_LOSSES) // EVERY * EVERY
+    return count_summarised(fast, steady) < (len(fast.sent) - TOLERATED_LOSSES) // SUMMARY_EVERY * SUMMARY_EVERY
 
 
 def messages_behind(trial: Trial) -> int:

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
 from checks.i1_2 import gap_steps, steps
-from checks.i1_2.facts import EVERY, OURS, SOON_S, Trial
+from checks.i1_2.facts import OURS, SOON_S, SUMMARY_EVERY, Trial
 from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_slow_summary, true_total
 from checks.i1_2.reading import Line
-from checks.i1_2.summaries import Summary, find_summaries, milestone
+from checks.i1_2.summaries import Summary, find_summaries, last_due_count
 from tutor.judge import causes
 from tutor.judge.causes import printing
 from tutor.judge.trace import Level
@@ -26,7 +26,7 @@ def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
     if not find_summaries(steady):
         return skipped(NO_SUMMARY)
     words = causes.output_tail(restart.trace)
-    sent, before = len(restart.sent), restart.breaks
+    sent, before = len(restart.sent), restart.before_break
     if restart.trace.exit is not None:
         return failed(
             expected, f"the node ended after {sent} of our messages", _diagnose_end(restart, "another publisher"), words
@@ -88,7 +88,7 @@ def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
 
 def _diagnose_summaries(after: Sequence[Summary], restart: Trial, steady: Trial) -> Cause | None:
     """Find faults in the summaries since the restart that do not depend on where the node begins to count."""
-    before = restart.breaks
+    before = restart.before_break
     new = len(restart.sent) - before
     times = max(len(after), _count_summaries(after, find_summaries(steady)))
     if times >= 0.7 * new:
@@ -120,9 +120,9 @@ def _count_summaries(found: Sequence[Summary], usual: Sequence[Summary]) -> int:
 def _quotes_new_publisher(summary: Summary, restart: Trial) -> bool:
     """Whether the summary quotes a recent message of the new publisher, apart from a first message."""
     quoted = list(summary.quoted)
-    for first in {restart.sent[0].number, restart.sent[restart.breaks].number}.intersection(quoted):
+    for first in {restart.sent[0].number, restart.sent[restart.before_break].number}.intersection(quoted):
         quoted.remove(first)
-    recent = restart.sent[max(restart.breaks, summary.messages - EVERY) : summary.until]
+    recent = restart.sent[max(restart.before_break, summary.messages - SUMMARY_EVERY) : summary.messages_at_end]
     return any(each.number in quoted for each in recent)
 
 
@@ -136,7 +136,7 @@ def judge_gaps(jump: Trial, steady: Trial) -> Verdict:
         return failed(
             expected, f"the node ended after {len(jump.sent)} messages", _diagnose_end(jump, "a jump of N"), words
         )
-    reports = new_lines(jump, since=jump.sent[jump.breaks].at, usual=(steady,))
+    reports = new_lines(jump, since=jump.sent[jump.before_break].at, usual=(steady,))
     jumped = [f"from {jump.sent[index - 1].number} to {jump.sent[index].number}" for index in jump.jumps]
     observed = f"N jumped {', and '.join(jumped)}"
     if reports and (again := _find_repeated_alarms(reports, jump)):
@@ -175,15 +175,15 @@ def _reports_all_jumps(line: Line, jump: Trial) -> bool:
 
 def _find_repeated_alarms(reports: Sequence[Line], jump: Trial) -> list[Line]:
     """The alarms that are repeated for most messages after the jump: warnings, or growing counts of missed messages."""
-    later = [line for line in reports if line.messages > jump.breaks + SETTLING_MESSAGES]
-    expected = jump.sent[jump.breaks - 1].number + 1
+    later = [line for line in reports if line.messages > jump.before_break + SETTLING_MESSAGES]
+    expected = jump.sent[jump.before_break - 1].number + 1
     growing = [
         line
         for line in later
         if any(number.value == jump.sent[line.messages - 1].number - expected for number in line.numbers)
     ]
     for alarms in (growing, [line for line in later if line.level >= Level.WARN]):
-        if len({line.messages for line in alarms}) > 0.7 * (len(jump.sent) - jump.breaks - SETTLING_MESSAGES):
+        if len({line.messages for line in alarms}) > 0.7 * (len(jump.sent) - jump.before_break - SETTLING_MESSAGES):
             return alarms
     return []
 
@@ -194,7 +194,7 @@ def _diagnose_rising_count(jump: Trial, steady: Trial) -> tuple[Cause, list[str]
     It must have been constant before, and not fall at the second jump, unlike a count of messages since the last jump.
     A timer may report a jump late, so only a number that has already risen is considered.
     """
-    calm = range(jump.breaks + SETTLING_MESSAGES, jump.again + 1)
+    calm = range(jump.before_break + SETTLING_MESSAGES, jump.before_second_jump + 1)
     for kind in {line.kind for line in jump.lines if line.messages in calm}:
         lines = [line for line in jump.lines if line.kind == kind]
         starts = [
@@ -206,7 +206,7 @@ def _diagnose_rising_count(jump: Trial, steady: Trial) -> tuple[Cause, list[str]
         if max(map(len, starts)) < 2 or len(amount) > 1:  # a single line does not show what is constant
             continue
         since = [line for line in lines if line.messages in calm]
-        later = [line for line in lines if line.messages > jump.again]
+        later = [line for line in lines if line.messages > jump.before_second_jump]
         for place in range(*amount):
             values_before = {line.numbers[place].value for line in usual}
             rose = [line.numbers[place].value for line in since]
@@ -242,7 +242,7 @@ def _diagnose_no_warning(index: int, jump: Trial, steady: Trial) -> Cause:
     since = {line.kind for line in jump.lines if line.messages in with_it} - in_summaries
     calm = [line for trial in (steady, jump) for line in trial.lines if _is_before_jump(line, trial)]
     false = [line for line in calm if line.kind in since]
-    if 0 < len(false) < 0.7 * (len(steady.sent) + jump.breaks - 2):
+    if 0 < len(false) < 0.7 * (len(steady.sent) + jump.before_break - 2):
         texts = [line.text for line in false]
         return gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
             "false alarm",
@@ -289,7 +289,7 @@ def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial]) -> list[Lin
 
 
 def _is_before_jump(line: Line, trial: Trial) -> bool:
-    return not _is_about_first_message(line, trial) and not (trial.breaks and line.messages > trial.breaks)
+    return not _is_about_first_message(line, trial) and not (trial.before_break and line.messages > trial.before_break)
 
 
 def _is_about_first_message(line: Line, trial: Trial) -> bool:
@@ -332,8 +332,8 @@ def _reports_jump(
 
 def _includes_missed(place: int, line: Line, summary: Summary, calm: Iterable[Line], missed: Sequence[int]) -> bool:
     """Whether a number that equalled the count now also includes missed messages, beside the count itself."""
-    due = milestone(line.messages)
-    followed = all(other.numbers[place].value == milestone(other.messages) > 0 for other in calm)
+    due = last_due_count(line.messages)
+    followed = all(other.numbers[place].value == last_due_count(other.messages) > 0 for other in calm)
     greater = line.numbers[place].value - due in [each for each in _missed_totals(missed) if each > 0]
     return followed and greater and summary.states(due)
 
@@ -371,7 +371,7 @@ def _is_loss_share(increase: float, missed: Sequence[int], trial: Trial, *, scal
     shares = {
         lost / (whole + more)
         for lost in (*jumps, *_missed_totals(missed))
-        for whole in range(trial.breaks + 1, len(trial.sent) + 1)
+        for whole in range(trial.before_break + 1, len(trial.sent) + 1)
         for more in (0, *_missed_totals(missed), *(-each for each in jumps))
     }
     return any(abs(increase - scale * share) <= 0.0051 * scale for share in shares for scale in scales)

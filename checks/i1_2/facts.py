@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import pairwise
 from statistics import median
 
-from checks.i1_2.reading import Line, read
+from checks.i1_2.reading import Line, parse_log
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.ros_model import TopicEndpoint
@@ -16,7 +16,7 @@ from tutor.ros_model import TopicEndpoint
 FILE = "message_stats.py"
 TOPIC, TYPE = "/chatter", "std_msgs/msg/String"
 OURS = TopicEndpoint(TOPIC, TYPE, "/talker")
-EVERY = 10
+SUMMARY_EVERY = 10
 """Number of messages after which the exercise asks for another summary."""
 
 STEADY_HZ = (4.9, 5.0)
@@ -32,9 +32,9 @@ QUIET_S = 1.0
 MATCH_S = 0.4
 """Once we have discovered a best-effort subscription, it has discovered our publisher within this time."""
 
-SOONER_HZ = 8.0
+UNTIMED_HZ = 8.0
 """The rate of messages in scenarios that do not judge rates."""
-JUMP_AFTER, AGAIN_AFTER, JUMP_MESSAGES = 7, 27, 33
+JUMP_AFTER, SECOND_JUMP_AFTER, JUMP_MESSAGES = 7, 27, 33
 """N jumps twice: first far, then by leaving out one number.
 
 A summary is due soon after each jump. Between the jumps, one summary covers ten consecutive messages. A node that
@@ -56,7 +56,7 @@ LATE_S = 1.1
 SOON_S = 0.5
 """Latency bound of a log message that the callback writes immediately."""
 
-MOST_CPU_WAIT_S = 1.0
+MAX_CPU_WAIT_S = 1.0
 """Maximum excuse for a late log message, however busy the machine: a later one belongs to no message."""
 
 ROUGH_S = 0.15
@@ -84,22 +84,22 @@ class Sent:
 class Trial:
     """One run of the node, and the messages that it was sent.
 
-    `breaks`: the number of messages sent before N jumped or another publisher took over; 0 if neither happened.
-    `again`: the number sent before N jumped once more; 0 if it did not. `first_publisher_left_at`: when the first
-    publisher left (seconds since the epoch; 0.0 if it stayed). `cpu_wait_s`: for how long the node waited for a CPU
-    while the messages were sent. `spins`: whether the node answered a request; if not, `stuck` holds the stack frames
-    where it was.
+    `before_break`: the number of messages sent before N jumped or another publisher took over; 0 if neither happened.
+    `before_second_jump`: the number sent before N jumped once more; 0 if it did not. `first_publisher_left_at`: when
+    the first publisher left (seconds since the epoch; 0.0 if it stayed). `cpu_wait_s`: for how long the node waited for
+    a CPU while the messages were sent. `spins`: whether the node answered a request; if not, `stuck` holds the stack
+    frames where it was.
     """
 
     trace: Trace
     sent: tuple[Sent, ...] = ()
-    breaks: int = 0
+    before_break: int = 0
     first_publisher_left_at: float = 0.0
     cpu_wait_s: float = 0.0
     spins: bool = True
     stuck: tuple[Frame, ...] = ()
     ending: Ending | None = None
-    again: int = 0
+    before_second_jump: int = 0
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:
@@ -107,12 +107,12 @@ class Trial:
         times = [each.at for each in self.sent]
         logs = sorted(self.trace.logs, key=lambda log: log.stamp)
         numbered = ((log, bisect_right(times, log.stamp)) for log in logs)
-        return tuple(read(log, messages) for log, messages in numbered if messages)
+        return tuple(parse_log(log, messages) for log, messages in numbered if messages)
 
     @property
     def allowance_s(self) -> float:
         """How much later than usual anything may be logged, because of the machine."""
-        return min(max(self.cpu_wait_s, 0.0), MOST_CPU_WAIT_S)
+        return min(max(self.cpu_wait_s, 0.0), MAX_CPU_WAIT_S)
 
     @property
     def summary_limit_s(self) -> float:
@@ -120,15 +120,15 @@ class Trial:
         return LATE_S + self.allowance_s
 
     @cached_property
-    def most_late_s(self) -> float:
+    def max_delay_s(self) -> float:
         """The greatest delay with which a message was sent, which is our fault, or the machine's."""
-        spans = [b.at - a.at for index, (a, b) in enumerate(pairwise(self.sent), start=1) if index != self.breaks]
+        spans = [b.at - a.at for index, (a, b) in enumerate(pairwise(self.sent), start=1) if index != self.before_break]
         return max(spans) - median(spans) if spans else 0.0
 
     @property
     def slowed(self) -> bool:
         """Whether the machine may be why the node fails (see `tutor.judge.bench.was_slowed`)."""
-        return bool(self.sent) and max(self.cpu_wait_s, self.most_late_s) >= ROUGH_S
+        return bool(self.sent) and max(self.cpu_wait_s, self.max_delay_s) >= ROUGH_S
 
     def delay_s(self, index: int) -> float:
         """How late the node may have received this message, given its waits for a CPU from then on."""
@@ -143,7 +143,7 @@ class Trial:
     @property
     def jumps(self) -> tuple[int, ...]:
         """For each jump after which a message was sent, the number of messages sent before it."""
-        return tuple(before for before in (self.breaks, self.again) if 0 < before < len(self.sent))
+        return tuple(before for before in (self.before_break, self.before_second_jump) if 0 < before < len(self.sent))
 
     def missed(self, messages: int) -> tuple[int, ...]:
         """How many numbers each jump left out, for the jumps within the first `messages` messages."""

@@ -5,14 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from checks.i1_2 import backlog, rates, slowness, steps
-from checks.i1_2.facts import EVERY, FAST_HZ, FAST_MESSAGES, OURS, STALL_S, TOPIC, Trial
-from checks.i1_2.reading import labelled, read
-from checks.i1_2.summaries import Summary, count_complete, find_summaries, in_time, is_complete, milestone, totals
+from checks.i1_2.facts import FAST_HZ, FAST_MESSAGES, OURS, STALL_S, SUMMARY_EVERY, TOPIC, Trial
+from checks.i1_2.reading import labelled, parse_log
+from checks.i1_2.summaries import (
+    Summary,
+    count_complete,
+    find_summaries,
+    is_complete,
+    is_in_time,
+    last_due_count,
+    possible_totals,
+)
 from tutor.judge import causes, ending
 from tutor.judge.trace import LogRecord
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
 
-EXPECTED_SUMMARY = f"one summary for every {EVERY} messages, with the first and the last message's content"
+EXPECTED_SUMMARY = f"one summary for every {SUMMARY_EVERY} messages, with the first and the last message's content"
 BUSY_S = 0.5
 """If the node waited longer for a CPU, missing summaries may be the machine's fault."""
 
@@ -26,7 +34,7 @@ def judge_count(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     if not verdict.passed:
         return verdict
     lost = backlog.find_lost(fast, steady)
-    if lost.excused if lost else not backlog.fast_enough(fast):
+    if lost.excused if lost else not backlog.was_sent_fast_enough(fast):
         return undecided("to send messages fast")
     if lost is None:
         return verdict
@@ -48,7 +56,7 @@ def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
     if wrong:
         trial, summary = wrong[-1]  # after the jump, N and the count differ most, so that the cause is clearest
         return failed(
-            f"{expected}: {' or '.join(map(str, totals(summary, trial)))}",
+            f"{expected}: {' or '.join(map(str, possible_totals(summary, trial)))}",
             f"the summary that came after {summary.messages} messages does not say so",
             _diagnose_count(summary, trial),
             [str(other) for _, other in seen],
@@ -68,19 +76,22 @@ def true_total(summary: Summary, trial: Trial, *, before: int = 0) -> int:
     A summary that is logged later than its message must not quote a newer one; which older message it quotes as the
     last does not matter here. If it also quotes the message that it counted last, it may be arbitrarily late.
     """
-    true = totals(summary, trial, before=before)
+    true = possible_totals(summary, trial, before=before)
     for total in true:
         late = summary.messages > before + total
         if summary.states(total) and (not late or _may_be_made_after(before + total, summary, trial, before=before)):
             return total
-    earlier_totals = {*range(EVERY, true.start, EVERY), *range(max(1, true.start - EVERY), true.start)}
+    earlier_totals = {
+        *range(SUMMARY_EVERY, true.start, SUMMARY_EVERY),
+        *range(max(1, true.start - SUMMARY_EVERY), true.start),
+    }
     held_back = [total for total in sorted(earlier_totals) if summary.states(total)]
     return next((t for t in held_back if _is_made_after(before + t, summary, trial, before=before)), 0)
 
 
 def _may_be_made_after(messages: int, summary: Summary, trial: Trial, *, before: int) -> bool:
     """Whether its quotations are consistent with a summary that was made after this many messages."""
-    newer = {each.number for each in trial.sent[messages : summary.until]}
+    newer = {each.number for each in trial.sent[messages : summary.messages_at_end]}
     later = newer.intersection(_quoted_without_first(summary, trial, before=before))
     return not later or _is_made_after(messages, summary, trial, before=before)
 
@@ -91,7 +102,9 @@ def _is_made_after(messages: int, summary: Summary, trial: Trial, *, before: int
     A new publisher repeats some numbers; one that had come before does not count as later.
     """
     sent, quoted = trial.sent, _quoted_without_first(summary, trial, before=before)
-    newer = {each.number for each in sent[messages : summary.until]} - {each.number for each in sent[:messages]}
+    newer = {each.number for each in sent[messages : summary.messages_at_end]} - {
+        each.number for each in sent[:messages]
+    }
     return sent[messages - 1].number in quoted and not newer.intersection(quoted)
 
 
@@ -118,7 +131,7 @@ def _miscounted(summary: Summary, trial: Trial) -> tuple[str, str, str]:
             f"it says {sent + missed}, but {missed} of these were never sent",
             "count each call of the callback, and nothing else: self.total_count += 1",
         )
-    if (trial.breaks or trial.sent[0].number > 1) and (summary.states(last) or summary.states(last + 1)):
+    if (trial.before_break or trial.sent[0].number > 1) and (summary.states(last) or summary.states(last + 1)):
         return (
             "number taken for the count",
             f"it states the N of “Hello World: {last}”, not how many messages came",
@@ -148,7 +161,7 @@ def judge_rate(steady: Trial, jump: Trial) -> Verdict:
     low, high = min(each.low for each in allowed), max(each.high for each in allowed)
     expected = f"each summary states the messages per second: {rates.sent_hz(steady):.2f}, from {low:.1f} to {high:.1f}"
     evidence = [str(summary) for summary in summaries]
-    stated = rates.stated(summaries, allowed, jump)
+    stated = rates.find_stated_rates(summaries, allowed, jump)
     if stated is None:
         wrong = next((r for r, a in zip(summaries, allowed, strict=True) if not a.among(r)), summaries[-1])
         return failed(
@@ -157,7 +170,7 @@ def judge_rate(steady: Trial, jump: Trial) -> Verdict:
             rates.diagnose_wrong_rate(wrong, summaries, steady),
             evidence,
         )
-    if rates.doubtful(stated, summaries, steady):
+    if rates.is_doubtful_rate(stated, summaries, steady):
         return undecided("to send messages at an even rate")
     return passed(expected, f"{', '.join(number.text for number in stated)} messages per second", evidence)
 
@@ -166,9 +179,9 @@ def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     verdict = judge_slow_summary(steady, jump)
     if not verdict.passed or backlog.find_lost(fast, steady) is not None:  # `count` reports lost messages
         return verdict
-    if not backlog.missing_summary(fast, steady):
+    if not backlog.is_summary_missing(fast, steady):
         return verdict
-    if not backlog.fast_enough(fast) or fast.allowance_s > BUSY_S:
+    if not backlog.was_sent_fast_enough(fast) or fast.allowance_s > BUSY_S:
         return undecided("to send messages fast")
     return failed(
         f"{EXPECTED_SUMMARY}, at {FAST_HZ:g} a second, too",
@@ -196,7 +209,7 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
     """Judge `summary` by the messages that come slowly."""
     expected = EXPECTED_SUMMARY
     if not find_summaries(steady):
-        if (many := count_complete(steady)) > len(steady.sent) // EVERY:
+        if (many := count_complete(steady)) > len(steady.sent) // SUMMARY_EVERY:
             text = f"{many} summaries for {len(steady.sent)} messages"
             again = Cause("too many summaries", "one summary is written again and again", _every_ten(steady))
             return failed(expected, text, again, _logged(steady))
@@ -205,7 +218,7 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
         )
     # A node that exits or miscounts from the jump on fails other criteria.
     survives_jump = jump.trace.exit is None and counts_truly(jump)
-    for trial, messages in ((steady, len(steady.sent)), (jump, len(jump.sent) if survives_jump else jump.breaks)):
+    for trial, messages in ((steady, len(steady.sent)), (jump, len(jump.sent) if survives_jump else jump.before_break)):
         summaries = [summary for summary in find_summaries(trial) if summary.messages <= messages]
         evidence = [str(summary) for summary in summaries[:8]]
         if (cause := _diagnose_interval(summaries, trial, messages)) is not None:
@@ -234,13 +247,17 @@ def judge_fast_count(fast: Trial) -> Verdict | None:
     summaries = _fast_summaries(fast)
     if not summaries or not all(is_complete(summary, fast) for summary in summaries):
         return None
-    if any(summary.states(total) for summary in summaries for total in range(EVERY, summary.until + 1, EVERY)):
+    if any(
+        summary.states(total)
+        for summary in summaries
+        for total in range(SUMMARY_EVERY, summary.messages_at_end + 1, SUMMARY_EVERY)
+    ):
         return None
-    if any(any(map(summary.states, totals(summary, fast))) for summary in summaries):
+    if any(any(map(summary.states, possible_totals(summary, fast))) for summary in summaries):
         return None
     last = summaries[-1]
     return failed(
-        f"{EXPECTED_COUNT}: {' or '.join(map(str, totals(last, fast)))}",
+        f"{EXPECTED_COUNT}: {' or '.join(map(str, possible_totals(last, fast)))}",
         f"the summary that came after {last.messages} messages does not say so",
         _diagnose_count(last, fast),
         [str(summary) for summary in summaries],
@@ -254,7 +271,7 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
     summaries all lack the same thing.
     """
     if not fast.lines:
-        silent = fast.spins and len(fast.sent) >= FAST_MESSAGES and backlog.fast_enough(fast)
+        silent = fast.spins and len(fast.sent) >= FAST_MESSAGES and backlog.was_sent_fast_enough(fast)
         observed = f"none, after {len(fast.sent)} messages"
         return failed(EXPECTED_SUMMARY, observed, diagnose_no_summary(fast), _logged(fast)) if silent else None
     summaries = _fast_summaries(fast)
@@ -262,12 +279,12 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
         return None
     evidence = [str(summary) for summary in summaries[:8]]
     whole = all(is_complete(summary, fast) for summary in summaries)
-    if whole and len(summaries) >= 1.5 * len(fast.sent) / EVERY:
+    if whole and len(summaries) >= 1.5 * len(fast.sent) / SUMMARY_EVERY:
         when = ", ".join(str(summary.messages) for summary in summaries[:12])
         cause = _diagnose_interval(summaries, fast, len(fast.sent))
         observed = f"summaries after {when} messages, of {len(fast.sent)}"
         return failed(EXPECTED_SUMMARY, observed, cause, evidence) if cause else None
-    if any(summary.messages % EVERY > 1 for summary in summaries):  # perhaps timed by a wrong count
+    if any(summary.messages % SUMMARY_EVERY > 1 for summary in summaries):  # perhaps timed by a wrong count
         return None
     missing = [_diagnose_incomplete_summary(summary, fast) for summary in summaries[1:]]  # the first may be complete
     cause = missing[-1]
@@ -282,30 +299,34 @@ def _fast_summaries(fast: Trial) -> Sequence[Summary]:
     Nor if there are two subscriptions that may log each message twice: the slow messages show the cause of that better.
     """
     summaries = find_summaries(fast)
-    whole = len(fast.sent) >= FAST_MESSAGES and backlog.fast_enough(fast) and len(summaries) >= len(fast.sent) // EVERY
+    whole = (
+        len(fast.sent) >= FAST_MESSAGES
+        and backlog.was_sent_fast_enough(fast)
+        and len(summaries) >= len(fast.sent) // SUMMARY_EVERY
+    )
     prompt = fast.spins and fast.allowance_s < STALL_S and not backlog.messages_behind(fast)
     alone = sum(each.topic == TOPIC for each in fast.trace.graph.subscriptions) == 1
     return summaries if whole and prompt and alone else ()
 
 
 def _diagnose_interval(summaries: Sequence[Summary], trial: Trial, messages: int) -> Cause | None:
-    due = range(EVERY, messages + 1, EVERY)
+    due = range(SUMMARY_EVERY, messages + 1, SUMMARY_EVERY)
     when = [summary.messages for summary in summaries]
     if len(summaries) > 3 and len(summaries) >= 0.7 * messages:
         return Cause(
             "summary for every message", f"{len(summaries)} summaries for {messages} messages", _every_ten(trial)
         )
-    if len(summaries) > len(due) or any(summary.times > 1 for summary in summaries):
+    if len(summaries) > len(due) or any(summary.repetitions > 1 for summary in summaries):
         return Cause(
             "too many summaries",
-            f"{sum(summary.times for summary in summaries)} summaries for {messages} messages",
+            f"{sum(summary.repetitions for summary in summaries)} summaries for {messages} messages",
             _every_ten(trial),
         )
     for number in due:
-        candidates = [each for each in summaries if milestone(each.messages) == number]
-        if not any(in_time(each, trial) for each in candidates):
-            early = [each for each in when if number - EVERY < each < number]
-            late = [each for each in when if number < each < number + EVERY]
+        candidates = [each for each in summaries if last_due_count(each.messages) == number]
+        if not any(is_in_time(each, trial) for each in candidates):
+            early = [each for each in when if number - SUMMARY_EVERY < each < number]
+            late = [each for each in when if number < each < number + SUMMARY_EVERY]
             when_instead = f"it comes after {(early or late)[-1]}" if early or late else "and none comes later"
             return Cause("missing summary", f"there is none after {number} messages, {when_instead}", _every_ten(trial))
     return None
@@ -314,7 +335,7 @@ def _diagnose_interval(summaries: Sequence[Summary], trial: Trial, messages: int
 def _every_ten(trial: Trial) -> str:
     """The step towards one summary for every ten messages."""
     return steps.summarise_every_ten(trial.trace) or (
-        f"if self.total_count % {EVERY} == 0: write the summary, in the callback, after counting"
+        f"if self.total_count % {SUMMARY_EVERY} == 0: write the summary, in the callback, after counting"
     )
 
 
@@ -324,13 +345,13 @@ def _counts_wrongly(summaries: Sequence[Summary], trial: Trial) -> bool:
     A single count may be right by chance: if a node counts one too many, its summary after 9 messages may come late,
     after the 10th.
     """
-    by_its_count = all(summary.states(EVERY * number) for number, summary in enumerate(summaries, start=1))
+    by_its_count = all(summary.states(SUMMARY_EVERY * number) for number, summary in enumerate(summaries, start=1))
     return by_its_count and any(not true_total(summary, trial) for summary in summaries)
 
 
 def _diagnose_incomplete_summary(summary: Summary, trial: Trial) -> Cause | None:
     first = trial.sent[0]
-    recent = trial.sent[milestone(summary.messages) - 1 : summary.until]
+    recent = trial.sent[last_due_count(summary.messages) - 1 : summary.messages_at_end]
     if first.number not in summary.quoted:
         others = [number for number in summary.quoted if number not in {each.number for each in recent}]
         if others:
@@ -374,7 +395,7 @@ def diagnose_no_summary(trial: Trial) -> Cause:
         )
     printed = causes.diagnose_printed(
         trace,
-        lambda text: bool(read(_as_log(text), 1).quoted),
+        lambda text: bool(parse_log(_as_log(text), 1).quoted),
         "what the node has to say",
         after=trial.ending.output if trial.ending else (),
     )
@@ -384,8 +405,8 @@ def diagnose_no_summary(trial: Trial) -> Cause:
         "no summary",
         "none of its log messages sums up the messages" if trial.lines else "no log message follows from a message",
         steps.summarise_every_ten(trace)
-        or f"count in the callback; if self.total_count % {EVERY} == 0: self.get_logger().info(...) with the count, "
-        "the rate, the first and the last message",
+        or f"count in the callback; if self.total_count % {SUMMARY_EVERY} == 0: self.get_logger().info(...) with the "
+        "count, the rate, the first and the last message",
     )
 
 

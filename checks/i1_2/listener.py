@@ -87,7 +87,7 @@ def find_listener(trace: Trace) -> Listener | None:
                 parent = next(file.ancestors(function), None)
                 owner = parent if isinstance(parent, ast.ClassDef) else None
                 outer = file.function_around(function) if owner is None else None
-                reached = tuple(file.reached(function))
+                reached = tuple(file.reachable_from(function))
                 return Listener(
                     file, call, function, reached, owner, outer, dict(_find_roles(function, reached, owner, file))
                 )

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from math import inf
 
 from checks.i1_2 import steps
-from checks.i1_2.facts import EVERY, STALL_S, Trial
+from checks.i1_2.facts import STALL_S, SUMMARY_EVERY, Trial
 from checks.i1_2.reading import Number
-from checks.i1_2.summaries import Summary, find_summaries, milestone, slots, totals
+from checks.i1_2.summaries import Summary, find_summaries, last_due_count, possible_totals, slots
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.verdict import Cause
 
@@ -62,13 +62,13 @@ def true_rates(summary: Summary, trial: Trial, *, excused_s: float = inf) -> Ran
     `excused_s` of that is allowed for.
     """
     least, most = [], []
-    for until in range(summary.messages, summary.until + 1):
+    for until in range(summary.messages, summary.messages_at_end + 1):
         last_at = trial.sent[until - 1].at
         for first in range(max(1, until - MIN_WINDOW + 1)):
             count, since = until - first, trial.sent[first].at
             span = max(last_at - since, DELAY_S)
             delay = min(DELAY_S + min(trial.delay_s(first), excused_s), 0.7 * span)
-            if count >= EVERY or first == 0:  # from the first message until the summary is logged
+            if count >= SUMMARY_EVERY or first == 0:  # from the first message until the summary is logged
                 least.append((count - 1) / (max(summary.at - since, span) + DELAY_S))
                 most.append(count / (span - delay))
             least.append((count - 1) / (span + DELAY_S))
@@ -76,7 +76,7 @@ def true_rates(summary: Summary, trial: Trial, *, excused_s: float = inf) -> Ran
     return Range((1 - TOLERANCE) * min(least), (1 + TOLERANCE) * max(most))
 
 
-def stated(summaries: Sequence[Summary], allowed: Sequence[Range], jump: Trial) -> list[Number] | None:
+def find_stated_rates(summaries: Sequence[Summary], allowed: Sequence[Range], jump: Trial) -> list[Number] | None:
     """The true rate as stated by each summary, in the same place of each; None if one does not state it.
 
     `jump` was fed at another rate: a number that is the same, and wrong, in all of its summaries is not a rate. One
@@ -101,7 +101,7 @@ def stated(summaries: Sequence[Summary], allowed: Sequence[Range], jump: Trial) 
     return found
 
 
-def doubtful(numbers: Sequence[Number], summaries: Sequence[Summary], trial: Trial) -> bool:
+def is_doubtful_rate(numbers: Sequence[Number], summaries: Sequence[Summary], trial: Trial) -> bool:
     """Whether these numbers may only look like the rate, because a busy machine kept us from the planned send rate.
 
     At the planned rate, other numbers are far from it: the elapsed seconds, the messages per whole seconds, or per
@@ -125,15 +125,15 @@ def doubtful(numbers: Sequence[Number], summaries: Sequence[Summary], trial: Tri
 
 def _elapsed(summary: Summary, trial: Trial) -> float:
     """Seconds from the first message to the one at which the summary was due."""
-    count = milestone(summary.messages) or summary.messages
+    count = last_due_count(summary.messages) or summary.messages
     return max(trial.sent[count - 1].at - trial.sent[0].at, DELAY_S)
 
 
 def _well_measured(summary: Summary, trial: Trial) -> Iterator[Range]:
     """The rates of a node that measures well: since the first message, or over the last ten."""
-    for first in {0, max(0, (milestone(summary.messages) or summary.messages) - EVERY)}:
+    for first in {0, max(0, (last_due_count(summary.messages) or summary.messages) - SUMMARY_EVERY)}:
         since = trial.sent[first].at
-        soonest = trial.sent[max(first, (milestone(summary.messages) or summary.messages) - 1)].at - since
+        soonest = trial.sent[max(first, (last_due_count(summary.messages) or summary.messages) - 1)].at - since
         delay = min(trial.delay_s(first), 0.7 * soonest)
         low = (summary.messages - first - 1) / max(summary.at - since, DELAY_S)
         high = (summary.messages - first) / max(soonest - delay, DELAY_S)
@@ -218,7 +218,7 @@ def _clock_lead(summary: Summary, trial: Trial) -> list[tuple[Number, _Span]]:
 
 def _covered_count(summary: Summary, trial: Trial) -> int:
     """The number of messages that the summary covers: the true total that it states, or all that had been sent."""
-    return next((total for total in totals(summary, trial) if summary.states(total)), summary.messages)
+    return next((total for total in possible_totals(summary, trial) if summary.states(total)), summary.messages)
 
 
 def _numbers_except_count(summary: Summary, trial: Trial) -> list[Number]:

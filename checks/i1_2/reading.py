@@ -70,7 +70,7 @@ class Line:
         return bool(self.quoted or self.numbers)
 
 
-def read(log: LogRecord, messages: int) -> Line:
+def parse_log(log: LogRecord, messages: int) -> Line:
     """Parse one log message, logged after `messages` messages had been sent."""
     text = unicodedata.normalize("NFKC", _COLOUR.sub("", log.text))
     quoted = tuple(int(found[1]) for found in _CONTENT.finditer(text))

@@ -7,7 +7,7 @@ import re
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from checks.i1_2.facts import EVERY
+from checks.i1_2.facts import SUMMARY_EVERY
 from checks.i1_2.listener import COUNT, FIRST, LAST, NUMBER, START, Listener, find_listener
 from tutor.judge import source
 from tutor.judge.edits import (
@@ -49,7 +49,7 @@ def rewrite_callback(trace: Trace) -> str | None:
     if listener is not None and listener.message and listener.logger:
         names = {role: listener.name(role) for role in _INITIAL_VALUES}
         wanted, now = monotonic_clock(listener.text)
-        code = _CODE.format(content=listener.content, clock=now, logger=listener.logger, every=EVERY, **names)
+        code = _CODE.format(content=listener.content, clock=now, logger=listener.logger, every=SUMMARY_EVERY, **names)
         written = replace_body(listener, declare_variables(listener, names.values(), code))
         timers = list(_remove_timers(listener))
         if apply(listener.text, [written, *timers]).split() == listener.text.split():
@@ -71,7 +71,9 @@ def _new_callback(trace: Trace) -> str | None:
         node, name = ast.unparse(call.func.value), "on_message" if "on_message" not in text else "on_chatter"
         names = {role: f"{node}.{role}" for role in _INITIAL_VALUES}
         wanted, now = monotonic_clock(text)
-        code = _CODE.format(content="message.data", clock=now, logger=f"{node}.get_logger()", every=EVERY, **names)
+        code = _CODE.format(
+            content="message.data", clock=now, logger=f"{node}.get_logger()", every=SUMMARY_EVERY, **names
+        )
         method = f"def {name}({'self, ' if node == 'self' else ''}message):\n{textwrap.indent(code, '    ')}"
         starts = "\n".join(f"{names[role]} = {value}" for role, value in _INITIAL_VALUES.items())
         if node == "self":
@@ -95,7 +97,7 @@ def _remove_timers(listener: Listener) -> Iterator[Edit]:
         name = next((each for each in names if each in functions), "")
         if not name or functions[name] in listener.reached:
             continue
-        inside = [node for each in listener.file.reached(functions[name]) for node in ast.walk(each)]
+        inside = [node for each in listener.file.reachable_from(functions[name]) for node in ast.walk(each)]
         if any(isinstance(each, ast.Call) and source.called_name(each) == "get_logger" for each in inside):
             yield remove_statement(listener.text, listener.file.statement(call))
             if len(re.findall(rf"\b{name}\b", listener.text)) == 2:

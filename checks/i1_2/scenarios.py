@@ -8,7 +8,6 @@ from dataclasses import replace
 
 from checks.i1_2.facts import (
     ABSENT_S,
-    AGAIN_AFTER,
     FAST_HZ,
     FAST_MESSAGES,
     FILE,
@@ -18,16 +17,17 @@ from checks.i1_2.facts import (
     QUIET_S,
     RESTART_AFTER,
     RESTART_MESSAGES,
+    SECOND_JUMP_AFTER,
     SOON_S,
-    SOONER_HZ,
     STEADY_HZ,
     STEADY_MESSAGES,
     TOPIC,
     TYPE,
+    UNTIMED_HZ,
     Sent,
     Trial,
 )
-from checks.i1_2.summaries import find_summaries, milestone
+from checks.i1_2.summaries import find_summaries, last_due_count
 from tutor.judge.bench import Bench, Publisher, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.tracebacks import Frame
@@ -79,13 +79,24 @@ async def jump(bench: Bench) -> Trial:
         # N exceeds 100 before the jump: a node that compares strings, or the last two digits, fails there.
         first = random.randint(94, 97)
         skipped = first + JUMP_AFTER + random.randint(4, 8)
-        await _send(bench, run, talker, sent, range(first, first + JUMP_AFTER), SOONER_HZ)
-        until = skipped + AGAIN_AFTER - JUMP_AFTER
-        await _send(bench, run, talker, sent, range(skipped, until), SOONER_HZ)
-        await _send(bench, run, talker, sent, range(until + 1, until + 1 + JUMP_MESSAGES - AGAIN_AFTER), SOONER_HZ)
-        breaks, again = (after if len(sent) > after else 0 for after in (JUMP_AFTER, AGAIN_AFTER))
+        await _send(bench, run, talker, sent, range(first, first + JUMP_AFTER), UNTIMED_HZ)
+        until = skipped + SECOND_JUMP_AFTER - JUMP_AFTER
+        await _send(bench, run, talker, sent, range(skipped, until), UNTIMED_HZ)
+        await _send(
+            bench, run, talker, sent, range(until + 1, until + 1 + JUMP_MESSAGES - SECOND_JUMP_AFTER), UNTIMED_HZ
+        )
+        before_break, before_second_jump = (
+            after if len(sent) > after else 0 for after in (JUMP_AFTER, SECOND_JUMP_AFTER)
+        )
         cpu_wait_s = run.node_cpu_wait_s() - waited_before_s
-        trial = Trial(run.trace(), tuple(sent), breaks, cpu_wait_s=cpu_wait_s, spins=spins, again=again)
+        trial = Trial(
+            run.trace(),
+            tuple(sent),
+            before_break,
+            cpu_wait_s=cpu_wait_s,
+            spins=spins,
+            before_second_jump=before_second_jump,
+        )
         return await _collect_last_logs(run, trial)
 
 
@@ -115,7 +126,7 @@ async def restart(bench: Bench) -> Trial:
             # Low enough that the second publisher repeats numbers of the first: a node that takes those for duplicates
             # fails.
             first = random.randint(3, 6)
-            await _send(bench, run, talker, sent, range(first, first + RESTART_AFTER), SOONER_HZ)
+            await _send(bench, run, talker, sent, range(first, first + RESTART_AFTER), UNTIMED_HZ)
             await _pause(run, SOON_S / 2)
             left_at = run.now()  # taken before it leaves, since the node may log that immediately
         await _pause(run, ABSENT_S)
@@ -123,10 +134,12 @@ async def restart(bench: Bench) -> Trial:
             await run.until(lambda: talker.subscribers > 0, SPIN_S)
             if talker.subscribers:
                 await _pause(run, MATCH_S)
-                await _send(bench, run, talker, sent, range(RESTART_MESSAGES - RESTART_AFTER), SOONER_HZ)
+                await _send(bench, run, talker, sent, range(RESTART_MESSAGES - RESTART_AFTER), UNTIMED_HZ)
             cpu_wait_s = run.node_cpu_wait_s() - waited_before_s
-            breaks = RESTART_AFTER if len(sent) >= RESTART_AFTER else 0
-            return await _collect_last_logs(run, Trial(run.trace(), tuple(sent), breaks, left_at, cpu_wait_s, spins))
+            before_break = RESTART_AFTER if len(sent) >= RESTART_AFTER else 0
+            return await _collect_last_logs(
+                run, Trial(run.trace(), tuple(sent), before_break, left_at, cpu_wait_s, spins)
+            )
 
 
 async def _wait_for_match(run: Run, talker: Publisher, settled_s: float) -> bool:
@@ -139,7 +152,7 @@ async def _wait_for_match(run: Run, talker: Publisher, settled_s: float) -> bool
         run,
         lambda: talker.subscribers > 0,
         promised=has_subscription,
-        rare_s=1.0,
+        message_gap_s=1.0,
         settle_s=lambda: patience_s(((each.topic, each.type) for each in run.graph.subscriptions), TOPIC, TYPE),
     )
     matched_at = run.now()
@@ -179,7 +192,7 @@ async def _collect_last_logs(run: Run, trial: Trial) -> Trial:
     def current() -> Trial:
         return replace(trial, trace=run.trace())
 
-    last = milestone(len(trial.sent))
+    last = last_due_count(len(trial.sent))
 
     def has_last_summary() -> bool:
         return any(summary.messages >= last for summary in find_summaries(current()))
@@ -192,13 +205,13 @@ async def _collect_last_logs(run: Run, trial: Trial) -> Trial:
         await run.until(
             lambda: _logs_something_new(jumped_at, current()), max(jumped_at + trial.summary_limit_s - run.now(), 0.0)
         )
-    await wait_until_log_quiet(run, quiet_s=LINE_GAP_S, most_s=LOG_QUIET_LIMIT_S)
+    await wait_until_log_quiet(run, quiet_s=LINE_GAP_S, max_s=LOG_QUIET_LIMIT_S)
     return current()
 
 
 def _logs_something_new(jumped_at: float, trial: Trial) -> bool:
     """Whether a kind of line was logged since `jumped_at` that was never logged before the first jump."""
-    usual_kinds = {line.kind for line in trial.lines if line.messages <= trial.breaks}
+    usual_kinds = {line.kind for line in trial.lines if line.messages <= trial.before_break}
     return any(line.at >= jumped_at and line.kind not in usual_kinds for line in trial.lines)
 
 

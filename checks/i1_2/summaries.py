@@ -7,7 +7,7 @@ from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from checks.i1_2.facts import EVERY, SOON_S, Trial
+from checks.i1_2.facts import SOON_S, SUMMARY_EVERY, Trial
 from checks.i1_2.reading import Line, Number
 
 AT_ONCE_S = 0.05
@@ -35,7 +35,7 @@ class Summary:
         return self.lines[0].messages
 
     @property
-    def until(self) -> int:
+    def messages_at_end(self) -> int:
         """How many messages had been sent when its last line was logged."""
         return self.lines[-1].messages
 
@@ -52,7 +52,7 @@ class Summary:
         return frozenset(line.kind for line in self.lines if line.tells)
 
     @property
-    def times(self) -> int:
+    def repetitions(self) -> int:
         """How often the summary was logged: the same lines, with the same quotations, may be repeated."""
         for length in range(1, len(self.lines) // 2 + 1):
             times, rest = divmod(len(self.lines), length)
@@ -71,31 +71,31 @@ class Summary:
         return f"after {self.messages} messages: " + " / ".join(line.text for line in self.lines)
 
 
-def milestone(messages: int) -> int:
+def last_due_count(messages: int) -> int:
     """The number of messages after which a summary was last due."""
-    return messages - messages % EVERY
+    return messages - messages % SUMMARY_EVERY
 
 
-def in_time(summary: Summary, trial: Trial) -> bool:
+def is_in_time(summary: Summary, trial: Trial) -> bool:
     """Whether the summary was logged at the tenth, twentieth, ... message, or soon after."""
-    due = milestone(summary.messages)
+    due = last_due_count(summary.messages)
     return due > 0 and summary.at - trial.sent[due - 1].at <= trial.summary_limit_s
 
 
-def totals(summary: Summary, trial: Trial, *, before: int = 0) -> range:
+def possible_totals(summary: Summary, trial: Trial, *, before: int = 0) -> range:
     """The totals that the summary may truthfully state, if the first `before` messages do not count.
 
     It may have been composed a moment before it was logged, and be logged in several parts.
     """
     counted = summary.messages - before
     earliest = counted
-    if milestone(counted) > 0 and (
-        summary.at - trial.sent[before + milestone(counted) - 1].at <= trial.summary_limit_s
+    if last_due_count(counted) > 0 and (
+        summary.at - trial.sent[before + last_due_count(counted) - 1].at <= trial.summary_limit_s
     ):
-        earliest = milestone(counted)
+        earliest = last_due_count(counted)
     elif summary.at - trial.sent[summary.messages - 1].at <= AT_ONCE_S + trial.allowance_s:
         earliest = counted - 1
-    return range(max(earliest, 1), summary.until - before + 1)
+    return range(max(earliest, 1), summary.messages_at_end - before + 1)
 
 
 def find_summaries(trial: Trial) -> tuple[Summary, ...]:
@@ -115,14 +115,14 @@ def find_summaries(trial: Trial) -> tuple[Summary, ...]:
 def count_complete(trial: Trial) -> int:
     """The number of summaries if they are too frequent to be distinguished from what is logged for every message."""
     complete = [each for each in group_lines(trial.lines, trial) if each.messages > 1 and is_complete(each, trial)]
-    return sum(each.times for each in complete)
+    return sum(each.repetitions for each in complete)
 
 
 def is_complete(summary: Summary, trial: Trial) -> bool:
     """Whether the summary quotes a first message and a recent one."""
     firsts = {trial.sent[index].number for index in (0, *trial.jumps)}
-    oldest = min(summary.messages - MAX_AGE, milestone(summary.messages)) - 1
-    recent = {each.number for each in trial.sent[max(oldest, 0) : summary.until]}
+    oldest = min(summary.messages - MAX_AGE, last_due_count(summary.messages)) - 1
+    recent = {each.number for each in trial.sent[max(oldest, 0) : summary.messages_at_end]}
     quoted = list(summary.quoted)
     return any(
         first in quoted and any(last in quoted and (last != first or quoted.count(first) > 1) for last in recent)
@@ -138,7 +138,7 @@ def _without_break_reports(complete: Sequence[Summary], trial: Trial) -> list[Su
     in_summaries = {
         kind
         for summary in complete
-        if in_time(summary, trial) and not _is_at_break(summary, trial)
+        if is_in_time(summary, trial) and not _is_at_break(summary, trial)
         for kind in summary.kinds
     }
     return [
@@ -150,7 +150,9 @@ def _without_break_reports(complete: Sequence[Summary], trial: Trial) -> list[Su
 
 def _is_at_break(summary: Summary, trial: Trial) -> bool:
     """Whether the summary came right after a break, and quotes nothing newer than the message after the break."""
-    quoted = [index for index, each in enumerate(trial.sent[: summary.until]) if each.number in summary.quoted]
+    quoted = [
+        index for index, each in enumerate(trial.sent[: summary.messages_at_end]) if each.number in summary.quoted
+    ]
     newest = max(quoted, default=0)
     return any(
         newest in (index - 1, index) and 0 <= summary.at - trial.sent[index].at <= trial.summary_limit_s
@@ -175,7 +177,7 @@ def _without_coincidences(
     Such kinds of lines also come separately, at times when no summary is due; when one is due, they may be the rest of
     a summary that was split.
     """
-    separate = [each for each in candidates if each not in summaries and each.messages % EVERY > MAX_AGE]
+    separate = [each for each in candidates if each not in summaries and each.messages % SUMMARY_EVERY > MAX_AGE]
     elsewhere = {line.kind for each in separate for line in each.lines}
     return tuple(_without(summary, elsewhere, trial) for summary in summaries)
 
@@ -190,9 +192,9 @@ def _find_best_family(candidates: Sequence[Summary], trial: Trial) -> tuple[Summ
     """Choose among incomplete candidates the family that most often states a total or quotes a message when due."""
 
     def score(family: Sequence[Summary]) -> tuple[int, int]:
-        due = [each for each in family if in_time(each, trial)]
-        telling = [each for each in due if each.quoted or any(map(each.states, totals(each, trial)))]
-        return len({milestone(each.messages) for each in telling}), -len(family)
+        due = [each for each in family if is_in_time(each, trial)]
+        telling = [each for each in due if each.quoted or any(map(each.states, possible_totals(each, trial)))]
+        return len({last_due_count(each.messages) for each in telling}), -len(family)
 
     families = [_with_similar([each], candidates) for each in candidates if each.kinds]
     best = max(families, key=score, default=())
@@ -207,7 +209,11 @@ def group_lines(lines: Sequence[Line], trial: Trial) -> tuple[Summary, ...]:
     groups: list[Summary] = []
     for line in lines:
         before = groups[-1].lines[-1] if groups else None
-        at_once = before and line.at - before.at <= AT_ONCE_S and milestone(line.messages) == milestone(before.messages)
+        at_once = (
+            before
+            and line.at - before.at <= AT_ONCE_S
+            and last_due_count(line.messages) == last_due_count(before.messages)
+        )
         if before and (line.messages == before.messages or at_once):
             groups[-1] = Summary((*groups[-1].lines, line))
         else:
@@ -224,7 +230,7 @@ def group_lines(lines: Sequence[Line], trial: Trial) -> tuple[Summary, ...]:
 def _join(one: Summary, other: Summary, trial: Trial) -> Summary | None:
     """Join two parts of a summary that was interrupted by a message; None if they do not belong together."""
     whole = Summary(one.lines + other.lines)
-    soon = other.at - one.at <= SOON_S and milestone(other.messages) == milestone(one.messages) > 0
+    soon = other.at - one.at <= SOON_S and last_due_count(other.messages) == last_due_count(one.messages) > 0
     separate = not is_complete(one, trial) and not is_complete(other, trial) and not one.kinds & other.kinds
     return whole if soon and separate and is_complete(whole, trial) else None
 

@@ -33,12 +33,14 @@ def find_log_call(trace: Trace, message: str) -> LogCall | None:
     for file in source.files(trace):
         for call in (each for each in file.nodes if isinstance(each, ast.Call) and source.called_name(each) in _LEVELS):
             function = file.function_around(call)
-            if call.args and (values := read(call.args[0], message, function)) is not None:
+            if call.args and (values := match_template(call.args[0], message, function)) is not None:
                 return LogCall(file.text, call, file.statement(call), function, tuple(values))
     return None
 
 
-def read(written: ast.expr, message: str, function: ast.AST | None = None) -> list[tuple[ast.expr, str]] | None:
+def match_template(
+    written: ast.expr, message: str, function: ast.AST | None = None
+) -> list[tuple[ast.expr, str]] | None:
     """Each expression in a composed string, with its value in `message`; None if the message does not match."""
     parts = list(_parts(written, function))
     if not any(isinstance(each, str) and each.strip() for each in parts):
@@ -50,11 +52,11 @@ def read(written: ast.expr, message: str, function: ast.AST | None = None) -> li
             between[-1] += each
         else:
             between.append("")
-    found = _filling(between, message)
+    found = match_literals(between, message)
     return list(zip(expressions, found, strict=True)) if found is not None else None
 
 
-def _filling(between: Sequence[str], message: str) -> list[str] | None:
+def match_literals(between: Sequence[str], message: str) -> list[str] | None:
     """The shortest parts of a message between these texts; None if the message does not consist of them."""
     first, *others = between
     if not message.startswith(first):

@@ -10,7 +10,7 @@ from functools import partial
 
 from checks.i1_3 import client_names, client_requests, rewriting, service_steps, steps
 from checks.i1_3.code import Code, learner_files, with_applicable_step
-from checks.i1_3.facts import CLIENT, CLIENT_S, SERVER, SERVER_DELAY_S, SIGNS, ClientRun
+from checks.i1_3.facts import CLIENT, CLIENT_S, OPERATOR_SIGNS, SERVER, SERVER_DELAY_S, ClientRun
 from tutor.judge import causes, edits, source, tracebacks
 from tutor.judge.rewriting.program import call_main, first_sound_step
 from tutor.judge.trace import Trace
@@ -116,7 +116,7 @@ def _is_due_to_no_answer(found: tracebacks.Traceback | None) -> bool:
 
 def _missing(seen: ClientRun) -> list[str]:
     called = {served.service for served in seen.served}
-    return [name for name in SIGNS if name not in called]
+    return [name for name in OPERATOR_SIGNS if name not in called]
 
 
 def _diagnose_exit_code(seen: ClientRun, missing: Sequence[str], ended: str) -> Cause:
@@ -276,4 +276,4 @@ def gave_up_early(seen: ClientRun) -> bool:
 
 
 def _list_services(called: set[str]) -> str:
-    return ", ".join(name for name in SIGNS if name in called) or "nothing"
+    return ", ".join(name for name in OPERATOR_SIGNS if name in called) or "nothing"

@@ -9,7 +9,7 @@ from functools import partial
 
 from checks.i1_3 import service_steps
 from checks.i1_3.code import Code, learner_files, with_applicable_step
-from checks.i1_3.facts import SIGNS, TYPE, ClientRun
+from checks.i1_3.facts import OPERATOR_SIGNS, TYPE, ClientRun
 from checks.i1_3.services import Changes
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
@@ -24,9 +24,9 @@ def diagnose_client(seen: ClientRun, missing: Sequence[str]) -> Cause | None:
     if seen.trace is None or not missing:
         return None
     clients = sorted((each for each in seen.clients if not each.is_standard), key=lambda each: each.name)
-    unknown = [each.name for each in clients if each.name not in SIGNS]
+    unknown = [each.name for each in clients if each.name not in OPERATOR_SIGNS]
     if unknown:
-        offered = ", ".join(SIGNS)
+        offered = ", ".join(OPERATOR_SIGNS)
         return Cause(
             "wrong service name",
             f"the client asks for {' and '.join(unknown)}, which nobody offers: our server has {offered}",

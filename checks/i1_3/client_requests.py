@@ -22,7 +22,7 @@ def find_requests(code: Code, *names: str) -> list[tuple[ast.Call, str]]:
     """Find the calls that send requests, each with the source of its service client."""
     found = []
     for call in code.calls(*(names or ("call_async", "call"))):
-        if isinstance(call.func, ast.Attribute) and len(call.args) == 1 and not code.named(call.func.attr):
+        if isinstance(call.func, ast.Attribute) and len(call.args) == 1 and not code.functions_named(call.func.attr):
             client = ast.unparse(call.func.value)
             if client not in ("subprocess", "self", "super()"):
                 found.append((call, client))
@@ -41,7 +41,7 @@ def wait_for_services(code: Code) -> str | None:
     if above and covers_all and not _are_present(code, above) and (step := code.as_step(above)) is not None:
         return step
     made = code.calls("create_client")
-    if not made or code.named("waited"):
+    if not made or code.functions_named("waited"):
         return None
     lines = ["def waited(client):", f"    client.{WAIT_FOR_SERVICE}", "    return client", ""]
     swaps: list[tuple[ast.expr, str]] = [(each, f"waited({ast.unparse(each)})") for each in made]
@@ -219,7 +219,7 @@ def _callers(code: Code, names: set[str]) -> Iterator[Function]:
 def make_synchronous(code: Code, name: str) -> str | None:
     """Step: turn a coroutine that nothing runs into an ordinary function."""
     change = Changes(code)
-    for function in code.named(name):
+    for function in code.functions_named(name):
         line = code.text.splitlines()[function.lineno - 1].strip()
         change.more.append(edits.replace_lines(function.lineno, line.removeprefix("async ")))
         for each in ast.walk(function):

@@ -14,9 +14,9 @@ from tutor.ros_model import ServiceEndpoint
 
 SERVER, CLIENT = "calculator_server.py", "calculator_client.py"
 TYPE = "example_interfaces/srv/AddTwoInts"
-SIGNS = {"/add": "+", "/subtract": "-", "/multiply": "*", "/divide": "/"}
+OPERATOR_SIGNS = {"/add": "+", "/subtract": "-", "/multiply": "*", "/divide": "/"}
 EASY_OPERANDS = (6, 3)
-AFTER_ZERO = ((18, 3), (-9, 0), (0, 0), (35, 5))
+DIVISIONS_AFTER_ZERO = ((18, 3), (-9, 0), (0, 0), (35, 5))
 """Divisions to request after the first one by zero: a good one, two more by zero, and a good one."""
 ANSWER_S = 5.0
 """Time limit for the answer to a service call."""
@@ -94,7 +94,7 @@ class ServiceCalls:
 class Division:
     """A good division, one by zero, and the calls after it.
 
-    `ordinary`: the log up to and including the good division. `said`: the log about the division by zero.
+    `ordinary`: the log up to and including the good division. `logged`: the log about the division by zero.
     `at_end`: if the log reports no error, the output during shutdown.
     """
 
@@ -103,7 +103,7 @@ class Division:
     by_zero: CallAnswer | None = None
     after: tuple[CallAnswer, ...] = ()
     ordinary: tuple[LogRecord, ...] = ()
-    said: tuple[LogRecord, ...] = ()
+    logged: tuple[LogRecord, ...] = ()
     at_end: tuple[OutputLine, ...] = ()
 
 
@@ -142,7 +142,7 @@ class ClientRun:
         return self.cpu_wait_s >= (MIN_CPU_WAIT_S if self.exit is not None else MIN_CPU_WAIT_AT_LIMIT_S)
 
 
-def right_result(service: str, a: int, b: int) -> int:
+def correct_result(service: str, a: int, b: int) -> int:
     """Return the correct result (0 for a division by zero, where any answer is accepted)."""
     return {"/add": a + b, "/subtract": a - b, "/multiply": a * b, "/divide": a // b if b else 0}[service]
 
@@ -150,14 +150,14 @@ def right_result(service: str, a: int, b: int) -> int:
 def missing_services(services: Sequence[ServiceEndpoint]) -> list[str]:
     """The required services that are not offered with the required type."""
     offered = {service.name for service in services if service.type == TYPE}
-    return [name for name in SIGNS if name not in offered]
+    return [name for name in OPERATOR_SIGNS if name not in offered]
 
 
-def find_complaints(ordinary: Sequence[LogRecord], said: Sequence[LogRecord]) -> list[LogRecord]:
+def find_complaints(ordinary: Sequence[LogRecord], logged: Sequence[LogRecord]) -> list[LogRecord]:
     """Find the messages that report a problem, leaving out those that a good call logs as well."""
     usual = {(log.level, shape(log.text)) for log in ordinary}
     return [
         log
-        for log in said
+        for log in logged
         if (log.level, shape(log.text)) not in usual and (log.level >= Level.WARN or SAYS_ERROR.search(log.text))
     ]

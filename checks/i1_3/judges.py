@@ -9,14 +9,14 @@ from typing import Any
 from checks.i1_3 import division_by_zero, late_binding, service_steps, services, steps
 from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import (
+    OPERATOR_SIGNS,
     SAYS_ERROR,
-    SIGNS,
     TYPE,
     Division,
     ServiceCalls,
+    correct_result,
     find_complaints,
     missing_services,
-    right_result,
 )
 from checks.i1_3.rewriting import with_applicable_steps
 from tutor.judge import causes, ending, tracebacks
@@ -49,7 +49,7 @@ def judge_services(seen: ServiceCalls) -> Verdict:
 
 def _never_called(seen: ServiceCalls) -> list[str]:
     """The services that were not up yet when it was their turn, though they may be in the graph by now."""
-    return [name for name in SIGNS if not seen.of(name)]
+    return [name for name in OPERATOR_SIGNS if not seen.of(name)]
 
 
 def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
@@ -67,7 +67,10 @@ def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
         )
         return with_applicable_step(cause, trace, lambda: service_steps.set_types(trace, [s.name for s in mistyped]))
     misnamed = [
-        (s.name, name) for name in missing for s in offered if s.name not in SIGNS and _is_similar(s.name, name)
+        (s.name, name)
+        for name in missing
+        for s in offered
+        if s.name not in OPERATOR_SIGNS and _is_similar(s.name, name)
     ]
     if misnamed:
         cause = Cause(
@@ -118,8 +121,8 @@ def judge_operations(seen: ServiceCalls) -> Verdict:
         return skipped("not judged, because `services` did not pass")
     for answer in seen.answers:
         a, b = answer.request["a"], answer.request["b"]
-        right = right_result(answer.service, a, b)
-        question = f"{answer.service}: {a} {SIGNS[answer.service]} {b}"
+        right = correct_result(answer.service, a, b)
+        question = f"{answer.service}: {a} {OPERATOR_SIGNS[answer.service]} {b}"
         if answer.response is None:
             return failed(
                 f"{question} = {right}",
@@ -158,7 +161,7 @@ def judge_operations(seen: ServiceCalls) -> Verdict:
 
 def _operands_and_results(answers: Sequence[CallAnswer]) -> list[tuple[str, Any]]:
     return [
-        (f"{a.request['a']} {SIGNS[a.service]} {a.request['b']}", a.response["sum"])
+        (f"{a.request['a']} {OPERATOR_SIGNS[a.service]} {a.request['b']}", a.response["sum"])
         for a in answers
         if a.response is not None
     ]
@@ -171,7 +174,7 @@ def _diagnose_negatives(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Ca
     for each in answers:
         if each.service == answer.service and each.response is not None:
             group = negative if min(each.request["a"], each.request["b"]) < 0 else others
-            group.append((each.response["sum"], right_result(each.service, each.request["a"], each.request["b"])))
+            group.append((each.response["sum"], correct_result(each.service, each.request["a"], each.request["b"])))
     same = len({got for got, _ in negative}) == 1 and len({right for _, right in negative}) > 1
     wrong = sum(got != right for got, right in negative)
     if wrong < 2 or not others or not same or any(got != right for got, right in others):
@@ -185,7 +188,7 @@ def _diagnose_negatives(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Ca
 
 def _with_computing_step(cause: Cause, seen: ServiceCalls) -> Cause:
     """Give a cause the step that makes each service with a wrong answer compute its own result."""
-    answers = [(each, right_result(each.service, each.request["a"], each.request["b"])) for each in seen.answers]
+    answers = [(each, correct_result(each.service, each.request["a"], each.request["b"])) for each in seen.answers]
     wrong = list(dict.fromkeys(a.service for a, right in answers if a.response and a.response["sum"] != right))
     return replace(cause, hint=services.compute_results(seen.trace, wrong) or cause.hint)
 
@@ -195,7 +198,7 @@ def _diagnose_result(answer: CallAnswer, right: int) -> Cause:
     assert answer.response is not None
     got, a, b = answer.response["sum"], answer.request["a"], answer.request["b"]
     name = answer.service
-    others = [other for other in SIGNS if other != name and right_result(other, a, b) == got]
+    others = [other for other in OPERATOR_SIGNS if other != name and correct_result(other, a, b) == got]
     if others and a:
         return Cause(
             "wrong result",
@@ -251,11 +254,11 @@ def judge_division(seen: Division) -> Verdict:
             cause,
             causes.output_tail(seen.trace),
         )
-    complaints = find_complaints(seen.ordinary, seen.said)
+    complaints = find_complaints(seen.ordinary, seen.logged)
     # The last log messages of a node that exits may never reach us: in that case, report the exit instead.
     has_exited = seen.trace.exit is not None and any(answer.response is None for answer in seen.after)
     if not complaints and not has_exited:
-        if seen.before.response["sum"] != right_result("/divide", **seen.before.request):
+        if seen.before.response["sum"] != correct_result("/divide", **seen.before.request):
             cause = Cause(
                 "no error message",
                 "no error is reported, since /divide does not divide: 84 ÷ 7 is answered "
@@ -263,7 +266,7 @@ def judge_division(seen: Division) -> Verdict:
                 services.compute_results(seen.trace, ["/divide"]) or "let /divide divide first: see `operations`",
             )
             observed = f"answered {seen.by_zero.response['sum']}, without a word about an error"
-            return failed(expected, observed, cause, [str(log) for log in seen.said])
+            return failed(expected, observed, cause, [str(log) for log in seen.logged])
         printed = causes.diagnose_printed(seen.trace, SAYS_ERROR.search, "the error", after=seen.at_end)
         cause = printed or Cause(
             "no error message",
@@ -278,9 +281,9 @@ def judge_division(seen: Division) -> Verdict:
             expected,
             f"answered {seen.by_zero.response['sum']}, without a word about an error",
             cause,
-            [str(log) for log in seen.said],
+            [str(log) for log in seen.logged],
         )
-    divides = seen.before.response["sum"] == right_result("/divide", **seen.before.request)
+    divides = seen.before.response["sum"] == correct_result("/divide", **seen.before.request)
     for answer in seen.after:
         a, b = answer.request["a"], answer.request["b"]
         if answer.response is None:
@@ -291,7 +294,7 @@ def judge_division(seen: Division) -> Verdict:
             )
             cause = _with_guard_step(cause, seen.trace)
             return failed(expected, f"after it, {a} ÷ {b} got no answer", cause, causes.output_tail(seen.trace))
-        if b and divides and answer.response["sum"] != right_result("/divide", a, b):
+        if b and divides and answer.response["sum"] != correct_result("/divide", a, b):
             cause = Cause(
                 "wrong result",
                 "the node divides correctly until it is asked to divide by zero",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from checks.i1_3.facts import SIGNS, right_result
+from checks.i1_3.facts import OPERATOR_SIGNS, correct_result
 from tutor.judge import source
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.verdict import Cause
@@ -19,7 +19,9 @@ def diagnose_loop(trace: Trace, answers: Sequence[CallAnswer]) -> Cause | None:
     if len({each.service for each in usable}) < 2:
         return None
     same = [
-        name for name in SIGNS if all(each.response and each.response["sum"] == _result(name, each) for each in usable)
+        name
+        for name in OPERATOR_SIGNS
+        if all(each.response and each.response["sum"] == _result(name, each) for each in usable)
     ]
     late = next(_find_late_bindings(trace), None)
     if not same or late is None:
@@ -37,7 +39,7 @@ def diagnose_loop(trace: Trace, answers: Sequence[CallAnswer]) -> Cause | None:
 
 
 def _result(service: str, answer: CallAnswer) -> int:
-    return right_result(service, answer.request["a"], answer.request["b"])
+    return correct_result(service, answer.request["a"], answer.request["b"])
 
 
 def _find_late_bindings(trace: Trace) -> Iterator[tuple[str, _Closure, list[str]]]:

@@ -10,7 +10,7 @@ from functools import wraps
 
 from checks.i1_3.client_requests import WAIT_FOR_SERVICE
 from checks.i1_3.code import Code, with_applicable_step
-from checks.i1_3.facts import SIGNS, Division, ServiceCalls
+from checks.i1_3.facts import OPERATOR_SIGNS, Division, ServiceCalls
 from checks.i1_3.services import argument_names, body_lines, find_callback, is_named_after
 from tutor.judge import edits
 from tutor.judge.rewriting.node import argument
@@ -72,13 +72,16 @@ def rewrite_server(trace: Trace) -> str | None:
     if trace.file not in trace.sources:
         return None
     file = Code(trace.sources[trace.file], trace.file)
-    callbacks = {service: _callback_names(trace, service) for service in SIGNS}
+    callbacks = {service: _callback_names(trace, service) for service in OPERATOR_SIGNS}
     node_class = next(iter(file.node_classes), "CalculatorServer")
     code = "\n".join(
         [
             _SERVER.format(node_class=node_class, node=_node_name(file, "calculator_server")),
-            *(f"        self.create_service(AddTwoInts, {each[1:]!r}, self.{callbacks[each][0]})" for each in SIGNS),
-            *(_method_code(each, *callbacks[each]) for each in SIGNS),
+            *(
+                f"        self.create_service(AddTwoInts, {each[1:]!r}, self.{callbacks[each][0]})"
+                for each in OPERATOR_SIGNS
+            ),
+            *(_method_code(each, *callbacks[each]) for each in OPERATOR_SIGNS),
         ]
     )
     return _replace_code(file, f"{code}\n{MAIN.format(main='main', node_class=node_class)}")

@@ -9,25 +9,25 @@ from math import inf
 from typing import Any
 
 from checks.i1_3.facts import (
-    AFTER_ZERO,
     ANSWER_S,
     CLIENT,
     CLIENT_S,
     DELAYED_EXIT_S,
+    DIVISIONS_AFTER_ZERO,
     EASY_OPERANDS,
     LOG_DELAY_S,
     NO_CLIENT_GRACE_S,
+    OPERATOR_SIGNS,
     SERVER,
     SERVER_DELAY_S,
-    SIGNS,
     STUCK_CALL_S,
     TYPE,
     ClientRun,
     Division,
     ServiceCalls,
+    correct_result,
     find_complaints,
     missing_services,
-    right_result,
 )
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
@@ -54,7 +54,7 @@ async def call_each_service(bench: Bench) -> ServiceCalls:
         had_node = await _wait_for_services(run)
         spins = await run.parameters(2.0) is not None
         graph_before = run.graph
-        offered = [name for name in SIGNS if name not in missing_services(graph_before.servers)]
+        offered = [name for name in OPERATOR_SIGNS if name not in missing_services(graph_before.servers)]
         bench.report_progress(0.4, "calling each service")
         answers = await _make_calls(run, [(name, *EASY_OPERANDS) for name in offered])
         unanswered = next((answer for answer in answers if answer.response is None), None)
@@ -75,7 +75,9 @@ async def _wait_for_services(run: Run) -> bool:
         return not missing_services(run.graph.servers)
 
     def limit_s() -> float:
-        others = [(each.name, each.type) for each in run.graph.servers if each.name not in SIGNS or each.type != TYPE]
+        others = [
+            (each.name, each.type) for each in run.graph.servers if each.name not in OPERATOR_SIGNS or each.type != TYPE
+        ]
         return min((patience_s(others, name, TYPE) for name in missing_services(run.graph.servers)), default=SETTLE_S)
 
     await wait_until_seen(run, all_offered, settle_s=limit_s)
@@ -110,9 +112,9 @@ async def call_with_random_operands(bench: Bench) -> ServiceCalls:
     async with bench.start(SERVER, expected_s=0.3) as run:
         had_node = await _wait_for_services(run)
         graph_before = run.graph
-        offered = [name for name in SIGNS if name not in missing_services(graph_before.servers)]
+        offered = [name for name in OPERATOR_SIGNS if name not in missing_services(graph_before.servers)]
         bench.report_progress(0.3, "calculating with positive and negative numbers")
-        chosen = operands()
+        chosen = random_operands()
         a, b = chosen[0]  # swapped as well, but not to divide: the quotient would not be a whole number
         swapped = [(name, b, a) for name in offered if name != "/divide"]
         answers = await _make_calls(run, [*((name, a, b) for name in offered for a, b in chosen), *swapped])
@@ -140,18 +142,18 @@ async def divide_by_zero(bench: Bench) -> Division:
             return await run.call("/divide", TYPE, {"a": a, "b": b}, limit_s=ANSWER_S)
 
         before = await divide(84, 7)
-        await wait_until_log_quiet(run, quiet_s=LOG_QUIET_S, most_s=MAX_LOG_WAIT_S)
+        await wait_until_log_quiet(run, quiet_s=LOG_QUIET_S, max_s=MAX_LOG_WAIT_S)
         ordinary = tuple(run.logs)
         bench.report_progress(0.4, "calling /divide: 10 ÷ 0")
         by_zero = await divide(10, 0)
         await run.until(lambda: bool(find_complaints(ordinary, run.logs[len(ordinary) :])), LOG_DELAY_S)
-        said = tuple(run.logs[len(ordinary) :])
+        logged = tuple(run.logs[len(ordinary) :])
         await run.until(lambda: run.exit is not None, DELAYED_EXIT_S)
         bench.report_progress(0.8, "calling /divide again")
-        after = await _make_calls(run, [("/divide", a, b) for a, b in AFTER_ZERO])
-        trace, silent = run.trace(), run.exit is None and not find_complaints(ordinary, said)
+        after = await _make_calls(run, [("/divide", a, b) for a, b in DIVISIONS_AFTER_ZERO])
+        trace, silent = run.trace(), run.exit is None and not find_complaints(ordinary, logged)
         at_end = (await run.interrupt()).output if silent else ()
-        return Division(trace, before, by_zero, after, ordinary, said, at_end)
+        return Division(trace, before, by_zero, after, ordinary, logged, at_end)
 
 
 async def run_client(bench: Bench) -> ClientRun:
@@ -180,7 +182,7 @@ async def run_client(bench: Bench) -> ClientRun:
                 bench.report_progress(0.4, "bringing up our servers")
                 # /add comes up last, because clients ask for it first: one that waits for /add alone then finds the
                 # others as well.
-                for name in reversed(SIGNS):
+                for name in reversed(OPERATOR_SIGNS):
                     run.serve(name, TYPE, _server(name))
                 up_at = run.now()
 
@@ -193,7 +195,7 @@ async def run_client(bench: Bench) -> ClientRun:
         return ClientRun(trace, served, ended, stuck, tuple(clients), up_s, lost_s, watched_s)
 
 
-def operands() -> list[tuple[int, int]]:
+def random_operands() -> list[tuple[int, int]]:
     """Return random pairs (a, b), so that no answer can be hard-coded; a is a multiple of b.
 
     They cover every combination of signs, values beyond 32 bits, and a = 0. No result has more than 53 bits.
@@ -209,7 +211,7 @@ def operands() -> list[tuple[int, int]]:
 
 def _server(service: str) -> Any:
     def answer(request: Mapping[str, Any]) -> Mapping[str, Any]:
-        result = right_result(service, request["a"], request["b"])
+        result = correct_result(service, request["a"], request["b"])
         return {"sum": max(-(2**63), min(2**63 - 1, result))}
 
     return answer

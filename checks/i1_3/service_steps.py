@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from checks.i1_3.code import Code, learner_files
-from checks.i1_3.facts import SIGNS
+from checks.i1_3.facts import OPERATOR_SIGNS
 from checks.i1_3.services import Changes, argument_names, compute_results, find_callback, find_offer, new_callback
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
@@ -104,7 +104,7 @@ def rename_services(trace: Trace, wanted: Sequence[tuple[str, str]], create: str
             texts = [each for each in code.nodes if isinstance(each, ast.Constant) and isinstance(each.value, str)]
             for each in texts if not names_are_computed else []:
                 if str(each.value).rpartition("/")[2] == actual.rpartition("/")[2] and not _is_prose(code, each):
-                    parts = re.findall("|".join(name[1:] for name in SIGNS), str(each.value))
+                    parts = re.findall("|".join(name[1:] for name in OPERATOR_SIGNS), str(each.value))
                     # Python joins adjacent literals if the comma between them is missing: 'add' 'subtract'.
                     joined = len(parts) > 1 and "".join(parts) == each.value
                     replacement = required if str(each.value) == required[1:] else required[1:]
@@ -162,7 +162,7 @@ def _wrappers(code: Code, function: Function) -> Iterator[Function]:
         source.called_name(each) if isinstance(each, ast.Call) else ast.unparse(each)
         for each in function.decorator_list
     }
-    for outer in (each for name in sorted(names) for each in code.named(name)):
+    for outer in (each for name in sorted(names) for each in code.functions_named(name)):
         inner = [each for each in ast.walk(outer) if isinstance(each, Function) and each is not outer]
         yield from reversed(inner)
 
@@ -171,7 +171,7 @@ def _helpers(code: Code, function: Function) -> Iterator[Function]:
     """The functions whose result this one returns."""
     for each in ast.walk(function):
         if isinstance(each, ast.Return) and isinstance(each.value, ast.Call):
-            yield from code.named(source.called_name(each.value))
+            yield from code.functions_named(source.called_name(each.value))
 
 
 def _fix_returns(code: Code, function: Function, usual: str) -> Iterator[Edit]:

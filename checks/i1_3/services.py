@@ -7,14 +7,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from checks.i1_3.code import Code, learner_files
-from checks.i1_3.facts import SIGNS
+from checks.i1_3.facts import OPERATOR_SIGNS
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.node import argument, with_body
 from tutor.judge.source import Function, last_name
 from tutor.judge.trace import Trace
 
-OPERATORS = {**SIGNS, "/divide": "//"}
+OPERATORS = {**OPERATOR_SIGNS, "/divide": "//"}
 
 
 @dataclass(frozen=True)
@@ -60,11 +60,11 @@ def find_callback(trace: Trace, service: str) -> tuple[Code, Function] | None:
         return None
     code, expression = offer.code, offer.callback
     if isinstance(expression, ast.Call) and source.called_name(expression) == "getattr":
-        found = code.named(service[1:])
+        found = code.functions_named(service[1:])
     elif offer.alone:
         name = last_name(expression)
         uses = [call for call in code.calls("create_service") if last_name(argument(call, 2, "callback")) == name]
-        found = code.named(name) if len(uses) == 1 or is_named_after(name, service) else []
+        found = code.functions_named(name) if len(uses) == 1 or is_named_after(name, service) else []
     else:
         found = [each for each in code.functions if is_named_after(each.name, service) and any(_sum_assignments(each))]
     found = [each for each in found if len(argument_names(code, each)) >= 2]
@@ -140,7 +140,9 @@ def logger_of(code: Code, at: ast.AST) -> str:
 
 def new_callback(code: Code, at: ast.AST, service: str) -> tuple[str, Edit]:
     """Write a new callback for a service offered at this place: the expression that refers to it, and the edit."""
-    name = next(each for each in (f"{service[1:]}_callback", f"answer_{service[1:]}", "") if not code.named(each))
+    name = next(
+        each for each in (f"{service[1:]}_callback", f"answer_{service[1:]}", "") if not code.functions_named(each)
+    )
     self_name = code.self_name(at)
     head = f"def {name}({f'{self_name}, ' if self_name else ''}request, response):"
     body = body_lines("request", "response", service, logger_of(code, at))
@@ -170,7 +172,9 @@ def _replace_callback(change: Changes, offer: Offer, service: str) -> None:
         assert srv_name is not None
         self_name = code.self_name(call)
         lines = _common_callback(self_name)
-        if any(ast.unparse(each) == ast.unparse(ast.parse("\n".join(lines))) for each in code.named("calculate")):
+        if any(
+            ast.unparse(each) == ast.unparse(ast.parse("\n".join(lines))) for each in code.functions_named("calculate")
+        ):
             return  # the file has it already, so the fault must be elsewhere
         name, edit = _add_function(code, call, lines)
         more = "" if self_name else f", {logger_of(code, call)}"
@@ -210,7 +214,7 @@ def _swap_callback(offer: Offer, service: str) -> tuple[ast.expr, str] | None:
     found = [
         each for each in offer.code.functions if is_named_after(each.name, service) and any(_sum_assignments(each))
     ]
-    if len(found) != 1 or not offer.code.named(last_name(callback)):
+    if len(found) != 1 or not offer.code.functions_named(last_name(callback)):
         return None
     name = found[0].name
     return callback, f"{ast.unparse(callback.value)}.{name}" if isinstance(callback, ast.Attribute) else name
@@ -232,7 +236,7 @@ def _replace_result_line(code: Code, function: Function, service: str) -> Edit |
 
 def is_named_after(function: str, service: str) -> bool:
     """Whether a function is named after this service, and not after another one as well."""
-    return [each for each in SIGNS if each[1:4] in function.casefold()] == [service]
+    return [each for each in OPERATOR_SIGNS if each[1:4] in function.casefold()] == [service]
 
 
 def _sum_assignments(function: Function) -> Iterator[ast.stmt]:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from checks.i1_3.code import Code
-from checks.i1_3.facts import SIGNS
+from checks.i1_3.facts import OPERATOR_SIGNS
 from checks.i1_3.services import Changes
 from tutor.judge import edits, source
 from tutor.judge.source import Function
@@ -20,7 +20,7 @@ def add_to_list(code: Code, missing: Sequence[str]) -> str | None:
     for each in code.nodes:
         items = each.elts if isinstance(each, ast.Tuple | ast.List) else []
         names = {str(found.value).strip("/"): (found, item) for item in items for found in _first_text(item)}
-        if len(names) >= 2 and all(f"/{name}" in SIGNS for name in names):
+        if len(names) >= 2 and all(f"/{name}" in OPERATOR_SIGNS for name in names):
             text, item = list(names.values())[-1]
             model = str(text.value)
             last = ast.unparse(item)
@@ -63,7 +63,9 @@ def end_with_zero(code: Code) -> str | None:
         if given is None or (isinstance(given, ast.Constant) and not given.value):
             continue
         own_calls = [
-            each for each in ast.walk(given) if isinstance(each, ast.Call) and code.named(source.called_name(each))
+            each
+            for each in ast.walk(given)
+            if isinstance(each, ast.Call) and code.functions_named(source.called_name(each))
         ]
         tests = [each for each in code.ancestors(call) if isinstance(each, ast.If)]
         if (function := _find_function_without_result(code, tests)) is not None:
@@ -81,7 +83,7 @@ def _find_function_without_result(code: Code, tests: Sequence[ast.If]) -> Functi
     names = {each.id for test in tests for each in ast.walk(test.test) if isinstance(each, ast.Name)}
     for each in code.nodes:
         if isinstance(each, ast.Assign) and isinstance(each.value, ast.Call) and ast.unparse(each.targets[0]) in names:
-            for function in code.named(source.called_name(each.value)):
+            for function in code.functions_named(source.called_name(each.value)):
                 if not isinstance(function.body[-1], ast.Return):
                     return function
     return None

@@ -27,7 +27,7 @@ LAUNCH_HZ, SLOW_LAUNCH_HZ = 5.0, 1.5
 UP_HZ, DOWN_HZ = 10.0, 0.7
 """The slower ones of each pair expose rounding: 1 and 2 Hz are both out of tolerance."""
 
-REFUSING_HZ = 3.0
+VALIDATION_HZ = 3.0
 """The node publishes at this rate when it is asked for bad ones, so that a fallback to the default rate shows.
 
 It also exposes a forgotten 1 Hz timer, whose extra messages are well out of tolerance; at 4 Hz, they would be only
@@ -40,7 +40,7 @@ ANSWER_S = 5.0
 MIN_BURST = 3
 """Messages in half a period that prove a backlog: without one, there are two at most, if the node publishes at once."""
 
-RARE_S = 3.0
+MESSAGE_GAP_S = 3.0
 """Time within which an existing publisher of at least 1 Hz sends something, even on a slow machine."""
 
 
@@ -68,8 +68,8 @@ class ParameterStarts:
     """Three starts with parameters: with a prefix and a rate, with a slower rate (`slow`), and with `enabled` false.
 
     `disabled`, `disabled_answer`, `disabled_for_s`: the trace of the third start, the `enabled` that it reports, and
-    how long its silence was observed. `woken`: its first message once `enabled` is true; tried only if it began without
-    a publisher.
+    how long its silence was observed. `first_after_enable`: its first message once `enabled` is true; tried only if it
+    began without a publisher.
     """
 
     prefix: str
@@ -82,7 +82,7 @@ class ParameterStarts:
     disabled: Trace
     disabled_answer: Parameter | None
     disabled_for_s: float
-    woken: Sample | None = None
+    first_after_enable: Sample | None = None
 
 
 @dataclass(frozen=True)
@@ -90,8 +90,8 @@ class RuntimeChanges:
     """A plain start on which parameters are set: message_prefix to `prefix`, enabled off, `later`, enabled on again.
 
     `after_prefix` and `before` come from another start: the first message with the new prefix, and the rate up to then.
-    `resumed`: the first message after `enabled` was on again. `again`: the messages from then on or from a period
-    later, with their `rate`.
+    `resumed`: the first message after `enabled` was on again. `after_resume`: the messages from then on or from a
+    period later, with their `rate`.
     """
 
     trace: Trace
@@ -105,7 +105,7 @@ class RuntimeChanges:
     set_on: SetAnswer | None = None
     resumed: Sample | None = None
     before: Rate | None = None
-    again: tuple[Sample, ...] = ()
+    after_resume: tuple[Sample, ...] = ()
     rate: Rate | None = None
     stuck: tuple[Frame, ...] = ()
     answering: bool = False

@@ -18,11 +18,11 @@ from checks.i2_1.facts import (
     MIN_BURST,
     PREFIX,
     RATE,
-    REFUSING_HZ,
     SLOW_LAUNCH_HZ,
     TOPIC,
     TYPE,
     UP_HZ,
+    VALIDATION_HZ,
     AtomicRequests,
     BadRates,
     ParameterStarts,
@@ -103,10 +103,10 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
             _diagnose_ignored(PREFIX, seen.trace),
             [text_of(s) for s in samples[:6]],
         )
-    if seen.rate is None or not seen.rate.agrees(LAUNCH_HZ):
+    if seen.rate is None or not seen.rate.agrees_with(LAUNCH_HZ):
         observed = f"with {given}: {describe(seen.rate, seen.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
         return failed(expected, observed, causes.diagnose_same_name(seen.trace) or _diagnose_launch_rate(seen))
-    if seen.slow_rate is None or not seen.slow_rate.agrees(SLOW_LAUNCH_HZ):
+    if seen.slow_rate is None or not seen.slow_rate.agrees_with(SLOW_LAUNCH_HZ):
         slow = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(seen.slow_rate, seen.slow_messages)}"
         cause = (
             causes.diagnose_process(seen.slow)
@@ -128,7 +128,7 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
     offered = any(p.topic == TOPIC for p in seen.disabled.graph.publishers)
     # A silent node with a publisher is disabled even if it answers no parameter call; one without a publisher must also
     # send messages once it is enabled.
-    silent_on_purpose = held in (False, None) if offered else held is False and seen.woken is not None
+    silent_on_purpose = held in (False, None) if offered else held is False and seen.first_after_enable is not None
     if broken or not silent_on_purpose:
         return failed(
             expected,
@@ -148,9 +148,9 @@ def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
         return cause
     if rate is not None and rate.in_bursts:
         return causes.diagnose_bursts(steps.send_once_per_tick(trace))
-    if rate is not None and (rate.agrees(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
+    if rate is not None and (rate.agrees_with(DEFAULT_HZ) or _are_alike(rate, seen.slow_rate)):
         return _diagnose_ignored(RATE, trace)
-    if rate is None or rate.agrees(1 / LAUNCH_HZ):
+    if rate is None or rate.agrees_with(1 / LAUNCH_HZ):
         return causes.diagnose_rate_as_period(RATE, steps.use_parameter(trace, RATE))
     return _diagnose_other_rate(trace)
 
@@ -217,7 +217,7 @@ def judge_changes(seen: RuntimeChanges) -> Verdict:
             or Cause(
                 "does not resume",
                 f"{ENABLED} true does not bring the messages back",
-                slips.boolean_compared_with_text(seen.trace) or steps.keep_timer_running(seen.trace),
+                slips.fix_bool_compared_with_text(seen.trace) or steps.keep_timer_running(seen.trace),
             ),
         )
     assert seen.set_on is not None
@@ -243,7 +243,7 @@ def _fail_if_not_as_before(seen: RuntimeChanges, expected: str, *, any_rate: boo
     The right prefix is the one that was set in the meantime.
     """
     actions = f"{PREFIX} set to {seen.later} while {ENABLED} was false, then {ENABLED} to true"
-    texts = [text_of(sample) for sample in seen.again]
+    texts = [text_of(sample) for sample in seen.after_resume]
     without = next((text for text in texts if seen.later not in text), None)
     if without is not None:
         return failed(expected, f'{actions}: "{without}"', _diagnose_ignored_change(PREFIX, seen.trace), texts)
@@ -287,7 +287,7 @@ def _burst_on_resume(seen: RuntimeChanges) -> list[str]:
 
 
 def _diagnose_ignored_change(name: str, trace: Trace) -> Cause:
-    compared = slips.boolean_compared_with_text(trace) if name == ENABLED else None
+    compared = slips.fix_bool_compared_with_text(trace) if name == ENABLED else None
     if compared is not None:
         return Cause("parameter ignored", f"{name} is accepted, but compared with a text", compared)
     read = started_node(trace)
@@ -420,7 +420,7 @@ def judge_timer(seen: RateChanges) -> Verdict:
         asked = answer.values[RATE]
         if not answer.answered or not answer.successful:
             return _fail_not_set(expected, answer, seen.trace, seen.stuck)
-        if rate is None or not rate.agrees(asked):
+        if rate is None or not rate.agrees_with(asked):
             return failed(
                 expected,
                 f"{RATE} set to {asked}: {describe(rate, messages)}",
@@ -441,7 +441,7 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
-    if rate is not None and rate.agrees(before) and not left_behind:
+    if rate is not None and rate.agrees_with(before) and not left_behind:
         return _diagnose_old_period(trace)
     if rate is not None and rate.hz < UP_HZ and all(_are_alike(rate, other) for _, other, _ in seen.steps):
         return _diagnose_old_period(trace)
@@ -449,7 +449,7 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
         return rounded
     if rate is not None and rate.hz > asked:
         return integer_period or causes.diagnose_old_timer(rate.hz, asked, steps.cancel_old_timer(trace))
-    if rate is None or rate.agrees(1 / asked):
+    if rate is None or rate.agrees_with(1 / asked):
         return integer_period or causes.diagnose_rate_as_period(RATE, steps.follow_changes(trace))
     return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", steps.follow_changes(trace))
 
@@ -477,10 +477,10 @@ def _diagnose_no_validation(trace: Trace, bad: float) -> Cause:
 
 def _rate_is_unchanged(rate: Rate | None, hz: float, switched: RuntimeChanges) -> bool:
     """Whether the rate is still `hz`, or the one the node has actually published at from the start."""
-    if rate is None or rate.agrees(hz):
+    if rate is None or rate.agrees_with(hz):
         return rate is not None
-    # A node at REFUSING_HZ has just been measured at exactly that rate, so the initial one is no excuse.
-    return hz != REFUSING_HZ and switched.before is not None and switched.before.agrees(rate.hz)
+    # A node at VALIDATION_HZ has just been measured at exactly that rate, so the initial one is no excuse.
+    return hz != VALIDATION_HZ and switched.before is not None and switched.before.agrees_with(rate.hz)
 
 
 @_with_steps

@@ -16,14 +16,14 @@ from checks.i2_1.facts import (
     ENABLED,
     FILE,
     LAUNCH_HZ,
+    MESSAGE_GAP_S,
     PREFIX,
-    RARE_S,
     RATE,
-    REFUSING_HZ,
     SLOW_LAUNCH_HZ,
     TOPIC,
     TYPE,
     UP_HZ,
+    VALIDATION_HZ,
     AtomicRequests,
     BadRates,
     ParameterStarts,
@@ -62,7 +62,7 @@ async def plain_start(bench: Bench) -> PlainStart:
         bench.report_facts(PlainStart(run.trace(), declared, None))
         bench.report_progress(0.5, "waiting for a message, then pressing Ctrl+C")
         if node:
-            await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
+            await wait_for_message(run, TOPIC, TYPE, message_gap_s=MESSAGE_GAP_S)
         trace = run.trace()
         ended = await run.interrupt() if run.exit is None else None
     return PlainStart(trace, declared, ended, () if declared is not None else await _find_stuck_frames(bench, trace))
@@ -77,7 +77,7 @@ async def start_with_parameters(bench: Bench) -> ParameterStarts:
         async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=5 / hz) as run:
             bench.report_progress(0.2, " ".join(f"{name}:={value}" for name, value in parameters.items()))
             # Longer than LAUNCH_HZ seconds, the period of a node that takes the rate for a period.
-            if not await wait_for_message(run, TOPIC, TYPE, rare_s=LAUNCH_HZ + 1):
+            if not await wait_for_message(run, TOPIC, TYPE, message_gap_s=LAUNCH_HZ + 1):
                 return run.trace(), None, 0
             rate, messages = await measure_steady_rate(run, TOPIC, hz, since=run.samples_on(TOPIC)[0].source_time)
             return run.trace(), rate, messages
@@ -92,22 +92,22 @@ async def start_with_parameters(bench: Bench) -> ParameterStarts:
             since = run.now()
             # Two periods of the default rate, in case the rate given here has no effect.
             await run.until(lambda: bool(run.samples_on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0)
-            trace, quiet_s, woken = run.trace(), run.now() - since, None
+            trace, quiet_s, first_after_enable = run.trace(), run.now() - since, None
             if node and not trace.samples_on(TOPIC) and not _has_publisher(run):
                 # The node may create its publisher only once it is enabled.
                 bench.report_progress(0.7, f"setting {ENABLED} to true")
                 await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
-                await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
-                woken = next(iter(run.samples_on(TOPIC)), None)
-            return trace, find_parameter(declared or (), ENABLED), quiet_s, woken
+                await wait_for_message(run, TOPIC, TYPE, message_gap_s=MESSAGE_GAP_S)
+                first_after_enable = next(iter(run.samples_on(TOPIC)), None)
+            return trace, find_parameter(declared or (), ENABLED), quiet_s, first_after_enable
 
     (
         (trace, rate, messages),
         (slow, slow_rate, slow_messages),
-        (disabled, answer, quiet_s, woken),
+        (disabled, answer, quiet_s, first_after_enable),
     ) = await asyncio.gather(loud(LAUNCH_HZ, {PREFIX: prefix}), loud(SLOW_LAUNCH_HZ, {}), silent())
     return ParameterStarts(
-        prefix, trace, rate, messages, slow, slow_rate, slow_messages, disabled, answer, quiet_s, woken
+        prefix, trace, rate, messages, slow, slow_rate, slow_messages, disabled, answer, quiet_s, first_after_enable
     )
 
 
@@ -207,8 +207,8 @@ async def _switch(bench: Bench, *, at_once: bool) -> RuntimeChanges:
         bench.report_progress(0.8, "checking that it goes on as before")
         since = set_on.answered_at + seen.period_s + 0.1
         seen = replace(seen, set_later=set_later, set_on=set_on, resumed=resumed())
-        again, rate = await _measure_resumed(run, seen, since=since) if seen.resumed is not None else ((), None)
-        return replace(seen, trace=run.trace(), again=again, rate=rate)
+        after_resume, rate = await _measure_resumed(run, seen, since=since) if seen.resumed is not None else ((), None)
+        return replace(seen, trace=run.trace(), after_resume=after_resume, rate=rate)
 
 
 async def _measure_resumed(run: Run, seen: RuntimeChanges, *, since: float) -> tuple[tuple[Sample, ...], Rate | None]:
@@ -227,18 +227,18 @@ async def _measure_resumed(run: Run, seen: RuntimeChanges, *, since: float) -> t
     early = received(first)
     rate = measure(early)
     texts_are_right = all(seen.later in text and seen.prefix not in text for text in map(text_of, early))
-    if texts_are_right and len(early) > 2 and rate is not None and rate.agrees(hz):
+    if texts_are_right and len(early) > 2 and rate is not None and rate.agrees_with(hz):
         return early, rate
     await run.until(lambda: run.now() >= since + 2.2 / hz, 3.5 / hz + 2)
     rate = measure(received())
-    if rate is None or not rate.agrees(hz):
+    if rate is None or not rate.agrees_with(hz):
         rate, _ = await measure_steady_rate(run, TOPIC, hz, since=run.now())
     return received(), rate
 
 
 async def ask_for_bad_rates(bench: Bench) -> BadRates:
     """Set bad rates, which must change nothing, on a node at a rate other than the default if it accepts one."""
-    return await _try_bad_rates(bench, REFUSING_HZ)
+    return await _try_bad_rates(bench, VALIDATION_HZ)
 
 
 async def _try_bad_rates(bench: Bench, from_hz: float | None) -> BadRates:
@@ -268,7 +268,7 @@ async def _accepts_rate(run: Run, node: str, new_hz: float, old_hz: float) -> bo
     if not answer.answered or not answer.successful:
         return False
     rate, _ = await _measure_new_rate(run, answer, new_hz, old_hz)
-    return rate is not None and rate.agrees(new_hz)
+    return rate is not None and rate.agrees_with(new_hz)
 
 
 async def _set_bad_rates_and_measure(bench: Bench, run: Run, node: str, base_hz: float) -> BadRates:
@@ -327,7 +327,7 @@ async def _change_rate(bench: Bench, *, at_once: bool) -> RateChanges:
                 return RateChanges(run.trace(), (*steps, (answer, None, 0)))
             rate, messages = await _measure_new_rate(run, answer, new_hz, old_hz)
             steps.append((answer, rate, messages))
-            if rate is not None and rate.agrees(DEFAULT_HZ):
+            if rate is not None and rate.agrees_with(DEFAULT_HZ):
                 break  # no effect, so the second change would have none either; in any other case, it tells more
             old_hz = new_hz
         return RateChanges(run.trace(), tuple(steps))
@@ -403,7 +403,7 @@ async def _find_node(run: Run) -> str | None:
 async def _wait_until_publishing(run: Run) -> tuple[str | None, bool]:
     """Return the node to talk to once it publishes (None if it does not), and whether it answers."""
     node = await _find_node(run)
-    publishes = node is not None and await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
+    publishes = node is not None and await wait_for_message(run, TOPIC, TYPE, message_gap_s=MESSAGE_GAP_S)
     return (node if publishes else None), node is not None
 
 
@@ -414,7 +414,7 @@ async def _wait_until_ready(run: Run, *, at_once: bool) -> str | None:
     """
     node = await _find_node(run)
     if node is not None and not at_once:
-        await wait_for_message(run, TOPIC, TYPE, rare_s=RARE_S)
+        await wait_for_message(run, TOPIC, TYPE, message_gap_s=MESSAGE_GAP_S)
     elif node is not None:
         await wait_for_publisher(run, TOPIC, TYPE)
     return node

@@ -39,7 +39,7 @@ def declare_parameters(trace: Trace, names: Sequence[str]) -> str:
 def add_publisher(trace: Trace) -> str:
     """Step: add a publisher, a timer, and a callback that publishes."""
     read = started_node(trace)
-    data = publishing.text_with(read, PREFIX)
+    data = publishing.prefixed_text(read, PREFIX)
     return (
         read.step(publishing.whole_publishing(read, TOPIC, TYPE, data, RATE, enabled=ENABLED), whole_program(read))
         or ""
@@ -52,9 +52,9 @@ def use_parameter(trace: Trace, name: str) -> str:
     if name == RATE:
         smallest = publishing.set_period(read, f"1.0 / {read.value(RATE)}")
     elif name == PREFIX:
-        smallest = publishing.send_data(read, publishing.text_with(read, PREFIX))
+        smallest = publishing.send_data(read, publishing.prefixed_text(read, PREFIX))
     else:
-        smallest = publishing.waiting_while_off(read, ENABLED)
+        smallest = publishing.pause_while_off(read, ENABLED)
     advice = f"the timer's period is 1.0 / {RATE}" if name == RATE else f"look {name} up for each message"
     return read.step(smallest, *_larger(read, _all_callbacks)) or f"{advice}: {read.value(name)}"
 
@@ -101,7 +101,7 @@ def cancel_old_timer(trace: Trace) -> str:
 def remove_waits(trace: Trace, stuck: Sequence[Frame]) -> str:
     """Step: remove blocking waits from the callback that was stuck, be it the timer's or a parameter callback."""
     read = started_node(trace)
-    tick = read.tick
+    tick = read.timer_callback
     stuck_lines = {frame.line for frame in stuck}
     if tick is not None and any(tick.lineno <= line <= (tick.end_lineno or 0) for line in stuck_lines):
         return read.step(*_larger(read, _timer_callback, _all_callbacks)) or keep_timer_running(trace)
@@ -171,7 +171,7 @@ def _parameter_callbacks(read: NodeFile) -> list[Edit]:
 
 
 def _timer_callback(read: NodeFile) -> list[Edit]:
-    return publishing.whole_timer_callback(read, publishing.text_with(read, PREFIX), enabled=ENABLED)
+    return publishing.whole_timer_callback(read, publishing.prefixed_text(read, PREFIX), enabled=ENABLED)
 
 
 def _all_callbacks(read: NodeFile) -> list[Edit]:

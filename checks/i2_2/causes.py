@@ -108,14 +108,14 @@ def diagnose_launch(trace: Trace) -> Cause | None:
         return Cause(
             "package not found",
             _line_of(text, found.start()),
-            steps.step_for_other_program(launch_file, "package", found["name"], nearest(found["name"], PACKAGES))
+            steps.rename_program(launch_file, "package", found["name"], nearest(found["name"], PACKAGES))
             or "check the spelling of package=; demo_nodes_py, demo_nodes_cpp and my_package are there",
         )
     if found := _NO_PROGRAM.search(text):
         return Cause(
             "executable not found",
             _line_of(text, found.start()),
-            steps.step_for_other_program(launch_file, "executable", found["name"], nearest(found["name"], PROGRAMS))
+            steps.rename_program(launch_file, "executable", found["name"], nearest(found["name"], PROGRAMS))
             or "check executable=: talker and listener in the demo packages, minimal_publisher and "
             "minimal_subscriber in my_package",
         )
@@ -128,14 +128,14 @@ def diagnose_launch(trace: Trace) -> Cause | None:
         return Cause(
             "no generate_launch_description",
             f"{trace.file} has no function of this name, which launch calls",
-            steps.step_for_other_function(launch_file)
+            steps.rename_launch_function(launch_file)
             or "def generate_launch_description(): ... return LaunchDescription([...])",
         )
     if "NoneType" in text or re.search(r"return(?:s|ed)? (?:None|nothing)", text):
         return Cause(
             "nothing returned",
             "generate_launch_description() returns None",
-            steps.step_for_missing_return(launch_file) or "end it with: return LaunchDescription([...])",
+            steps.add_return(launch_file) or "end it with: return LaunchDescription([...])",
         )
     if error := next((line.text for line in own if _ERROR.search(line.text)), None):
         return Cause(
@@ -358,7 +358,7 @@ def _diagnose_ignored_argument(
         return Cause(
             "wrong argument name",
             f"{argument}:={base_name} changes nothing; the arguments are called {', '.join(declared)}",
-            steps.step_for_other_name(launch_file, argument, others)
+            steps.rename_similar_argument(launch_file, argument, others)
             or f"name it exactly '{argument}', in DeclareLaunchArgument and in LaunchConfiguration",
         )
     if argument not in declared:

@@ -12,7 +12,7 @@ from tutor.ros_model import Graph, TopicEndpoint, is_standard_topic
 
 FILE = "my_launch.py"
 NAMESPACE = "robot1"
-ANOTHER = "robot2"
+SECOND_NAMESPACE = "robot2"
 """Used instead of `NAMESPACE` where the launch file puts everything into that one by default."""
 
 ARGUMENTS = ("topic", "namespace")
@@ -31,7 +31,7 @@ class LaunchRun:
     """One launch. `command_lines`: those of all its processes, including `ros2 launch` itself.
 
     `hidden`: topics whose message type is not installed, so that their messages cannot be read. `answering`: the nodes
-    that still answered a service request after messages had arrived. `parted`: a publisher and a subscription had
+    that still answered a service request after messages had arrived. `disconnected`: a publisher and a subscription had
     matched, but one of them has gone since; `trace.graph` is then the graph from when they were matched.
     """
 
@@ -41,7 +41,7 @@ class LaunchRun:
     hidden: frozenset[str] = frozenset()
     answering: frozenset[str] = frozenset()
     ending: Ending | None = None
-    parted: bool = False
+    disconnected: bool = False
 
     @property
     def typed(self) -> str:

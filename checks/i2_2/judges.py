@@ -13,8 +13,8 @@ from checks.i2_2.causes import (
     diagnose_topic,
 )
 from checks.i2_2.facts import (
-    ANOTHER,
     NAMESPACE,
+    SECOND_NAMESPACE,
     LaunchRun,
     Pair,
     find_pair,
@@ -70,8 +70,10 @@ def judge_namespace(
     right = has_pair_in_namespace(alone.trace.graph)
     if another is not None:
         right = bool(within)
-        if not (right and _has_moved(default_run, another, pairs_in_namespace(another.trace.graph, space=ANOTHER))):
-            expected = f"with {another.typed}, both nodes and the topic are under /{ANOTHER}"
+        if not (
+            right and _has_moved(default_run, another, pairs_in_namespace(another.trace.graph, space=SECOND_NAMESPACE))
+        ):
+            expected = f"with {another.typed}, both nodes and the topic are under /{SECOND_NAMESPACE}"
             cause = diagnose_namespace(default_run, another)
             return failed(expected, _describe_graph(another), cause, causes.output_tail(another.trace))
     elif shared_topics(default_run.trace.graph):
@@ -135,7 +137,7 @@ def _diagnose_delivery(seen: LaunchRun, pair: Pair) -> Cause | None:
     alive = subscription.node in seen.answering
     mute = subscription.node not in seen.trace.graph.parameter_nodes
     logged = logs_of_messages(pair, seen.trace.logs, seen.trace.samples_on(publisher.topic))
-    if seen.parted:
+    if seen.disconnected:
         return diagnose_launch(seen.trace) or Cause(
             "a node that ends",
             f"{publisher.node} and {subscription.node} were connected, but one of them is gone",
@@ -159,16 +161,16 @@ def judge_shutdown(seen: LaunchRun) -> Verdict:
     verdict = ending.judge_ending(seen.trace, ended)
     if not verdict.passed or ended is None:
         return replace(verdict, expected=expected)
-    if ended.left:
+    if ended.survivors:
         return failed(
             expected,
-            f"ended {ended.took_s:.2f} s after Ctrl+C with {ended.exit}; {len(ended.left)} left",
+            f"ended {ended.took_s:.2f} s after Ctrl+C with {ended.exit}; {len(ended.survivors)} left",
             Cause(
                 "process left behind",
-                f"still there: {ended.left[0][:200]}",
+                f"still there: {ended.survivors[0][:200]}",
                 f"start it with Node or ExecuteProcess, which end it, and not by Python code in {seen.trace.file}",
             ),
-            [command[:200] for command in ended.left[:6]],
+            [command[:200] for command in ended.survivors[:6]],
         )
     return passed(expected, f"{verdict.observed}; no process is left")
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from itertools import dropwhile
 
 from tutor.judge.trace import OutputLine, Trace
-from tutor.judge.tracebacks import MOST_CHARACTERS, Frame, Traceback
+from tutor.judge.tracebacks import MAX_CHARACTERS, Frame, Traceback
 
 _LOADING = re.compile(r"Caught (?:multiple exceptions|exception) when trying to load file of format \[")
 _EXCEPTION = re.compile(r"^ - (?P<type>[^\W\d][\w.]*): (?P<message>.*)$")
@@ -21,7 +21,7 @@ _NULL_BYTES = re.compile(r"null bytes$")
 
 def find_refusal(output: Iterable[OutputLine], trace: Trace) -> Traceback | None:
     """The exception that prevented the launch file from being loaded, with its file and line; None if there is none."""
-    lines = dropwhile(lambda text: not _LOADING.search(text), (line.text[:MOST_CHARACTERS] for line in output))
+    lines = dropwhile(lambda text: not _LOADING.search(text), (line.text[:MAX_CHARACTERS] for line in output))
     for text in lines:
         if (reported := _EXCEPTION.match(text)) and not _LAUNCH_EXCEPTION.search(reported["type"]):
             return _traceback(reported["type"], reported["message"], trace)

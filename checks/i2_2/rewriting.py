@@ -74,13 +74,13 @@ class Launch:
 
     def name(self, of: str) -> str:
         """The file's own expression for a class."""
-        return self.file.own(of, _MODULES[of])[0]
+        return self.file.import_name(of, _MODULES[of])[0]
 
     def imports(self, *names: str) -> list[Edit]:
         """The missing imports of these classes, as edits."""
         if any(alias.name == "*" for _, alias in self.file.imports):
             names = tuple(each for each in names if not self.calls(each))
-        return [edit for each in names for edit in self.file.own(each, _MODULES[each])[1]]
+        return [edit for each in names for edit in self.file.import_name(each, _MODULES[each])[1]]
 
     def calls(self, of: str) -> list[ast.Call]:
         """The calls that create an instance of this class."""

@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
 from checks.i2_2.facts import (
-    ANOTHER,
     FILE,
     NAMESPACE,
+    SECOND_NAMESPACE,
     LaunchRun,
     Pair,
     count_entities,
@@ -24,7 +24,7 @@ from checks.i2_2.facts import (
 from checks.i2_2.processes import ended_processes
 from tutor.judge.bench import Bench, Run
 from tutor.judge.trace import Trace
-from tutor.judge.waiting import RARE_S, START_S
+from tutor.judge.waiting import MESSAGE_GAP_S, START_S
 from tutor.ros_model import Graph
 
 NODE_DELAY_S = 12.0
@@ -60,15 +60,17 @@ async def plain(bench: Bench) -> LaunchRun:
         bench.report_progress(0.4, "listening to the nodes")
         met = run.graph
         hidden = _listen(run, shared_topics(met))
-        await run.until(lambda: _has_heard_enough(run, hidden), RARE_S)
+        await run.until(lambda: _has_heard_enough(run, hidden), MESSAGE_GAP_S)
         answering = await _find_answering(run)
         if pairs(met):  # DDS reports with some delay that a node is gone
             await run.until(lambda: bool(pairs(run.graph)) or bool(ended_processes(run.output)), EXIT_REPORT_S)
         trace, command_lines = run.trace(), await run.command_lines()
-        parted = bool(pairs(met)) and not pairs(trace.graph)
+        disconnected = bool(pairs(met)) and not pairs(trace.graph)
         bench.report_progress(0.8, "pressing Ctrl+C")
         ending = await run.interrupt() if run.exit is None else None
-        return LaunchRun(_with_best_graph(trace, met, pairs), {}, command_lines, hidden, answering, ending, parted)
+        return LaunchRun(
+            _with_best_graph(trace, met, pairs), {}, command_lines, hidden, answering, ending, disconnected
+        )
 
 
 async def other_topic(bench: Bench) -> LaunchRun:
@@ -86,7 +88,9 @@ async def another_namespace(bench: Bench) -> LaunchRun | None:
     """Launch in a second namespace; None unless everything is in the first one by default."""
     if not pairs_in_namespace((await bench.facts(plain)).trace.graph):
         return None
-    return await _launch_with(bench, {"namespace": ANOTHER}, lambda graph: pairs_in_namespace(graph, space=ANOTHER))
+    return await _launch_with(
+        bench, {"namespace": SECOND_NAMESPACE}, lambda graph: pairs_in_namespace(graph, space=SECOND_NAMESPACE)
+    )
 
 
 async def both(bench: Bench) -> LaunchRun:
@@ -107,7 +111,9 @@ async def _launch_with(
             bench.report_progress(
                 0.1, "launching with " + " ".join(f"{name}:={value}" for name, value in arguments.items())
             )
-            await run.until(lambda: bool(find_wanted(run.graph)) or default_run.done(), START_S + NODE_DELAY_S + RARE_S)
+            await run.until(
+                lambda: bool(find_wanted(run.graph)) or default_run.done(), START_S + NODE_DELAY_S + MESSAGE_GAP_S
+            )
             if not find_wanted(run.graph):
                 expected = count_entities((await default_run).trace.graph)
                 await run.until(
@@ -118,7 +124,7 @@ async def _launch_with(
             topics = {publisher.topic for publisher, _ in find_wanted(met)}
             hidden = _listen(run, topics)
             if topics and not hidden:
-                await run.until(lambda: any(run.samples_on(topic) for topic in topics), RARE_S)
+                await run.until(lambda: any(run.samples_on(topic) for topic in topics), MESSAGE_GAP_S)
             # Give all other endpoints time to appear, too: some may be where they should not be.
             expected = count_entities((await default_run).trace.graph)
             await run.until(lambda: _has_at_least(run.graph, expected), ENDPOINTS_S)

@@ -154,7 +154,7 @@ def _names_without_default(source: Source) -> list[str]:
     return [call.argument(0, "variable_name").strip("'\"") for call in reads]
 
 
-def step_for_other_program(launch_file: Launch, keyword: str, wrong: str, right: str) -> str | None:
+def rename_program(launch_file: Launch, keyword: str, wrong: str, right: str) -> str | None:
     """The step that replaces the name of a package or an executable by `right`."""
     return launch_file.step(replace_keyword(launch_file, keyword, wrong, right))
 
@@ -169,17 +169,17 @@ def step_for_empty_description(launch_file: Launch) -> str | None:
     )
 
 
-def step_for_missing_return(launch_file: Launch) -> str | None:
-    """The step where generate_launch_description() returns nothing."""
+def add_return(launch_file: Launch) -> str | None:
+    """The step that makes generate_launch_description() return the description."""
     return launch_file.step(return_description(launch_file))
 
 
-def step_for_other_function(launch_file: Launch) -> str | None:
-    """The step where no function is called generate_launch_description."""
+def rename_launch_function(launch_file: Launch) -> str | None:
+    """The step that names the function generate_launch_description, if none is called that."""
     return launch_file.step(rename_function(launch_file))
 
 
-def step_for_other_name(launch_file: Launch, argument: str, others: Sequence[str]) -> str | None:
+def rename_similar_argument(launch_file: Launch, argument: str, others: Sequence[str]) -> str | None:
     """The step that renames a similar argument among `others` to `argument`."""
     near = [other for other in others if len(others) == 1 or argument[:2] in other]
     return next((step for each in near if (step := _rename_argument(launch_file, each, argument))), None)

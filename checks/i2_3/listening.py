@@ -17,7 +17,7 @@ STARTUP_S = 1.5
 LISTEN_S = 6.5
 """Long enough to recognise a wrong pace, or a silent timer: even one that logs every fiftieth tick would be heard."""
 
-RARE_S = 12.0
+MESSAGE_GAP_S = 12.0
 """Long enough for a second message of a timer that logs every fiftieth tick."""
 
 ANALYSIS_INTERVAL_S = 0.1
@@ -48,7 +48,7 @@ async def listen(run: Run, since: float, is_up: Callable[[], bool]) -> None:
             )
         return enough
 
-    await run.until(seen_enough, 2 * RARE_S, idle_s=IDLE_S)
+    await run.until(seen_enough, 2 * MESSAGE_GAP_S, idle_s=IDLE_S)
 
 
 def _is_pace_known(logs: Sequence[LogRecord]) -> bool:
@@ -64,7 +64,7 @@ def _patience_s(logs: Sequence[LogRecord]) -> float:
     frequent = [series for series in all_series(logs) if len(series.ticks) > 2]
     late = [log for log in logs if log.stamp - logs[0].stamp > STARTUP_S]
     if any(not any(series.key.of(log) for series in frequent) for log in late):
-        return RARE_S
+        return MESSAGE_GAP_S
     return LISTEN_S
 
 

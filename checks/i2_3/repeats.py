@@ -21,19 +21,19 @@ from tutor.judge.trace import LogRecord
 BUSY_S = 0.1
 """A CPU wait shorter than this does not disturb a call."""
 
-TRIES, MOST_TRIES = 4, 8
-"""How often a call is made that a busy machine may have disturbed: at most `TRIES` times, or `MOST_TRIES` if none of
+TRIES, MAX_TRIES = 4, 8
+"""How often a call is made that a busy machine may have disturbed: at most `TRIES` times, or `MAX_TRIES` if none of
 them was conclusive. A machine is seldom so busy for half a minute.
 """
 
-AT_ONCE_TRIES, MOST_AT_ONCE_TRIES = 3, 6
+AT_ONCE_TRIES, MAX_AT_ONCE_TRIES = 3, 6
 """The same for three concurrent calls."""
 
 
-def needs_repeat(logs: Sequence[LogRecord], calls: Sequence[Call], series: Sequence[Series], most: int) -> bool:
+def needs_repeat(logs: Sequence[LogRecord], calls: Sequence[Call], series: Sequence[Series], max_tries: int) -> bool:
     """Whether to call again, to tell effects of the machine, or of the first connection, from the node's own behaviour.
 
-    More than `TRIES` calls, up to `most`, are only made if none so far was conclusive.
+    More than `TRIES` calls, up to `max_tries`, are only made if none so far was conclusive.
     """
     call, tried = calls[-1], len(calls)
     if call.answer.response is None:
@@ -44,7 +44,7 @@ def needs_repeat(logs: Sequence[LogRecord], calls: Sequence[Call], series: Seque
     excused = disturbed and is_excused(logs, call, series)
     if tried < TRIES:
         return excused or (late and call.nearly_in_time and call.cpu_wait_s > BUSY_S) or is_doubtful(logs, call, series)
-    return tried < most and (excused or (late and call.nearly_in_time and all(each.busy for each in calls)))
+    return tried < max_tries and (excused or (late and call.nearly_in_time and all(each.busy for each in calls)))
 
 
 def needs_repeat_at_once(seen: ConcurrentCalls) -> bool:
@@ -53,7 +53,7 @@ def needs_repeat_at_once(seen: ConcurrentCalls) -> bool:
     one_s = min(answer.took_s for answer in last.answers)
     if last.correct_count < CALLS or not _is_partly_parallel(last, one_s) or (tried > 1 and last.cpu_wait_s <= BUSY_S):
         return False
-    return tried < AT_ONCE_TRIES or (tried < MOST_AT_ONCE_TRIES and not seen.is_conclusive(one_s))
+    return tried < AT_ONCE_TRIES or (tried < MAX_AT_ONCE_TRIES and not seen.is_conclusive(one_s))
 
 
 def _is_partly_parallel(batch: CallBatch, one_s: float) -> bool:

@@ -75,8 +75,8 @@ def _work_code(sleep: str, request: str, response: str) -> str:
 
 def rewrite_service(file: NodeFile) -> list[Edit]:
     """Rewrite the call that creates the service: type, name, callback, and a reentrant callback group."""
-    kind, imported = file.own("AddTwoInts", "example_interfaces.srv")
-    group, group_import = file.own(_REENTRANT, "rclpy.callback_groups")
+    kind, imported = file.import_name("AddTwoInts", "example_interfaces.srv")
+    group, group_import = file.import_name(_REENTRANT, "rclpy.callback_groups")
     made, found = service(file), service_callback(file)
     if made is None:
         first = _find_summing_function(file)
@@ -93,7 +93,7 @@ def rewrite_service(file: NodeFile) -> list[Edit]:
 
 def rewrite_timer(file: NodeFile) -> list[Edit]:
     """Rewrite the call that creates the timer: period, callback, and its own callback group."""
-    group, group_import = file.own(_REENTRANT, "rclpy.callback_groups")
+    group, group_import = file.import_name(_REENTRANT, "rclpy.callback_groups")
     made = timer(file)
     if made is None:
         return _new_timer(file, group, group_import)
@@ -165,7 +165,7 @@ def combine_edits(file: NodeFile, *parts: list[Edit]) -> list[Edit]:
 
 def _sleep_expression(file: NodeFile) -> tuple[str, list[Edit]]:
     """The file's expression for time.sleep, and the import if it is missing."""
-    name, edits = file.own("sleep", "time")
+    name, edits = file.import_name("sleep", "time")
     taken = {node.id for node in ast.walk(file.tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
     taken |= {alias.asname or alias.name for _, alias in file.imports}
     if name == "sleep" and edits and "time" not in taken:

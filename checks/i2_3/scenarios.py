@@ -30,7 +30,7 @@ from checks.i2_3.facts import (
     right_sum,
 )
 from checks.i2_3.listening import listen, logs_since, may_be_10_hz, next_tick
-from checks.i2_3.repeats import MOST_TRIES, TRIES, needs_repeat, needs_repeat_at_once
+from checks.i2_3.repeats import MAX_TRIES, TRIES, needs_repeat, needs_repeat_at_once
 from checks.i2_3.ticks import Series, all_series, timer_series
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
@@ -159,7 +159,7 @@ async def _call_first(
     """
     calls: list[Call] = []
     series: Sequence[Series] = ()
-    while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, MOST_TRIES)):
+    while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, MAX_TRIES)):
         await asyncio.gather(*second)  # must not overlap with a repetition
         answer, waited_s = await (
             _make_call(run, _random_operands(), limit_s) if calls else _make_first_call(run, suspect, limit_s)

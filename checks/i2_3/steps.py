@@ -86,7 +86,7 @@ def _fix_executor(file: NodeFile) -> list[Edit]:
         next(iter(file.calls(_MULTI_THREADED)), None),
         next(iter(file.calls("SingleThreadedExecutor")), None),
     )
-    name, imported = file.own(_MULTI_THREADED, "rclpy.executors")
+    name, imported = file.import_name(_MULTI_THREADED, "rclpy.executors")
     if spun is not None and multi is not None and own is not None:
         statement = file.statement(spun)
         return [remove_statement(file.text, statement)]
@@ -144,7 +144,7 @@ def _group_edits(file: NodeFile) -> list[Edit]:
         return []
     if _is_reentrant(file, _group(timer_call)):
         return []
-    name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
+    name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
     spare = next(
         (
             kept
@@ -180,7 +180,7 @@ def _is_reentrant(file: NodeFile, group: str) -> bool:
 def allow_overlap(file: NodeFile) -> str | None:
     """The step where calls wait for each other: due to the service's callback group, or too few threads."""
     made = service(file)
-    name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
+    name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
     edits: list[Edit] = []
     if made is not None and not _is_reentrant(file, _group(made)):
         edits += [*imported, set_group(file, made, f"{name}()")]

@@ -25,7 +25,7 @@ import time
 from pathlib import Path
 
 from tests.benchmarks.terminal import Terminal, cpu_wait_s, find_watcher, read_usage
-from tests.live.world import METRONOME, World, world
+from tests.live.private_domain import METRONOME, PrivateDomain, private_domain
 from tutor.content import load_course
 from tutor.live.updates import TopicUpdate
 from tutor.session import Session
@@ -45,27 +45,27 @@ KEYS = (
 """A key, and the text that is drawn only after it."""
 
 
-def measure(ros_world: World, rate: int, seconds: float) -> bool:
+def measure(ros_world: PrivateDomain, rate: int, seconds: float) -> bool:
     """Measure one rate; return whether the target was met and every message counted."""
     with tempfile.TemporaryDirectory() as folder:
         return _measure_in(Path(folder), ros_world, rate, seconds)
 
 
-def _measure_in(folder: Path, ros_world: World, rate: int, seconds: float) -> bool:
+def _measure_in(folder: Path, ros_world: PrivateDomain, rate: int, seconds: float) -> bool:
     """Measure as `measure` does, with a temporary folder for the report and the workspace."""
     report, workspace = folder / "counts.json", Workspace(folder / "ws")
     start(load_course().lessons[0], workspace)
     run = [sys.executable, "-m", "tests.benchmarks.live", "--app", str(report), str(workspace.root)]
     app = Terminal(run, ros_world.environ)
-    app.until(b"of 6 passed")
+    app.wait_for_text(b"of 6 passed")
     app.press(b"4")
-    app.until(b"No node runs")
+    app.wait_for_text(b"No node runs")
     publisher = ros_world.run(METRONOME, str(rate), str(int(rate * (seconds + 5))))
-    app.until(b"/ticks")
+    app.wait_for_text(b"/ticks")
     app.press(b"\x1b[B")  # move on from the lesson's topic
-    app.until(b"Not followed")
+    app.wait_for_text(b"Not followed")
     app.press(b"\r")
-    app.until(b"jitter")
+    app.wait_for_text(b"jitter")
     app.drain(1.0)
     pids = app.pid, find_watcher(app.pid)
     before, began = [read_usage(pid) for pid in pids], time.perf_counter()
@@ -76,7 +76,7 @@ def _measure_in(folder: Path, ros_world: World, rate: int, seconds: float) -> bo
             app.drain(random.uniform(0.1, 0.3))
             waited, pressed = cpu_wait_s(app.pid, os.getpid()), time.perf_counter()
             app.press(key)
-            took.append((app.until(effect) - pressed) * 1000)
+            took.append((app.wait_for_text(effect) - pressed) * 1000)
             waits.append((cpu_wait_s(app.pid, os.getpid()) - waited) * 1000)
     lasted = time.perf_counter() - began
     after = [read_usage(pid) for pid in pids]
@@ -105,7 +105,7 @@ def _measure_in(folder: Path, ros_world: World, rate: int, seconds: float) -> bo
     return p95 < TARGETS_MS.get(rate, 100.0) and found["count"] == int(sent)
 
 
-def topic_hz(ros_world: World) -> str:
+def topic_hz(ros_world: PrivateDomain) -> str:
     """Return what `ros2 topic hz` prints and the resources it uses, if it is installed."""
     if (ros2 := shutil.which("ros2")) is None:
         return "ros2 topic hz: not installed here"
@@ -154,7 +154,7 @@ def main() -> int:
     if arguments.app is not None:
         run_app(*arguments.app)
         return 0
-    with world() as ros_world:
+    with private_domain() as ros_world:
         met = [measure(ros_world, rate, arguments.seconds) for rate in arguments.rates]
     return 0 if all(met) else 1
 

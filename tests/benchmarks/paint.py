@@ -47,7 +47,7 @@ def measure(workspace: Path, times: int) -> bool:
     took: dict[str, list[tuple[float, float]]] = {"empty app": [], "ros-tutor": [], "whole": []}
 
     def wait_for_paint(name: str, text: bytes) -> None:
-        took[name].append((app.until(text) - began, cpu_time_s(app.pid)))
+        took[name].append((app.wait_for_text(text) - began, cpu_time_s(app.pid)))
 
     for _ in range(times):
         app, began = start_app(EMPTY)
@@ -73,7 +73,7 @@ def measure(workspace: Path, times: int) -> bool:
 def measure_idle(workspace: Path, seconds: float) -> bool:
     """Print what the idle app uses; return whether it is little enough."""
     app, _ = start_app(OURS, "--workspace", str(workspace))
-    app.until(b"of 6 passed")
+    app.wait_for_text(b"of 6 passed")
     app.drain(2.0)
     before, began = read_usage(app.pid), time.perf_counter()
     app.drain(seconds)

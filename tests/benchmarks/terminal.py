@@ -38,7 +38,7 @@ class Terminal:
         self._seen = b""
         os.write(self._fd, key)
 
-    def until(self, text: bytes, limit_s: float = LIMIT_S, *, resumed: bool = False) -> float:
+    def wait_for_text(self, text: bytes, limit_s: float = LIMIT_S, *, resumed: bool = False) -> float:
         """Read until this text has been drawn; return the time (`perf_counter`).
 
         With `resumed`, only text after the app took the terminal back counts: it had handed it over after the last key.
@@ -76,7 +76,7 @@ class Terminal:
             os.close(self._fd)
         self._fd = -1
 
-    def ended(self, limit_s: float = LIMIT_S) -> bool:
+    def wait_for_exit(self, limit_s: float = LIMIT_S) -> bool:
         """Return whether the app exits on its own within that time; its output is read meanwhile."""
         deadline = time.perf_counter() + limit_s
         while time.perf_counter() < deadline:
@@ -95,7 +95,7 @@ class Terminal:
         """Quit the app and wait for its exit. Raises TimeoutError if it does not exit in time, after killing it."""
         self.press(b"\x11")
         try:
-            if not self.ended():
+            if not self.wait_for_exit():
                 self.kill()
                 raise TimeoutError(f"it does not quit: {_ESCAPES.sub(b'', self._seen)[-3000:]!r}")
         finally:

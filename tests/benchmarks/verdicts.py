@@ -23,7 +23,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.judging import find
+from tests.judging import find_cases
 from tests.sampling import sample
 from tutor.content import load_course
 from tutor.content.submissions import WRONG
@@ -138,7 +138,7 @@ def main() -> int:
     parser.add_argument("--solution-times", type=int, default=3, help="check each solution this many times, alone")
     parser.add_argument("--csv", type=Path, help="also write every check to this file")
     arguments = parser.parse_args()
-    cases = find(arguments.wanted)[0]
+    cases = find_cases(arguments.wanted)[0]
     cases = [case for case in (sample(cases) if arguments.sample else cases) if case.kind == WRONG]
     if not cases:
         parser.error("no wrong submission has this name")

@@ -66,7 +66,7 @@ def run(package: str, executable: str, *arguments: str) -> tuple[int, str]:
 
 def test_demo_nodes_and_my_package_are_always_available(use_overlay: UseOverlay) -> None:
     use_overlay(None)
-    assert packages.packages_with_programs() == ["demo_nodes_cpp", "demo_nodes_py", "my_package"]
+    assert packages.packages_with_executables() == ["demo_nodes_cpp", "demo_nodes_py", "my_package"]
     for name, programs in (("demo_nodes_py", ("talker", "listener")), ("my_package", ("minimal_publisher",))):
         for program in programs:
             assert Path(packages.find_executable(name, program)[-1]).is_file()

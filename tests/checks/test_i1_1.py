@@ -19,7 +19,7 @@ from checks.i1_1.facts import (
     PlainStart,
     RateProbe,
     RateProbes,
-    units,
+    possible_units,
 )
 from checks.i1_1.judges import (
     judge_echo,
@@ -31,11 +31,11 @@ from checks.i1_1.judges import (
     judge_rate,
     judge_shutdown,
 )
-from tests.checks.made import (
+from tests.checks.builders import (
     CRASHED,
     KEYBOARD_INTERRUPT,
     NO_NODE,
-    UP,
+    NODE_UP,
     assert_failed,
     assert_passed,
     ending,
@@ -64,7 +64,7 @@ def plain_start(seen: Trace, **more: Any) -> PlainStart:
 
 
 @pytest.mark.parametrize("parameters", [None, ()])
-@pytest.mark.parametrize("seen", [trace(*MESSAGES, graph=PUBLISHING), trace(MESSAGES[0], graph=UP)])
+@pytest.mark.parametrize("seen", [trace(*MESSAGES, graph=PUBLISHING), trace(MESSAGES[0], graph=NODE_UP)])
 def test_publishes_passes(seen: Trace, parameters: Any) -> None:
     assert_passed(judge_publishes(plain_start(seen, parameters=parameters)))
 
@@ -78,7 +78,7 @@ def test_publishes_passes(seen: Trace, parameters: Any) -> None:
         (trace(graph=PUBLISHING), (), "no messages"),
         (trace(graph=graph(publishers={TOPIC: "std_msgs/msg/Int64"})), (), "wrong type"),
         (trace(graph=graph(publishers={"/sensor/temp": TYPE})), (), "wrong topic"),
-        (trace(graph=UP), (), "no publisher"),
+        (trace(graph=NODE_UP), (), "no publisher"),
     ],
 )
 def test_publishes_fails(seen: Trace, parameters: Any, cause: str) -> None:
@@ -286,7 +286,7 @@ def test_the_nearest_parameter_is_the_one_explained() -> None:
     ],
 )
 def test_units_suggested_by_a_parameter_name(name: str, read_as: tuple[str, ...]) -> None:
-    assert units(name) == read_as
+    assert possible_units(name) == read_as
 
 
 NAME = parameter("sensor_name", "string", "s")

@@ -13,23 +13,23 @@ from hypothesis import strategies as st
 
 from checks.i1_2 import CHECK, continuity, judges
 from checks.i1_2.facts import (
-    AGAIN_AFTER,
     FAST_HZ,
     FAST_MESSAGES,
     JUMP_AFTER,
     JUMP_MESSAGES,
     RESTART_AFTER,
     RESTART_MESSAGES,
+    SECOND_JUMP_AFTER,
     Sent,
     Trial,
 )
-from checks.i1_2.reading import read, values
+from checks.i1_2.reading import parse_log, values
 from checks.i1_2.summaries import find_summaries
-from tests.checks.made import (
+from tests.checks.builders import (
     CRASH,
     NO_NODE,
+    NODE_UP,
     START,
-    UP,
     assert_failed,
     assert_passed,
     assert_undecided,
@@ -41,7 +41,7 @@ from tutor.judge.trace import LogRecord, Trace
 from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import TopicEndpoint
 
-LISTENING = replace(UP, subscriptions=(TopicEndpoint("/chatter", "std_msgs/msg/String", "/node"),))
+LISTENING = replace(NODE_UP, subscriptions=(TopicEndpoint("/chatter", "std_msgs/msg/String", "/node"),))
 Log = tuple[int, str]
 """The level and the text of a log message."""
 
@@ -93,7 +93,7 @@ def feed(
     numbers: Sequence[int],
     hz: float,
     *,
-    breaks: int = 0,
+    before_break: int = 0,
     away_s: float = 0.0,
     late_s: float = 0.0005,
     slow_s: float = 0.0,
@@ -103,9 +103,9 @@ def feed(
 ) -> Trial:
     """The trial that is observed when messages with these numbers are sent to the node.
 
-    `breaks`: index of the first message after the jump or restart, before which the publisher is away for `away_s`.
-    `late_s`: delay from a message to its first log message. `between_s`: delay between two log messages of one message.
-    `slow_s`: further delay of the summaries.
+    `before_break`: index of the first message after the jump or restart, before which the publisher is away for
+    `away_s`. `late_s`: delay from a message to its first log message. `between_s`: delay between two log messages of
+    one message. `slow_s`: further delay of the summaries.
     """
     summaries: list[Log] = []
     summary = node.summary
@@ -118,14 +118,14 @@ def feed(
     sent: list[Sent] = []
     logs: list[LogRecord] = list(more)
     for index, number in enumerate(numbers):
-        at = START + 1 + index / hz + (away_s if breaks and index >= breaks else 0.0)
+        at = START + 1 + index / hz + (away_s if before_break and index >= before_break else 0.0)
         sent.append(Sent(number, at))
         summaries.clear()
         for order, log in enumerate(list(node.receive(at + 0.0004, f"Hello World: {number}"))):
             stamp = at + late_s + order * between_s + slow_s * (log in summaries)
             logs.append(LogRecord(log[0], "node", log[1], stamp, stamp))
-    gone_at = sent[breaks - 1].at + 0.2 if away_s else 0.0
-    seen = Trial(trace(graph=LISTENING, logs=logs), tuple(sent), breaks, gone_at)
+    gone_at = sent[before_break - 1].at + 0.2 if away_s else 0.0
+    seen = Trial(trace(graph=LISTENING, logs=logs), tuple(sent), before_break, gone_at)
     return replace(seen, **facts)  # type: ignore[arg-type]
 
 
@@ -135,8 +135,8 @@ def steady(node: FakeStats, hz: float = 4.95, **more: object) -> Trial:
 
 def jump(node: FakeStats, missed: int = 5, *, first: int = 95, **more: object) -> Trial:
     numbers = list(range(first, first + JUMP_MESSAGES))
-    numbers = [n + missed * (n >= numbers[JUMP_AFTER]) + (n >= numbers[AGAIN_AFTER]) for n in numbers]
-    return feed(node, numbers, 8.0, breaks=JUMP_AFTER, again=AGAIN_AFTER, **more)  # type: ignore[arg-type]
+    numbers = [n + missed * (n >= numbers[JUMP_AFTER]) + (n >= numbers[SECOND_JUMP_AFTER]) for n in numbers]
+    return feed(node, numbers, 8.0, before_break=JUMP_AFTER, before_second_jump=SECOND_JUMP_AFTER, **more)  # type: ignore[arg-type]
 
 
 def fast(node: FakeStats, **more: object) -> Trial:
@@ -145,7 +145,7 @@ def fast(node: FakeStats, **more: object) -> Trial:
 
 def restart(node: FakeStats, **more: object) -> Trial:
     numbers = [*range(4, 4 + RESTART_AFTER), *range(RESTART_MESSAGES - RESTART_AFTER)]
-    return feed(node, numbers, 8.0, breaks=RESTART_AFTER, away_s=1.5, **more)  # type: ignore[arg-type]
+    return feed(node, numbers, 8.0, before_break=RESTART_AFTER, away_s=1.5, **more)  # type: ignore[arg-type]
 
 
 def judge_trials(make: Callable[[], FakeStats], **more: object) -> dict[str, Verdict]:
@@ -1185,7 +1185,7 @@ def test_one_message_may_cover_both_gaps_if_the_node_was_starved(text: str, pass
     jump_trial, steady_trial = jump(FakeStats()), steady(FakeStats())
     logs = [log for log in jump_trial.trace.logs if "missing" not in log.text]
     assert len(logs) == len(jump_trial.trace.logs) - 2
-    at = jump_trial.sent[AGAIN_AFTER].at + 0.1
+    at = jump_trial.sent[SECOND_JUMP_AFTER].at + 0.1
     both = replace(jump_trial, trace=replace(jump_trial.trace, logs=(*logs, LogRecord(30, "node", text, at, at))))
     assert_failed(continuity.judge_gaps(both, steady_trial), "gap not noticed")
     verdict = continuity.judge_gaps(replace(both, cpu_wait_s=0.5), steady_trial)
@@ -1259,7 +1259,7 @@ def test_causes_of_no_summary() -> None:
     written = "[INFO] [17.1] [stats]: 10 from Hello World: 0 to Hello World: 9"
     assert_failed(judge_silent(trace(graph=LISTENING, err=written)), "not the node's logger")
     elsewhere = TopicEndpoint("/chatters", "std_msgs/msg/String", "/node")
-    assert_failed(judge_silent(trace(graph=replace(UP, subscriptions=(elsewhere,))), sent=()), "wrong topic")
+    assert_failed(judge_silent(trace(graph=replace(NODE_UP, subscriptions=(elsewhere,))), sent=()), "wrong topic")
 
 
 def test_without_a_summary_the_other_criteria_are_skipped() -> None:
@@ -1521,7 +1521,7 @@ def test_possible_values_of_a_number(written: str, meant: float) -> None:
 
 
 def number_texts(text: str) -> tuple[str, ...]:
-    return tuple(number.text for number in read(LogRecord(20, "node", text, START, START), 1).numbers)
+    return tuple(number.text for number in parse_log(LogRecord(20, "node", text, START, START), 1).numbers)
 
 
 def test_which_parts_of_a_text_are_numbers() -> None:
@@ -1533,9 +1533,9 @@ def test_which_parts_of_a_text_are_numbers() -> None:
 
 
 def test_a_list_without_spaces_is_several_numbers() -> None:
-    numbers = read(LogRecord(20, "node", "20,4.95,5,Hello World: 0", START, START), 1).numbers
+    numbers = parse_log(LogRecord(20, "node", "20,4.95,5,Hello World: 0", START, START), 1).numbers
     assert [number.values for number in numbers] == [(20,), (4.95,), (5,)]
-    numbers = read(LogRecord(20, "node", "10,4,93,0", START, START), 1).numbers
+    numbers = parse_log(LogRecord(20, "node", "10,4,93,0", START, START), 1).numbers
     assert [number.value for number in numbers] == [10, 4, 93, 0]
     assert 4.93 in numbers[1].values
     assert number_texts("1,234.5 of 1.234,5") == ("1,234.5", "1.234,5")
@@ -1543,12 +1543,12 @@ def test_a_list_without_spaces_is_several_numbers() -> None:
 
 @given(st.text(alphabet="0123456789.,'_-+eE \u2212\u2019\u202f\u00a0"))
 def test_any_text_can_be_read(text: str) -> None:
-    assert all(number.values for number in read(LogRecord(20, "node", text, START, START), 1).numbers)
+    assert all(number.values for number in parse_log(LogRecord(20, "node", text, START, START), 1).numbers)
 
 
 def test_messages_with_the_same_wording_are_of_the_same_kind() -> None:
     one, other = (
-        read(LogRecord(20, "node", text, START, START), 1)
+        parse_log(LogRecord(20, "node", text, START, START), 1)
         for text in ("got   Hello World: 9, 1 of 3 ###", "got Hello World: 10,  12.5 of -4 #####")
     )
     assert one.kind == other.kind
@@ -1578,7 +1578,7 @@ def test_the_longest_delay_in_sending() -> None:
     late = replace(
         steady_trial, sent=tuple(replace(each, at=each.at + 0.4 * (each.number > 12)) for each in steady_trial.sent)
     )
-    assert steady_trial.most_late_s == pytest.approx(0.0, abs=1e-6)
-    assert late.most_late_s == pytest.approx(0.4, abs=1e-3)
-    assert restart(FakeStats()).most_late_s == pytest.approx(0.0, abs=1e-6), "the absence of a publisher is not a delay"
-    assert Trial(trace()).most_late_s == 0.0
+    assert steady_trial.max_delay_s == pytest.approx(0.0, abs=1e-6)
+    assert late.max_delay_s == pytest.approx(0.4, abs=1e-3)
+    assert restart(FakeStats()).max_delay_s == pytest.approx(0.0, abs=1e-6), "the absence of a publisher is not a delay"
+    assert Trial(trace()).max_delay_s == 0.0

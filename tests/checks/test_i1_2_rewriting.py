@@ -7,7 +7,7 @@ import ast
 import pytest
 
 from checks.i1_2 import rewriting
-from tests.checks.made import trace
+from tests.checks.builders import trace
 from tests.repairs import apply_step
 
 METHOD = """\

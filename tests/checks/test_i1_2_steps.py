@@ -9,7 +9,7 @@ import pytest
 
 from checks.i1_2 import gap_steps, steps
 from checks.i1_2.judges import judge_slow_summary
-from tests.checks.made import assert_failed, trace
+from tests.checks.builders import assert_failed, trace
 from tests.checks.test_i1_2 import FakeStats, Log, jump, steady
 from tests.repairs import apply_step
 from tutor.judge.trace import Trace

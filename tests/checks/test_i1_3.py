@@ -11,23 +11,23 @@ from hypothesis import strategies as st
 
 from checks.i1_3.client import judge_client
 from checks.i1_3.facts import (
-    AFTER_ZERO,
-    SIGNS,
+    DIVISIONS_AFTER_ZERO,
+    OPERATOR_SIGNS,
     TYPE,
     ClientRun,
     Division,
     ServiceCalls,
+    correct_result,
     find_complaints,
     missing_services,
-    right_result,
 )
 from checks.i1_3.judges import judge_division, judge_operations, judge_services, judge_shutdown
-from checks.i1_3.scenarios import operands as divisible
-from tests.checks.made import (
+from checks.i1_3.scenarios import random_operands
+from tests.checks.builders import (
     CRASH,
     CRASHED,
     NO_NODE,
-    UP,
+    NODE_UP,
     assert_failed,
     assert_passed,
     called,
@@ -43,17 +43,17 @@ from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Status
 from tutor.ros_model import Graph, ServiceEndpoint
 
-ALL = graph(services=dict.fromkeys(SIGNS, TYPE))
+ALL = graph(services=dict.fromkeys(OPERATOR_SIGNS, TYPE))
 SERVING = trace(graph=ALL)
 EXECUTING = frame("await_or_execute", "/venv/rclpy/executors.py")
 IN_CALL = (frame("wait", "/usr/lib/python3.12/threading.py"), frame("call", "/venv/rclpy/client.py"), frame("divide"))
 
 
 def right_answer(service: str, a: int = 6, b: int = 3) -> CallAnswer:
-    return called(service, a, b, right_result(service, a, b))
+    return called(service, a, b, correct_result(service, a, b))
 
 
-ANSWERS = tuple(right_answer(service) for service in SIGNS)
+ANSWERS = tuple(right_answer(service) for service in OPERATOR_SIGNS)
 
 
 def services(**types: str) -> Graph:
@@ -76,7 +76,7 @@ def test_services_pass() -> None:
     [
         (ServiceCalls(CRASHED, ()), "unhandled exception", "line 12"),
         (ServiceCalls(NO_NODE, ()), "no node", ""),
-        (ServiceCalls(trace(graph=UP), ()), "service missing", "are not there"),
+        (ServiceCalls(trace(graph=NODE_UP), ()), "service missing", "are not there"),
         (
             ServiceCalls(trace(graph=without("/divide", Graph())), ANSWERS[:3]),
             "service missing",
@@ -158,11 +158,11 @@ def test_a_service_of_the_wrong_type_is_missing() -> None:
     assert missing_services(services(add=TYPE, subtract="a/srv/B").servers) == ["/subtract", "/multiply", "/divide"]
 
 
-operands = st.tuples(st.sampled_from(list(SIGNS)), st.integers(-1000, 1000), st.integers(-20, 20).filter(bool)).map(
-    lambda each: (each[0], each[1] * each[2] if each[0] == "/divide" else each[1], each[2])
-)
+operands = st.tuples(
+    st.sampled_from(list(OPERATOR_SIGNS)), st.integers(-1000, 1000), st.integers(-20, 20).filter(bool)
+).map(lambda each: (each[0], each[1] * each[2] if each[0] == "/divide" else each[1], each[2]))
 one_of_each = st.tuples(
-    *(operands.map(lambda each, s=service: right_answer(s, each[2] * 7, each[2])) for service in SIGNS)  # type: ignore[misc]
+    *(operands.map(lambda each, s=service: right_answer(s, each[2] * 7, each[2])) for service in OPERATOR_SIGNS)  # type: ignore[misc]
 )
 
 
@@ -174,7 +174,7 @@ def test_right_results_pass(each: tuple[CallAnswer, ...], more: list[CallAnswer]
 @given(operands, st.integers(), st.lists(operands.map(lambda each: right_answer(*each)), max_size=5))
 def test_any_wrong_result_fails(asked: tuple[str, int, int], result: int, before: list[CallAnswer]) -> None:
     service, a, b = asked
-    if result != right_result(service, a, b):
+    if result != correct_result(service, a, b):
         verdict = judge_operations(ServiceCalls(SERVING, (*ANSWERS, *before, called(service, a, b, result))))
         assert verdict.status is Status.FAILED
         assert verdict.observed == str(result)
@@ -209,8 +209,8 @@ def test_an_exception_in_a_callback_is_named() -> None:
 @pytest.mark.parametrize(
     "seen",
     [
-        ServiceCalls(trace(graph=UP), ()),
-        ServiceCalls(trace(graph=without("/add", UP)), ANSWERS[1:]),
+        ServiceCalls(trace(graph=NODE_UP), ()),
+        ServiceCalls(trace(graph=without("/add", NODE_UP)), ANSWERS[1:]),
         ServiceCalls(CRASHED, ()),
     ],
 )
@@ -231,11 +231,11 @@ ORDINARY = (log("calculator ready"), log(INCOMING.format(84, 7)), log("84 / 7 = 
 
 def after_zero(*results: int | None) -> tuple[CallAnswer, ...]:
     """The answers to the calls after a division by zero."""
-    return tuple(called("/divide", a, b, result) for (a, b), result in zip(AFTER_ZERO, results, strict=False))
+    return tuple(called("/divide", a, b, result) for (a, b), result in zip(DIVISIONS_AFTER_ZERO, results, strict=False))
 
 
 def division(
-    *said: LogRecord,
+    *logged: LogRecord,
     by_zero: int | None = 0,
     after: tuple[CallAnswer, ...] = after_zero(6, 0, 0, 7),
     seen: Trace = SERVING,
@@ -247,7 +247,7 @@ def division(
         called("/divide", 10, 0, by_zero),
         after,
         ORDINARY,
-        said,
+        logged,
     )
 
 
@@ -404,7 +404,7 @@ def test_an_error_is_found_among_other_messages(text: str, around: list[LogRecor
     ("seen", "cause", "word"),
     [
         (Division(CRASHED), "unhandled exception", "84"),
-        (Division(trace(graph=UP)), "no answer", "84"),
+        (Division(trace(graph=NODE_UP)), "no answer", "84"),
         (division(before=None), "no answer", "84"),
         (division(by_zero=None), "no answer", "when b is 0"),
         (division(by_zero=None, seen=trace(err=CRASH, exit=exited(1))), "unhandled exception", "line 12"),
@@ -452,18 +452,20 @@ def test_wrong_division_in_general_is_not_judged_here() -> None:
 
 
 def test_operands() -> None:
-    chosen = divisible()
+    chosen = random_operands()
     assert {(a > 0, b > 0) for a, b in chosen if a} == {(True, True), (True, False), (False, True), (False, False)}
     assert [a for a, _ in chosen].count(0) == 1
     assert any(abs(a) > 2**32 for a, _ in chosen)
     for a, b in chosen:
         assert b != 0 == a % b
-        assert max(abs(right_result(service, a, b)) for service in SIGNS) < 2**53
+        assert max(abs(correct_result(service, a, b)) for service in OPERATOR_SIGNS) < 2**53
 
 
 # --- the client --------------------------------------------------------------
 
-SERVED = tuple(ServedRequest(name, {"a": 10, "b": 5}, {"sum": right_result(name, 10, 5)}, 1001.0) for name in SIGNS)
+SERVED = tuple(
+    ServedRequest(name, {"a": 10, "b": 5}, {"sum": correct_result(name, 10, 5)}, 1001.0) for name in OPERATOR_SIGNS
+)
 
 
 def demonstration(

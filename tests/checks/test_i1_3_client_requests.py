@@ -9,7 +9,7 @@ import pytest
 
 from checks.i1_3 import client_requests, steps
 from checks.i1_3.code import Code
-from tests.checks.made import trace
+from tests.checks.builders import trace
 from tutor.judge.step_parsing import apply_step
 
 HEAD = """\

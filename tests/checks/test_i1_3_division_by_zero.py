@@ -8,7 +8,7 @@ import pytest
 
 from checks.i1_3.division_by_zero import log_division_by_zero
 from checks.i1_3.services import guard_division
-from tests.checks.made import trace
+from tests.checks.builders import trace
 from tutor.judge.step_parsing import apply_step
 
 HEAD = """

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from checks.i1_3.facts import SIGNS, TYPE, ServiceCalls, right_result
+from checks.i1_3.facts import OPERATOR_SIGNS, TYPE, ServiceCalls, correct_result
 from checks.i1_3.judges import judge_operations
 from checks.i1_3.services import compute_results
-from tests.checks.made import assert_failed, called, graph, trace
+from tests.checks.builders import assert_failed, called, graph, trace
 from tutor.judge.verdict import Status
 
 LAMBDA = """
@@ -28,9 +28,11 @@ LISTED = "[self.create_service(AddTwoInts, n, lambda q, p: self.do(OPS[n], q, p)
 
 def calls_of(text: str, computes: str = "/multiply") -> ServiceCalls:
     """The calls of a server with this source, whose four services all compute the same."""
-    answers = [called(name, a, b, right_result(computes, a, b)) for name in SIGNS for a, b in ((20, 4), (-21, 7))]
+    answers = [
+        called(name, a, b, correct_result(computes, a, b)) for name in OPERATOR_SIGNS for a, b in ((20, 4), (-21, 7))
+    ]
     return ServiceCalls(
-        trace(graph=graph(services=dict.fromkeys(SIGNS, TYPE)), sources={"node.py": text}), tuple(answers)
+        trace(graph=graph(services=dict.fromkeys(OPERATOR_SIGNS, TYPE)), sources={"node.py": text}), tuple(answers)
     )
 
 

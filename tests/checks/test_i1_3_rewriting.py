@@ -8,9 +8,9 @@ import pytest
 
 from checks.i1_3 import rewriting, services
 from checks.i1_3.code import Code
-from checks.i1_3.facts import SIGNS, ServiceCalls
+from checks.i1_3.facts import OPERATOR_SIGNS, ServiceCalls
 from checks.i1_3.judges import judge_services
-from tests.checks.made import trace
+from tests.checks.builders import trace
 from tutor.judge.step_parsing import apply_step
 from tutor.judge.trace import Trace
 
@@ -84,9 +84,9 @@ class Calc(Node):
 
 
 def test_code_that_was_already_added_is_not_added_again() -> None:
-    after = follow_step(LOOP, services.compute_results(run_of(LOOP), list(SIGNS)))
+    after = follow_step(LOOP, services.compute_results(run_of(LOOP), list(OPERATOR_SIGNS)))
     assert "def calculate(self, name, request, response):" in after
-    assert services.compute_results(run_of(after), list(SIGNS)) is None
+    assert services.compute_results(run_of(after), list(OPERATOR_SIGNS)) is None
 
 
 def test_the_step_for_an_empty_server_can_be_applied() -> None:

@@ -8,8 +8,8 @@ import pytest
 
 from checks.i1_3 import service_steps, services, steps
 from checks.i1_3.code import Code
-from checks.i1_3.facts import SIGNS
-from tests.checks.made import trace
+from checks.i1_3.facts import OPERATOR_SIGNS
+from tests.checks.builders import trace
 from tutor.judge.step_parsing import apply_step
 from tutor.judge.trace import Trace
 
@@ -109,11 +109,11 @@ def test_missing_services_are_added_below_the_others() -> None:
 
 
 def test_services_created_in_a_loop_are_renamed_and_answered_there() -> None:
-    wanted = [(f"/calc{name}", name) for name in SIGNS]
+    wanted = [(f"/calc{name}", name) for name in OPERATOR_SIGNS]
     after = follow_step(MODULE, lambda run: service_steps.rename_services(run, wanted))
     assert after is not None
     assert "node.create_service(AddTwoInts, '/' + (PREFIX + name).rpartition('/')[2], make(name))" in after
-    after = follow_step(MODULE, lambda run: services.compute_results(run, list(SIGNS)))
+    after = follow_step(MODULE, lambda run: services.compute_results(run, list(OPERATOR_SIGNS)))
     assert after is not None
     assert "name=PREFIX + name: calculate(name, request, response, node.get_logger()))" in after
     assert "\ndef calculate(name, request, response, logger):\n" in f"\n{after}"

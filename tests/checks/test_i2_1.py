@@ -16,11 +16,11 @@ from checks.i2_1.facts import (
     LAUNCH_HZ,
     PREFIX,
     RATE,
-    REFUSING_HZ,
     SLOW_LAUNCH_HZ,
     TOPIC,
     TYPE,
     UP_HZ,
+    VALIDATION_HZ,
     AtomicRequests,
     BadRates,
     ParameterStarts,
@@ -41,12 +41,12 @@ from checks.i2_1.judges import (
     judge_validation,
     judge_validation_so_far,
 )
-from tests.checks.made import (
+from tests.checks.builders import (
     CRASH,
     CRASHED,
     KEYBOARD_INTERRUPT,
     NO_NODE,
-    UP,
+    NODE_UP,
     answer,
     assert_failed,
     assert_passed,
@@ -60,7 +60,7 @@ from tests.checks.made import (
     samples,
     trace,
 )
-from tests.judge.real import crash
+from tests.judge.crashes import crash
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.verdict import Verdict
@@ -125,7 +125,7 @@ def parameter_starts(
     loud: Trace | None = None,
     disabled: Trace = SILENT,
     reported: object = False,
-    woken: Sample | None = None,
+    first_after_enable: Sample | None = None,
     slow_hz: float | None = SLOW_LAUNCH_HZ,
     slow: Trace = RUNNING,
 ) -> ParameterStarts:
@@ -133,12 +133,12 @@ def parameter_starts(
     enabled = None if reported is None else parameter(ENABLED, "boolean", reported)
     slow_rate = rate(slow_hz) if slow_hz else None
     return ParameterStarts(
-        "Ahoy7", seen, rate(hz) if hz else None, 10, slow, slow_rate, 4, disabled, enabled, 2.2, woken
+        "Ahoy7", seen, rate(hz) if hz else None, 10, slow, slow_rate, 4, disabled, enabled, 2.2, first_after_enable
     )
 
 
-WOKEN = sample(TOPIC, "Hello 1", 1005.0)
-NO_PUBLISHER = trace(graph=UP)
+FIRST_AFTER_ENABLE = sample(TOPIC, "Hello 1", 1005.0)
+NO_PUBLISHER = trace(graph=NODE_UP)
 PREFIXED = samples(TOPIC, LAUNCH_HZ, data="Ahoy7 1")
 OLD_PREFIX_FIRST = trace(sample(TOPIC, "Hello 0", 1000.5), *PREFIXED, graph=PUBLISHING)
 OLD_PREFIX_LAST = trace(*PREFIXED, sample(TOPIC, "Hello 11", 1004.0), graph=PUBLISHING)
@@ -152,7 +152,7 @@ OLD_PREFIX_LAST = trace(*PREFIXED, sample(TOPIC, "Hello 11", 1004.0), graph=PUBL
         parameter_starts(5.9),
         parameter_starts(slow_hz=1.3),
         parameter_starts(reported=None),
-        parameter_starts(disabled=NO_PUBLISHER, woken=WOKEN),
+        parameter_starts(disabled=NO_PUBLISHER, first_after_enable=FIRST_AFTER_ENABLE),
         parameter_starts(loud=OLD_PREFIX_FIRST),
     ],
 )
@@ -164,7 +164,7 @@ def test_launch_passes(found: ParameterStarts) -> None:
     ("found", "cause", "word"),
     [
         (parameter_starts(loud=CRASHED), "unhandled exception", "no message"),
-        (parameter_starts(loud=trace(graph=UP)), "no publisher", TOPIC),
+        (parameter_starts(loud=trace(graph=NODE_UP)), "no publisher", TOPIC),
         (parameter_starts(loud=SILENT), "no messages", TOPIC),
         (parameter_starts(data_sent="Hello 1"), "parameter ignored", PREFIX),
         (parameter_starts(loud=OLD_PREFIX_LAST), "parameter ignored", "Hello 11"),
@@ -181,11 +181,19 @@ def test_launch_passes(found: ParameterStarts) -> None:
         (parameter_starts(disabled=SILENT, reported=True), "parameter ignored", ENABLED),
         (parameter_starts(disabled=CRASHED), "unhandled exception", "silence, but not because"),
         (parameter_starts(disabled=NO_PUBLISHER, reported=None), "parameter ignored", ENABLED),
-        (parameter_starts(disabled=NO_PUBLISHER, reported=None, woken=WOKEN), "parameter ignored", ENABLED),
-        (parameter_starts(disabled=NO_PUBLISHER, reported=True, woken=WOKEN), "parameter ignored", ENABLED),
+        (
+            parameter_starts(disabled=NO_PUBLISHER, reported=None, first_after_enable=FIRST_AFTER_ENABLE),
+            "parameter ignored",
+            ENABLED,
+        ),
+        (
+            parameter_starts(disabled=NO_PUBLISHER, reported=True, first_after_enable=FIRST_AFTER_ENABLE),
+            "parameter ignored",
+            ENABLED,
+        ),
         (parameter_starts(disabled=NO_PUBLISHER), "parameter ignored", ENABLED),
         (
-            parameter_starts(disabled=trace(graph=UP, exit=exited(0)), woken=WOKEN),
+            parameter_starts(disabled=trace(graph=NODE_UP, exit=exited(0)), first_after_enable=FIRST_AFTER_ENABLE),
             "exit at once",
             "silence, but not because",
         ),
@@ -198,7 +206,7 @@ def test_launch_fails(found: ParameterStarts, cause: str, word: str) -> None:
 # --- while it runs -----------------------------------------------------------
 
 
-AGAIN = samples(TOPIC, 1.0, count=3, data="Gruezi9 5")
+AFTER_RESUME = samples(TOPIC, 1.0, count=3, data="Gruezi9 5")
 
 
 def runtime_changes(**changes: Any) -> RuntimeChanges:
@@ -212,14 +220,14 @@ def runtime_changes(**changes: Any) -> RuntimeChanges:
         "set_on": answer({ENABLED: True}),
         "resumed": sample(TOPIC, "Gruezi9 4", 1008.0),
         "before": rate(1.0),
-        "again": AGAIN,
+        "after_resume": AFTER_RESUME,
         "rate": rate(1.0),
         **changes,
     }
     return RuntimeChanges(**facts)
 
 
-STOPPED_EARLY = runtime_changes(set_later=None, set_on=None, resumed=None, again=(), rate=None)
+STOPPED_EARLY = runtime_changes(set_later=None, set_on=None, resumed=None, after_resume=(), rate=None)
 """What is observed if a change is refused or ignored: the check then asks for no more."""
 
 WITHOUT_RATE_BEFORE = runtime_changes(before=None)
@@ -239,7 +247,7 @@ def judge_with_timer(seen: RuntimeChanges, timer: RateChanges | None = None) -> 
 def test_runtime_passes() -> None:
     assert_passed(judge_with_timer(runtime_changes()))
     assert_passed(judge_with_timer(runtime_changes(after_prefix=sample(TOPIC, "say Servus7", 1003.0))))
-    assert_passed(judge_with_timer(runtime_changes(again=samples(TOPIC, 1.0, data="Gruezi9: Hello World"))))
+    assert_passed(judge_with_timer(runtime_changes(after_resume=samples(TOPIC, 1.0, data="Gruezi9: Hello World"))))
     assert_passed(judge_with_timer(runtime_changes(rate=rate(2.1), base_hz=2.0)))
 
 
@@ -262,9 +270,9 @@ def test_messages_due_while_disabled_must_not_be_sent_later() -> None:
 def test_a_timer_that_a_rate_change_also_leaves_behind_is_reported_once() -> None:
     twice = rate_changes(UP_HZ + 1.0, DOWN_HZ + 11.0)
     assert_passed(judge_with_timer(runtime_changes(rate=rate(2.0)), twice))
-    assert_failed(judge_with_timer(runtime_changes(rate=None, again=()), twice), "rate changed")
+    assert_failed(judge_with_timer(runtime_changes(rate=None, after_resume=()), twice), "rate changed")
     assert_failed(
-        judge_with_timer(runtime_changes(again=samples(TOPIC, 1.0, data="Hello 5")), twice), "parameter ignored"
+        judge_with_timer(runtime_changes(after_resume=samples(TOPIC, 1.0, data="Hello 5")), twice), "parameter ignored"
     )
 
 
@@ -284,17 +292,21 @@ def test_a_timer_that_a_rate_change_also_leaves_behind_is_reported_once() -> Non
         (runtime_changes(sent_while_off=samples(TOPIC, 1.0, count=2)), "parameter ignored", "2 messages"),
         (runtime_changes(set_later=not_set("no way")), "rejected", "no way"),
         (runtime_changes(set_later=not_set("", answered=False), set_on=None), "blocked executor", "no answer in 5 s"),
-        (runtime_changes(again=samples(TOPIC, 1.0, data="Hello 5")), "parameter ignored", '"Hello 5"'),
-        (runtime_changes(again=(*AGAIN, sample(TOPIC, "Servus7 8", 1012.0))), "parameter ignored", "Servus7 8"),
+        (runtime_changes(after_resume=samples(TOPIC, 1.0, data="Hello 5")), "parameter ignored", '"Hello 5"'),
         (
-            runtime_changes(again=samples(TOPIC, 1.0, data="HelloServus7Gruezi9")),
+            runtime_changes(after_resume=(*AFTER_RESUME, sample(TOPIC, "Servus7 8", 1012.0))),
+            "parameter ignored",
+            "Servus7 8",
+        ),
+        (
+            runtime_changes(after_resume=samples(TOPIC, 1.0, data="HelloServus7Gruezi9")),
             "old prefix kept",
             "HelloServus7Gruezi9",
         ),
         (runtime_changes(rate=rate(2.0)), "rate changed", "2.00 Hz"),
         (runtime_changes(rate=rate(2.0), before=None), "rate changed", "2.00 Hz"),
-        (runtime_changes(rate=None, again=()), "rate changed", "no message"),
-        (runtime_changes(rate=None, again=(), trace=BROKEN_LATER), "unhandled exception", "line 12"),
+        (runtime_changes(rate=None, after_resume=()), "rate changed", "no message"),
+        (runtime_changes(rate=None, after_resume=(), trace=BROKEN_LATER), "unhandled exception", "line 12"),
         (runtime_changes(resumed=None), "does not resume", ENABLED),
         (runtime_changes(resumed=None, trace=BROKEN_LATER), "unhandled exception", "line 12"),
     ],
@@ -310,7 +322,7 @@ def test_runtime_fails(found: RuntimeChanges, cause: str, word: str) -> None:
         (replace(STOPPED_EARLY, after_prefix=None, set_off=None), "parameter ignored"),
         (replace(STOPPED_EARLY, set_off=not_set("no way")), "rejected"),
         (replace(STOPPED_EARLY, sent_while_off=tuple(samples(TOPIC, 1.0, count=2))), "parameter ignored"),
-        (runtime_changes(again=samples(TOPIC, 1.0, data="Hello 5")), "parameter ignored"),
+        (runtime_changes(after_resume=samples(TOPIC, 1.0, data="Hello 5")), "parameter ignored"),
     ],
 )
 def test_a_change_without_effect_fails_whatever_follows(found: RuntimeChanges, cause: str) -> None:
@@ -488,8 +500,8 @@ def test_a_rate_that_was_never_right_only_has_to_stay() -> None:
     assert_passed(judge_atomic(atomic_requests(rate=rate(2.0)), fixed))
     assert_failed(judge_validation(bad_rates(hz=5.0), fixed), "value changed all the same")
     assert_failed(judge_validation(bad_rates(hz=None), fixed), "value changed all the same")
-    refused_at = [(answer, REFUSING_HZ) for answer, _ in REFUSED]
-    fallen = bad_rates(*refused_at, hz=1.0, base_hz=REFUSING_HZ, before=REFUSING_HZ)
+    refused_at = [(answer, VALIDATION_HZ) for answer, _ in REFUSED]
+    fallen = bad_rates(*refused_at, hz=1.0, base_hz=VALIDATION_HZ, before=VALIDATION_HZ)
     assert_failed(judge_validation(fallen, runtime_changes()), "value changed all the same")
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from checks.i2_2 import facts, judges, processes
 from checks.i2_2.facts import LaunchRun
-from tests.checks.made import FOLDER, START, assert_failed, assert_passed, ending, exited, lines
+from tests.checks.builders import FOLDER, START, assert_failed, assert_passed, ending, exited, lines
 from tutor.errors import NeedsInstalledRos
 from tutor.judge.trace import LogRecord, Sample, Trace
 from tutor.judge.verdict import Status
@@ -463,7 +463,7 @@ def test_no_messages_at_all() -> None:
 
 
 def test_a_subscriber_that_a_message_crashed() -> None:
-    seen = launched(pair("/chatter"), out=DEAD, parted=True)
+    seen = launched(pair("/chatter"), out=DEAD, disconnected=True)
     assert_failed(judges.judge_communicates(seen), "a node that ends", "hearer.py, line 7")
 
 
@@ -476,7 +476,7 @@ def test_a_clean_shutdown_passes() -> None:
 
 def test_a_process_is_left_behind() -> None:
     left = ending()
-    object.__setattr__(left, "left", ("sleep 1000",))
+    object.__setattr__(left, "survivors", ("sleep 1000",))
     assert_failed(judges.judge_shutdown(launched(pair("/chatter"), ending=left)), "process left behind", "sleep 1000")
 
 

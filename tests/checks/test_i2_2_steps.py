@@ -10,8 +10,8 @@ from checks.i2_2 import rewriting, steps
 from checks.i2_2.causes import diagnose_launch
 from checks.i2_2.reading import Source
 from checks.i2_2.rewriting import Launch
-from tests.checks.made import trace
-from tests.judging import find
+from tests.checks.builders import trace
+from tests.judging import find_cases
 from tutor.content.submissions import Case
 from tutor.judge.edits import apply
 from tutor.judge.rewriting.node import NodeFile
@@ -188,12 +188,12 @@ def test_a_substitution_turned_into_text_too_early(written: str) -> None:
 
 
 def test_steps_that_change_single_lines() -> None:
-    assert steps.step_for_missing_return(changed(("    return Launch", "    Launch"))) == (
+    assert steps.add_return(changed(("    return Launch", "    Launch"))) == (
         "line 12 becomes: return LaunchDescription(["
     )
     kept = changed(("    return Launch", "    found = Launch"))
-    assert str(steps.step_for_missing_return(kept)).endswith(": return found")
-    assert steps.step_for_other_name(changed(("'topic'", "'topic_name'")), "topic", ["topic_name"]) == (
+    assert str(steps.add_return(kept)).endswith(": return found")
+    assert steps.rename_similar_argument(changed(("'topic'", "'topic_name'")), "topic", ["topic_name"]) == (
         "line 13 becomes: DeclareLaunchArgument('topic', default_value='chatter'),\n"
         "line 8 becomes: name = LaunchConfiguration('topic')"
     )
@@ -203,11 +203,11 @@ def test_steps_that_change_single_lines() -> None:
     )
     unlisted = changed(("        talker,\n        listener,\n", ""))
     assert "talker, listener, Declare" in str(steps.step_for_empty_description(unlisted))
-    assert steps.step_for_other_program(changed(("'talker'", "'taker'")), "executable", "taker", "talker") == (
+    assert steps.rename_program(changed(("'talker'", "'taker'")), "executable", "taker", "talker") == (
         "line 10 becomes: talker = Node(package='demo_nodes_py', executable='talker', namespace=space, "
         "remappings=[('chatter', name)])"
     )
-    assert steps.step_for_other_function(changed(("generate_launch_description", "generate_launch"))) == (
+    assert steps.rename_launch_function(changed(("generate_launch_description", "generate_launch"))) == (
         "line 7 becomes: def generate_launch_description():"
     )
 
@@ -323,7 +323,7 @@ def test_arguments_in_a_shared_dict_are_not_given_twice() -> None:
     assert "remappings=[('chatter', LaunchConfiguration('topic'))]," in found.hint
 
 
-@pytest.mark.parametrize("case", find(["i2.2"])[0], ids=str)
+@pytest.mark.parametrize("case", find_cases(["i2.2"])[0], ids=str)
 def test_each_submission_can_be_rewritten(case: Case) -> None:
     """If Python can parse it at all."""
     text = (case.folder / "my_launch.py").read_text(errors="replace")

@@ -26,14 +26,14 @@ from checks.i2_3.judges import (
 )
 from checks.i2_3.listening import logs_since
 from checks.i2_3.pace import Fault, measure_timer
-from checks.i2_3.repeats import MOST_AT_ONCE_TRIES, MOST_TRIES, TRIES, needs_repeat, needs_repeat_at_once
+from checks.i2_3.repeats import MAX_AT_ONCE_TRIES, MAX_TRIES, TRIES, needs_repeat, needs_repeat_at_once
 from checks.i2_3.ticks import Series, all_series, timer_series
-from tests.checks.made import (
+from tests.checks.builders import (
     CRASHED,
     KEYBOARD_INTERRUPT,
     NO_NODE,
+    NODE_UP,
     START,
-    UP,
     assert_failed,
     assert_passed,
     assert_undecided,
@@ -145,7 +145,7 @@ def test_one_late_call_on_a_calm_machine_is_enough_to_fail() -> None:
     assert_undecided(judge_blocking(replace(busy, calls=busy.calls * 2)))
 
 
-def calls_made(each: Call, logs: Sequence[LogRecord] = (), *, most: int = MOST_TRIES, calm_at: int = 99) -> int:
+def calls_made(each: Call, logs: Sequence[LogRecord] = (), *, most: int = MAX_TRIES, calm_at: int = 99) -> int:
     """The number of calls made, if each is like this one; from number `calm_at` on, the machine is calm."""
     made: list[Call] = []
     while not made or needs_repeat(logs, made, series_in(tick_logs(every=1)), most):
@@ -158,7 +158,7 @@ def test_calls_are_repeated_until_one_is_conclusive() -> None:
     ticks, gap = tick_logs(every=1, until_s=5.5), tick_logs(every=1, until_s=5.5, pause=(0.5, 2))
     assert calls_made(replace(good, cpu_wait_s=0.0), ticks) == 1
     assert calls_made(replace(late, cpu_wait_s=0.0), ticks) == 2
-    assert calls_made(late, ticks) == calls_made(replace(good, cpu_wait_s=0.7), gap) == MOST_TRIES
+    assert calls_made(late, ticks) == calls_made(replace(good, cpu_wait_s=0.7), gap) == MAX_TRIES
     assert calls_made(late, ticks, most=TRIES) == TRIES
     assert calls_made(late, ticks, calm_at=3) == 3
     assert calls_made(late, ticks, calm_at=6) == 6
@@ -209,7 +209,7 @@ def test_a_second_call_on_a_busy_machine_does_not_change_a_pass() -> None:
         (single_calls((), answer(sum_=None), spins=False), "no spin", "/node"),
         (SingleCalls(CRASHED), "unhandled exception", "line 12"),
         (SingleCalls(NO_NODE), "no node", ""),
-        (SingleCalls(trace(graph=UP)), "service missing", SERVICE),
+        (SingleCalls(trace(graph=NODE_UP)), "service missing", SERVICE),
         (SingleCalls(trace(graph=graph(services={"/slow_sum": TYPE}))), "wrong service name", "/slow_sum"),
         (SingleCalls(trace(graph=graph(services={"/me/slow_add": TYPE}))), "wrong service name", "namespace"),
         (SingleCalls(trace(graph=graph(services={SERVICE: "std_srvs/srv/Trigger"}))), "wrong type", "Trigger"),
@@ -496,8 +496,8 @@ def test_a_counter_may_start_over(size: int, every: int) -> None:
 
 
 def test_a_timer_is_not_judged_without_a_call() -> None:
-    assert judge_timer(idle_run(tick_logs()), SingleCalls(trace(graph=UP))).status is Status.SKIPPED
-    assert_failed(judge_timer(idle_run(tick_logs(hz=5)), SingleCalls(trace(graph=UP))), "wrong timer period")
+    assert judge_timer(idle_run(tick_logs()), SingleCalls(trace(graph=NODE_UP))).status is Status.SKIPPED
+    assert_failed(judge_timer(idle_run(tick_logs(hz=5)), SingleCalls(trace(graph=NODE_UP))), "wrong timer period")
 
 
 def test_timestamps_are_not_tick_numbers() -> None:
@@ -523,7 +523,7 @@ def test_three_concurrent_calls() -> None:
     assert_failed(
         judge_concurrent(ConcurrentCalls(CRASHED, concurrent(1005, None, None).batches)), "unhandled exception"
     )
-    assert judge_concurrent(ConcurrentCalls(trace(graph=UP))).status is Status.SKIPPED
+    assert judge_concurrent(ConcurrentCalls(trace(graph=NODE_UP))).status is Status.SKIPPED
 
 
 def test_three_unanswered_calls_are_judged_only_with_the_single_calls() -> None:
@@ -581,7 +581,7 @@ def two_at_a_time(cpu_wait_s: float) -> ConcurrentCalls:
         ((3.0, 3.0, 0.3), 3),
         ((3.0, 3.0, 3.0, 0.3), 4),
         ((0.3, 3.0, 3.0, 3.0, 0.3), 5),
-        ((3.0,) * 6, MOST_AT_ONCE_TRIES),
+        ((3.0,) * 6, MAX_AT_ONCE_TRIES),
     ],
 )
 def test_concurrent_calls_are_repeated_until_conclusive(cpu_wait_s: Sequence[float], times: int) -> None:
@@ -606,7 +606,7 @@ def test_shutdown_busy() -> None:
     stays = Interrupted(trace(graph=SERVING), True, ending(still_running=True))
     assert_failed(judge_shutdown_busy(stays, single_calls()), "SIGINT ignored")
     assert_failed(judge_shutdown_busy(Interrupted(CRASHED, False), SingleCalls(trace())), "unhandled exception")
-    gone = Interrupted(trace(graph=UP), False, ending())
+    gone = Interrupted(trace(graph=NODE_UP), False, ending())
     assert judge_shutdown_busy(gone, SingleCalls(trace())).status is Status.SKIPPED
     unanswered = single_calls([], answer(sum_=None))
     assert judge_shutdown_busy(clean, unanswered).status is Status.SKIPPED

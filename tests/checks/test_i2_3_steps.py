@@ -7,8 +7,8 @@ import ast
 import pytest
 
 from checks.i2_3 import rewriting, steps
-from tests.checks.made import trace
-from tests.judging import find
+from tests.checks.builders import trace
+from tests.judging import find_cases
 from tutor.content.submissions import Case
 from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.step_parsing import apply_step
@@ -196,7 +196,7 @@ def test_the_same_step_is_not_suggested_again() -> None:
     assert "ReentrantCallbackGroup()" in step
 
 
-@pytest.mark.parametrize("case", find(["i2.3"])[0], ids=str)
+@pytest.mark.parametrize("case", find_cases(["i2.3"])[0], ids=str)
 def test_each_submission_can_be_rewritten(case: Case) -> None:
     """If Python can parse it at all, and its only file has a node."""
     for path in case.folder.glob("concurrent_service.py"):

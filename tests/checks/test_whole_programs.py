@@ -164,7 +164,7 @@ def test_attributes_of_rclpys_node_are_not_overwritten() -> None:
 
 def test_an_expression_for_the_topic_is_replaced_by_another_topic() -> None:
     code = "class T:\n    A = '/sensor/temperature'\n\n\npub = node.create_publisher(String, T.A, 10)\n"
-    step = sensor_steps.anything(started(code))
+    step = sensor_steps.find_any_step(started(code))
     assert step == "line 5 becomes: pub = node.create_publisher(String, '/sensor/temperature_string', 10)"
 
 

@@ -14,7 +14,7 @@ from tests.report.shape import assert_report_shape
 from tutor.content import load_course
 from tutor.errors import EngineError
 from tutor.judge.verdict import fault, skipped
-from tutor.tui.widgets.attempts import history
+from tutor.tui.widgets.attempts import format_attempts
 from tutor.workspace import Progress, Workspace
 
 FILE = "ros_tutor_ws/src/my_package/my_package/temperature_publisher.py"
@@ -164,7 +164,7 @@ def test_attempts_at_selected_criteria_say_nothing_about_the_others(run: Run, en
     run("check", "i1.1", "--criterion", "rate")
     engine.verdicts["rate"] = FAILURE
     run("check", "i1.1", "--criterion", "rate")
-    shown = history(lesson, progress(home).of("i1.1"), most=5).plain
+    shown = format_attempts(lesson, progress(home).of("i1.1"), max_count=5).plain
     assert shown.count("not yet: rate  (only rate)") == 1
     assert "0 of 1" in shown
     assert "1 of 1" in shown

@@ -19,7 +19,7 @@ from tutor.cli.grammar import command_parsers
 from tutor.cli.parser import build
 
 ROOT = Path(tutor.__file__).parents[1]
-CLONE = {invocation.VARIABLE: f"{os.getpid()} ./ros-tutor"}
+CLONE = {invocation.STARTED_AS_VARIABLE: f"{os.getpid()} ./ros-tutor"}
 
 
 @pytest.fixture
@@ -37,10 +37,10 @@ def clone(monkeypatch: pytest.MonkeyPatch) -> None:
         ({}, ["/opt/tools/bin/ros-tutor"], "/opt/tools/bin/ros-tutor"),
         ({}, ["/opt/my tools/ros-tutor"], "'/opt/my tools/ros-tutor'"),
         (CLONE, ["/work/.venv/bin/ros-tutor"], "./ros-tutor"),
-        ({invocation.VARIABLE: f"{os.getppid()} ../ros-tutor"}, ["x"], "../ros-tutor"),
-        ({invocation.VARIABLE: f"{os.getpid()} /a b/ros-tutor"}, ["x"], "'/a b/ros-tutor'"),
-        ({invocation.VARIABLE: "1000000000 ./ros-tutor"}, ["x"], "ros-tutor"),  # set for another process
-        ({invocation.VARIABLE: "damaged"}, ["x"], "ros-tutor"),
+        ({invocation.STARTED_AS_VARIABLE: f"{os.getppid()} ../ros-tutor"}, ["x"], "../ros-tutor"),
+        ({invocation.STARTED_AS_VARIABLE: f"{os.getpid()} /a b/ros-tutor"}, ["x"], "'/a b/ros-tutor'"),
+        ({invocation.STARTED_AS_VARIABLE: "1000000000 ./ros-tutor"}, ["x"], "ros-tutor"),  # set for another process
+        ({invocation.STARTED_AS_VARIABLE: "damaged"}, ["x"], "ros-tutor"),
     ],
 )
 def test_the_program_name_is_the_word_that_was_typed(environ: dict[str, str], argv: list[str], word: str) -> None:

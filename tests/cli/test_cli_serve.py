@@ -21,7 +21,7 @@ from tests.cli.conftest import Run
 from tutor import errors
 from tutor.content import load_course
 from tutor.serve import address, guard, is_loopback, listen, listening
-from tutor.serve.guard import is_address_or_ours, is_this_machine, owner
+from tutor.serve.guard import is_address_or_own_name, is_this_machine, peer_uid
 from tutor.workspace import Workspace, start
 
 LIMIT_S = 60.0
@@ -273,7 +273,7 @@ async def test_other_machines_need_the_token() -> None:
     ],
 )
 def test_host_names_that_other_machines_may_use(host: str, ours: bool) -> None:
-    assert is_address_or_ours(host) is ours
+    assert is_address_or_own_name(host) is ours
 
 
 @pytest.mark.parametrize("width", ["100000", "-5", "0"])
@@ -309,12 +309,12 @@ async def test_the_size_of_a_page_is_limited_to_what_an_app_can_draw(
 async def test_the_user_at_the_other_end_is_identified(host: str) -> None:
     found: list[int | None] = []
 
-    async def record_owner(request: web.Request) -> web.Response:
-        found.append(owner(request))
+    async def record_uid(request: web.Request) -> web.Response:
+        found.append(peer_uid(request))
         return web.Response()
 
     app = web.Application()
-    app.router.add_get("/", record_owner)
+    app.router.add_get("/", record_uid)
     runner = web.AppRunner(app)
     await runner.setup()
     with listen(host, 0) as listener:
@@ -326,7 +326,7 @@ async def test_the_user_at_the_other_end_is_identified(host: str) -> None:
 
 
 async def test_another_user_of_this_machine_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(guard, "owner", lambda request: os.getuid() + 1)
+    monkeypatch.setattr(guard, "peer_uid", lambda request: os.getuid() + 1)
     app = web.Application(middlewares=[guard.only_own_pages()])
     runner = web.AppRunner(app)
     await runner.setup()

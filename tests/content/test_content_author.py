@@ -12,7 +12,7 @@ from tutor.content import Course, Lesson, load_course
 from tutor.content.lint_checks import find_disagreements, find_stray_files
 from tutor.content.lint_commands import find_bad_commands
 from tutor.content.lint_submissions import find_bad_submissions
-from tutor.content.proof import faults, find_disproofs
+from tutor.content.proof import find_contradictions, unjudged_criteria
 from tutor.content.submissions import read_expected
 from tutor.errors import ContentError
 from tutor.judge.check import Check, Criterion
@@ -241,15 +241,15 @@ def test_verdicts_on_our_own_code_must_match_the_lesson(
 ) -> None:
     lesson = course.lessons[0]
     judged = result(lesson, moves=moves, stops=stops)
-    found = list(find_disproofs(lesson, kind, judged))
+    found = list(find_contradictions(lesson, kind, judged))
     assert [problem.text for problem in found] == ([text] if text else [])
     assert all(problem.file == lesson.folder / kind for problem in found)
-    assert [c.id for c in faults(judged)] == (["moves"] if moves.status is Status.ERROR else [])
+    assert [c.id for c in unjudged_criteria(judged)] == (["moves"] if moves.status is Status.ERROR else [])
 
 
 def test_a_skeleton_that_passes_an_open_criterion_is_found(course: Course) -> None:
     lesson = course.lessons[0]
-    found = find_disproofs(lesson, "skeleton", result(lesson, moves=passed("", ""), stops=passed("", "")))
+    found = find_contradictions(lesson, "skeleton", result(lesson, moves=passed("", ""), stops=passed("", "")))
     assert [problem.text for problem in found] == [
         "moves passes, but the lesson says that it is open",
         "no criterion fails",

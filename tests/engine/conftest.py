@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.engine.made import Scene
+from tests.engine.helpers import Scene
 from tutor.ros import process_setup
 from tutor.ros.environment import RosEnvironment, detect
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.engine.made import Scene, refuse_facts
+from tests.engine.helpers import Scene, refuse_facts
 from tutor.content import load_course
 from tutor.judge.ending import judge_ending
 from tutor.judge.submission import Submission

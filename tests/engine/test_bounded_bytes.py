@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.engine.made import FILE, PUBLISHES, Scene, node
+from tests.engine.helpers import FILE, PUBLISHES, Scene, node
 from tutor.judge.bench import Run
 
 CHATTER = {"/chatter": "std_msgs/msg/String"}
@@ -85,7 +85,7 @@ async def test_oversized_parameters_are_reported_and_the_others_read(
 ) -> None:
     from tutor.ros import memory_guard
 
-    monkeypatch.setattr(memory_guard, "MOST_BYTES", 4 * MB)
+    monkeypatch.setattr(memory_guard, "MAX_BYTES", 4 * MB)
     async with scene.bench(node(LARGE_PARAMETERS)).start(FILE) as run:
         assert await run.until(
             lambda: any(s.name == "/learner/set_parameters_atomically" for s in run.graph.services), STARTUP_S

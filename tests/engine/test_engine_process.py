@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.engine.made import WAITS
+from tests.engine.helpers import WAITS
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress, decode
 from tutor.judge.verdict import Status
 from tutor.process.supervisor import descendants, processes

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import Any
 
-from tests.engine.made import FILE, WAITS, Scene, criterion, statuses
+from tests.engine.helpers import FILE, WAITS, Scene, criterion, statuses
 from tutor.engine.first_failure import judge_until_failure
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion

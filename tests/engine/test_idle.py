@@ -13,16 +13,16 @@ DEADLINE = 1000.0
 
 
 class FakeProcess:
-    """Wraps an Idle with a fake clock, wake-up time and CPU wait."""
+    """Wraps an IdleDetector with a fake clock, wake-up time and CPU wait."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now, self.wake, self.cpu_wait_s = 50.0, NextWake(math.inf, 7), 3.0
         monkeypatch.setattr("time.monotonic", lambda: self.now)
-        self.idle = idle.Idle(lambda: self.wake, lambda: self.cpu_wait_s, 0.7)
+        self.idle = idle.IdleDetector(lambda: self.wake, lambda: self.cpu_wait_s, 0.7)
 
     def advance(self, seconds: float) -> bool:
         self.now += seconds
-        return self.idle.until(DEADLINE)
+        return self.idle.is_idle_until(DEADLINE)
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 
-from tests.engine.made import FILE, PUBLISHES, Scene, node
+from tests.engine.helpers import FILE, PUBLISHES, Scene, node
 from tutor.ros.environment import learner_env
 
 TYPE = "std_msgs/msg/String"

@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from tests.engine.made import Scene, criterion, statuses
+from tests.engine.helpers import Scene, criterion, statuses
 from tutor.errors import MachineTooBusy
 from tutor.judge.bench import Bench, Scenario
 from tutor.judge.verdict import Cause, Verdict, failed, passed, undecided

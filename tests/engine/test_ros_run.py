@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from tests.engine.made import FILE, PUBLISHES, WAITS, Scene, node
+from tests.engine.helpers import FILE, PUBLISHES, WAITS, Scene, node
 from tutor.errors import EngineError
 from tutor.judge import tracebacks
 from tutor.judge.bench import Run
@@ -371,7 +371,7 @@ async def test_a_flood_of_messages_and_output_is_bounded(scene: Scene, monkeypat
     from tutor.ros import intake
 
     limit = 500
-    monkeypatch.setattr(intake, "MOST_SAMPLES", limit)
+    monkeypatch.setattr(intake, "MAX_SAMPLES", limit)
     async with scene.bench(node(FLOODS)).start(FILE, watch=CHATTER) as run:
         assert await run.until(lambda: len(run.samples_on("/chatter")) >= limit and len(run.logs) >= limit, STARTUP_S)
         assert await run.until(lambda: run.trace().dropped_lines > 3000, STARTUP_S)
@@ -406,17 +406,17 @@ async def test_big_messages_are_truncated_and_their_number_is_bounded(
 ) -> None:
     from tutor.ros import intake, messages, observer
 
-    monkeypatch.setattr(intake, "MOST_BYTES", 250_000)
+    monkeypatch.setattr(intake, "MAX_BYTES", 250_000)
     async with scene.bench(node(BIG)).start(FILE, watch=CHATTER) as run:
         assert await run.until(lambda: len(run.samples_on("/chatter")) >= 5 and len(run.logs) >= 6, STARTUP_S)
         assert await run.until(lambda: any(line.text == "sent 40" for line in run.output), STARTUP_S)
         declared = await run.parameters(10)
         trace = run.trace()
-    assert {len(sample.message["data"]) for sample in trace.samples_on("/chatter")} == {messages.MOST_CHARACTERS}
+    assert {len(sample.message["data"]) for sample in trace.samples_on("/chatter")} == {messages.MAX_CHARACTERS}
     assert max(len(log.text) for log in trace.logs) == observer.LINE_CHARACTERS
     assert len(trace.samples_on("/chatter")) <= 10
     assert len(trace.logs) <= 10
-    assert [len(p.value) for p in declared or () if p.name == "name"] == [messages.MOST_CHARACTERS]
+    assert [len(p.value) for p in declared or () if p.name == "name"] == [messages.MAX_CHARACTERS]
 
 
 async def test_ctrl_c_reaches_a_launched_process_exactly_once(scene: Scene) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from tests.engine.made import FILE, PUBLISHES, Scene, criterion, node, statuses
+from tests.engine.helpers import FILE, PUBLISHES, Scene, criterion, node, statuses
 from tutor.errors import EngineError
 from tutor.judge.bench import Bench
 from tutor.judge.events import CheckStarted, CriterionJudged, ExerciseJudged, Progress

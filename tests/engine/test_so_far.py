@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from tests.checks.made import CRASH, UP, exited, graph, log, samples, trace
-from tests.engine.made import FILE, Scene, criterion, node
+from tests.checks.builders import CRASH, NODE_UP, exited, graph, log, samples, trace
+from tests.engine.helpers import FILE, Scene, criterion, node
 from tutor.content import LiveTopic, LiveView
 from tutor.engine import provisional
-from tutor.engine.so_far import Moment, SoFar, describe
+from tutor.engine.so_far import RunSnapshot, SoFar, describe
 from tutor.judge.bench import Bench
 from tutor.judge.events import CriterionJudged, Progress
 from tutor.judge.trace import Exit, LogRecord, OutputLine, Sample, Trace
@@ -25,7 +25,7 @@ SPINS = "import rclpy\nrclpy.spin(node)\n"
 
 
 def describe_text(seen: Trace, view: LiveView = VIEW, **more: Any) -> str:
-    return describe(Moment(seen, {TOPIC: TYPE}, **more), view).text
+    return describe(RunSnapshot(seen, {TOPIC: TYPE}, **more), view).text
 
 
 def with_source(source: str, seen: Trace) -> Trace:
@@ -44,7 +44,7 @@ PUBLISHES = with_source(
     ("seen", "expected"),
     [
         (trace(graph=NO_NODES), "the program runs, no node yet"),
-        (trace(graph=UP), f"no publisher on {TOPIC} yet, /node is up"),
+        (trace(graph=NODE_UP), f"no publisher on {TOPIC} yet, /node is up"),
         (PUBLISHES, f"nothing published on {TOPIC} yet, /node is up"),
         (trace(*samples(TOPIC, 1.0), graph=graph(publishers={TOPIC: TYPE})), ""),
         (
@@ -67,10 +67,10 @@ def test_what_is_missing_is_reported_with_a_likely_cause_if_there_is_one(seen: T
 
 
 def test_only_an_exception_that_ended_the_program_is_a_likely_cause() -> None:
-    ended = describe(Moment(trace(err=CRASH, exit=exited(1)), {TOPIC: TYPE}), VIEW)
+    ended = describe(RunSnapshot(trace(err=CRASH, exit=exited(1)), {TOPIC: TYPE}), VIEW)
     assert ended.likely
     assert "'Sensor' object has no attribute 'nothing'" in ended.text
-    running = describe(Moment(trace(err=CRASH, graph=UP), {TOPIC: TYPE}), VIEW)
+    running = describe(RunSnapshot(trace(err=CRASH, graph=NODE_UP), {TOPIC: TYPE}), VIEW)
     assert not running.likely
     assert running.text.endswith("(node.py, line 12: self.nothing()); the program still runs")
 
@@ -81,36 +81,36 @@ def test_a_misspelled_name_is_a_likely_cause() -> None:
     )
     services = LiveView(services=("/add", "/divide"))
     seen = trace(graph=graph(services={"/add": "a/srv/B", "/devide": "a/srv/B"}))
-    assert describe(Moment(seen), services).text == "likely wrong name: /node serves /devide, not /divide"
+    assert describe(RunSnapshot(seen), services).text == "likely wrong name: /node serves /devide, not /divide"
 
 
 def test_missing_services_and_subscriptions_are_reported() -> None:
     services = LiveView(services=("/add", "/subtract", "/multiply", "/divide"))
-    assert describe(Moment(trace(graph=UP)), services).text == "no service or client yet, /node is up"
+    assert describe(RunSnapshot(trace(graph=NODE_UP)), services).text == "no service or client yet, /node is up"
     one = trace(graph=graph(services={"/add": "a/srv/B"}))
-    assert describe(Moment(one), services).text == "no service /subtract, /multiply and /divide yet, /node is up"
-    assert describe(Moment(one, unanswered=True), LiveView(services=("/add",))).text == (
+    assert describe(RunSnapshot(one), services).text == "no service /subtract, /multiply and /divide yet, /node is up"
+    assert describe(RunSnapshot(one, awaits_response=True), LiveView(services=("/add",))).text == (
         "no answer to a request yet, /node is up"
     )
-    a_client = trace(graph=replace(UP, clients=(ServiceEndpoint("/add", "a/srv/B", "/node"),)))
-    assert describe(Moment(a_client), services) == SoFar()
-    subscribed = replace(UP, subscriptions=(TopicEndpoint(TOPIC, TYPE, "/node"),))
-    assert describe(Moment(trace(graph=subscribed)), VIEW).text == (
+    a_client = trace(graph=replace(NODE_UP, clients=(ServiceEndpoint("/add", "a/srv/B", "/node"),)))
+    assert describe(RunSnapshot(a_client), services) == SoFar()
+    subscribed = replace(NODE_UP, subscriptions=(TopicEndpoint(TOPIC, TYPE, "/node"),))
+    assert describe(RunSnapshot(trace(graph=subscribed)), VIEW).text == (
         f"nothing logged yet, /node is up and subscribed to {TOPIC}"
     )
-    assert describe(Moment(replace(trace(graph=subscribed), logs=(log("mean 3"),))), VIEW) == SoFar()
-    namespaced = replace(UP, publishers=(TopicEndpoint(f"/robot1{TOPIC}", TYPE, "/robot1/node"),))
-    assert describe(Moment(trace(graph=namespaced)), VIEW) == SoFar()
-    other = replace(UP, subscriptions=(TopicEndpoint(TOPIC, "a/msg/B", "/node"),))
-    assert describe(Moment(trace(graph=other)), VIEW).text.startswith("likely wrong type: ")
+    assert describe(RunSnapshot(replace(trace(graph=subscribed), logs=(log("mean 3"),))), VIEW) == SoFar()
+    namespaced = replace(NODE_UP, publishers=(TopicEndpoint(f"/robot1{TOPIC}", TYPE, "/robot1/node"),))
+    assert describe(RunSnapshot(trace(graph=namespaced)), VIEW) == SoFar()
+    other = replace(NODE_UP, subscriptions=(TopicEndpoint(TOPIC, "a/msg/B", "/node"),))
+    assert describe(RunSnapshot(trace(graph=other)), VIEW).text.startswith("likely wrong type: ")
 
 
 def test_silence_that_the_exercise_may_ask_for_has_no_cause() -> None:
     """A scenario may start one node as silent or slow, by its parameters, while another publishes."""
-    seen = replace(PUBLISHES, graph=UP)
-    assert describe_text(seen, elsewhere={TOPIC}) == f"no publisher on {TOPIC} yet, /node is up"
+    seen = replace(PUBLISHES, graph=NODE_UP)
+    assert describe_text(seen, published_elsewhere={TOPIC}) == f"no publisher on {TOPIC} yet, /node is up"
     wrong = trace(graph=graph(publishers={TOPIC: "std_msgs/msg/Float32"}))
-    assert not describe(Moment(wrong, {TOPIC: TYPE}, elsewhere={TOPIC}), LiveView()).likely
+    assert not describe(RunSnapshot(wrong, {TOPIC: TYPE}, published_elsewhere={TOPIC}), LiveView()).likely
 
 
 @dataclass
@@ -119,7 +119,7 @@ class FakeRun:
 
     seen: Trace = field(default_factory=lambda: trace(graph=NO_NODES))
     interrupted_at: float | None = None
-    unanswered: bool = False
+    awaits_response: bool = False
     traces: int = 0
 
     def peek_graph(self) -> Graph:  # not `graph`, which updates the run's last seen graph
@@ -152,8 +152,8 @@ class Reports:
     """Records the reports of a Provisional, and waits for them."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setattr(provisional, "WAIT_S", 0.05)
-        monkeypatch.setattr(provisional, "EVERY_S", 0.01)
+        monkeypatch.setattr(provisional, "QUIET_WAIT_S", 0.05)
+        monkeypatch.setattr(provisional, "UPDATE_INTERVAL_S", 0.01)
         self.all: list[tuple[float, str, str]] = []
         self.provisional = provisional.Provisional(self._record, VIEW, set())
         self.provisional.report(0.1, "waiting")

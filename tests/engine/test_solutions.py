@@ -6,7 +6,7 @@ import asyncio
 
 import pytest
 
-from tests.engine.made import Scene, refuse_facts
+from tests.engine.helpers import Scene, refuse_facts
 from tutor.content import load_course
 from tutor.judge.submission import Submission
 from tutor.workspace import solution

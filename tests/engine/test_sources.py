@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tutor.engine.source import launch_arguments, sources, uncalled_main, with_code
+from tutor.engine.source import add_source_lines, launch_arguments, read_sources, uncalled_main
 from tutor.judge.tracebacks import Frame
 
 
@@ -19,13 +19,13 @@ def test_files_named_in_a_launch_file_are_read(tmp_path: Path) -> None:
     )
     for name in ("helper", "speaker", "more.launch", "other"):
         (tmp_path / f"{name}.py").write_text("x = 'other'\n")
-    assert set(sources(tmp_path / "my_launch.py")) == {"my_launch.py", "helper.py", "speaker.py", "more.launch.py"}
+    assert set(read_sources(tmp_path / "my_launch.py")) == {"my_launch.py", "helper.py", "speaker.py", "more.launch.py"}
 
 
 def test_a_string_in_a_node_is_not_taken_as_a_file_name(tmp_path: Path) -> None:
     (tmp_path / "talker.py").write_text("topic = 'chatter'\n")
     (tmp_path / "chatter.py").write_text("x = 1\n")
-    assert set(sources(tmp_path / "talker.py")) == {"talker.py"}
+    assert set(read_sources(tmp_path / "talker.py")) == {"talker.py"}
 
 
 REFUSED = {
@@ -51,7 +51,7 @@ TOO_MUCH = {
 def test_unparsable_or_excessive_sources_are_ignored_quickly(source: bytes, tmp_path: Path) -> None:
     path = tmp_path / "talker.py"
     path.write_bytes(source)
-    began, found = time.process_time(), sources(path)
+    began, found = time.process_time(), read_sources(path)
     assert uncalled_main(path) is False
     assert launch_arguments(path) == ()
     assert not found or source in REFUSED.values()
@@ -62,8 +62,8 @@ def test_only_regular_files_are_read(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "talker.py")
     (tmp_path / "zero.py").symlink_to("/dev/zero")
     (tmp_path / "node.py").write_text("import talker, zero\n")
-    assert set(sources(tmp_path / "node.py")) == {"node.py"}
-    assert sources(tmp_path / "talker.py") == {}
+    assert set(read_sources(tmp_path / "node.py")) == {"node.py"}
+    assert read_sources(tmp_path / "talker.py") == {}
 
 
 def test_a_forged_dump_may_name_any_file(tmp_path: Path) -> None:
@@ -74,4 +74,4 @@ def test_a_forged_dump_may_name_any_file(tmp_path: Path) -> None:
     frames = [Frame(str(path), 1, "f", "") for path in named]
     frames += [Frame(str(tmp_path / "node.py"), line, "f", "") for line in (0, 2, 3, 999_999_999)]
     frames += [Frame(f"/none/{n}", 1, "f", "") for n in range(100)]
-    assert [frame.code for frame in with_code(frames) if frame.code] == ["b = 2"]
+    assert [frame.code for frame in add_source_lines(frames) if frame.code] == ["b = 2"]

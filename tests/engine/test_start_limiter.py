@@ -6,7 +6,7 @@ import asyncio
 
 import pytest
 
-from tutor.engine.start_limiter import ITERATIONS, StartLimiter
+from tutor.engine.start_limiter import GATHER_ITERATIONS, StartLimiter
 
 
 class Starts:
@@ -32,7 +32,7 @@ class Starts:
 
 
 async def settle() -> None:
-    for _ in range(5 + ITERATIONS):
+    for _ in range(5 + GATHER_ITERATIONS):
         await asyncio.sleep(0)
 
 

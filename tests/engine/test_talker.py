@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from tests.engine.made import FILE, Scene, node
+from tests.engine.helpers import FILE, Scene, node
 from tutor.judge.bench import Publisher, Run
 from tutor.ros_model import QoS
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from tests.checks.made import FOLDER, lines, trace
+from tests.checks.builders import FOLDER, lines, trace
 from tutor.judge.causes import diagnose_blocked, use_threads
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame, dumped_frames, frames_by_thread

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from tests.checks.made import CRASH, CRASHED, FOLDER, NO_NODE, UP, exited, graph, lines, log, trace
-from tests.judge.real import crash
+from tests.checks.builders import CRASH, CRASHED, FOLDER, NO_NODE, NODE_UP, exited, graph, lines, log, trace
+from tests.judge.crashes import crash
 from tutor.judge.causes import (
     diagnose_incompatible_qos,
     diagnose_incompatible_service,
@@ -105,8 +105,8 @@ def test_a_node_that_is_up_gives_no_cause(seen: Trace) -> None:
         (trace(graph=graph(publishers={"/anything": TYPE})), True, "wrong topic", "spelled differently"),
         (trace(graph=graph(publishers={"/sensor/temperatur": "std_msgs/msg/String"})), True, "wrong topic", ""),
         (trace(graph=graph(publishers={"/scan": "sensor_msgs/msg/LaserScan"})), True, "no publisher", "/node"),
-        (trace(graph=UP), True, "no publisher", TOPIC),
-        (trace(graph=UP), False, "no publisher", TOPIC),
+        (trace(graph=NODE_UP), True, "no publisher", TOPIC),
+        (trace(graph=NODE_UP), False, "no publisher", TOPIC),
     ],
 )
 def test_causes_of_no_messages(seen: Trace, answers: bool, cause: str, word: str) -> None:
@@ -176,7 +176,7 @@ def subscribed(topic: str = OURS.topic, type_name: str = OURS.type, qos: QoS = O
         (subscribed(OURS.topic, "std_msgs/msg/Int32"), True, "wrong type", "Int32"),
         (subscribed(), False, "no spin", "/node"),
         (subscribed(), True, "callback does nothing", "/chatter"),
-        (trace(graph=UP), True, "no subscription", "/chatter"),
+        (trace(graph=NODE_UP), True, "no subscription", "/chatter"),
     ],
 )
 def test_causes_of_nothing_received(seen: Trace, answers: bool, cause: str, word: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.checks.made import (
+from tests.checks.builders import (
     CRASH,
     FOLDER,
     KEYBOARD_INTERRUPT,

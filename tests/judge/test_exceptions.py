@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.checks.made import exited, trace
-from tests.judge.real import crash
+from tests.checks.builders import exited, trace
+from tests.judge.crashes import crash
 from tutor.errors import TableError
 from tutor.judge.causes import diagnose_process
 from tutor.judge.exceptions import Example, KnownException, RaisedException, explain, load, load_shipped, parse

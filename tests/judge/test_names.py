@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from tests.judging import find
+from tests.judging import find_cases
 from tutor.judge.causes.names import MEANINGS
 
 
 def find_proofs() -> dict[str, list[str]]:
     """For each cause, the submissions and criteria that must fail for it, without an alternative."""
     found: dict[str, list[str]] = {name: [] for name in MEANINGS}
-    for case in find()[0]:
+    for case in find_cases()[0]:
         for criterion, texts in case.expected.causes.items():
             if len(texts) == 1 and texts[0] in found:
                 found[texts[0]].append(f"{case} {criterion}".strip())

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.checks.made import sample, samples
+from tests.checks.builders import sample, samples
 from tutor.judge.rates import MIN_FOR_BURSTS, TOLERANCE, Rate, describe, measure
 from tutor.judge.waiting import too_few_by_cpu_wait
 
@@ -30,7 +30,7 @@ def test_a_steady_rate_is_measured_exactly(hz: float, count: int, seed: int) -> 
 def test_a_rate_agrees_within_its_tolerance(asked: float, factor: float) -> None:
     inside, outside = factor < 1 + TOLERANCE - 1e-9, factor > 1 + TOLERANCE + 1e-9
     inside, outside = inside and factor > 1 - TOLERANCE + 1e-9, outside or factor < 1 - TOLERANCE - 1e-9
-    agrees = Rate(asked * factor, 10, 1.0).agrees(asked)
+    agrees = Rate(asked * factor, 10, 1.0).agrees_with(asked)
     assert not inside or agrees
     assert not outside or not agrees
 
@@ -55,12 +55,12 @@ def test_describe() -> None:
 
 
 def test_cpu_wait_excuses_too_few_messages_in_proportion_but_never_too_many() -> None:
-    assert not too_few_by_cpu_wait(5, 10.0, cpu_wait_s=0.0, of_s=1.0)
-    assert too_few_by_cpu_wait(5, 10.0, cpu_wait_s=0.5, of_s=1.0)
-    assert not too_few_by_cpu_wait(1, 10.0, cpu_wait_s=0.5, of_s=1.0)
-    assert not too_few_by_cpu_wait(20, 10.0, cpu_wait_s=0.9, of_s=1.0)
-    assert too_few_by_cpu_wait(0, 10.0, cpu_wait_s=1.0, of_s=1.0)
-    assert not too_few_by_cpu_wait(0, 0.5, cpu_wait_s=0.1, of_s=1.0)
+    assert not too_few_by_cpu_wait(5, 10.0, cpu_wait_s=0.0, elapsed_s=1.0)
+    assert too_few_by_cpu_wait(5, 10.0, cpu_wait_s=0.5, elapsed_s=1.0)
+    assert not too_few_by_cpu_wait(1, 10.0, cpu_wait_s=0.5, elapsed_s=1.0)
+    assert not too_few_by_cpu_wait(20, 10.0, cpu_wait_s=0.9, elapsed_s=1.0)
+    assert too_few_by_cpu_wait(0, 10.0, cpu_wait_s=1.0, elapsed_s=1.0)
+    assert not too_few_by_cpu_wait(0, 0.5, cpu_wait_s=0.1, elapsed_s=1.0)
 
 
 @given(st.floats(0.5, 10), st.integers(2, 8), st.integers(3, 8))
@@ -70,7 +70,7 @@ def test_bursts_agree_with_no_rate(hz: float, size: int, bursts: int) -> None:
     rate = measure([sample("/t", 0, at) for at in times])
     assert rate is not None
     assert rate.in_bursts == (size > 2 or len(times) >= MIN_FOR_BURSTS)
-    assert not rate.in_bursts or not rate.agrees(rate.hz)
+    assert not rate.in_bursts or not rate.agrees_with(rate.hz)
 
 
 @given(st.floats(0.5, 10), st.integers(5, 40), st.integers())

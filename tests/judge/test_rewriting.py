@@ -211,13 +211,13 @@ def test_a_parameter_of_another_name_is_renamed_wherever_it_is_named() -> None:
 @pytest.mark.parametrize("code", ["msg = String()\n        msg.data = 'x'\n        self.publisher.publish(msg)", ""])
 def test_the_message_is_replaced(code: str) -> None:
     file = changed(("self.publisher.publish(String(data=self.prefix))", code)) if code else changed()
-    assert publishing.text_with(file, PREFIX) in apply_edits(
-        file, publishing.send_data(file, publishing.text_with(file, PREFIX))
+    assert publishing.prefixed_text(file, PREFIX) in apply_edits(
+        file, publishing.send_data(file, publishing.prefixed_text(file, PREFIX))
     )
 
 
 def test_the_timer_callback_is_rewritten_as_a_whole() -> None:
-    code = publishing.text_with(changed(), PREFIX)
+    code = publishing.prefixed_text(changed(), PREFIX)
     assert apply_edits(changed(), publishing.whole_timer_callback(changed(), code, enabled=ENABLED)).endswith(
         """\
     def tick(self):

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from tests.checks.made import FOLDER, trace
+from tests.checks.builders import FOLDER, trace
 from tutor.judge import shutdown_steps
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame

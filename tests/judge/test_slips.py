@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from tests.checks.made import trace
+from tests.checks.builders import trace
 from tutor.judge.causes import slips
 from tutor.judge.trace import Trace
 
@@ -25,11 +25,11 @@ def node(text: str) -> Trace:
     ],
 )
 def test_a_boolean_compared_with_text(text: str, step: str) -> None:
-    assert step in (slips.boolean_compared_with_text(node(text)) or "")
+    assert step in (slips.fix_bool_compared_with_text(node(text)) or "")
 
 
 @pytest.mark.parametrize(
     "text", ["x = str(p.value).lower() == 'true'", "if p.name == 'true': pass", "x = p.value == 'a'"]
 )
 def test_valid_comparisons_are_not_reported(text: str) -> None:
-    assert slips.boolean_compared_with_text(node(text)) is None
+    assert slips.fix_bool_compared_with_text(node(text)) is None

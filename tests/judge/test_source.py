@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.checks.made import trace
-from tutor.engine.source import sources
+from tests.checks.builders import trace
+from tutor.engine.source import read_sources
 from tutor.judge import source
 
 CLIENT = """
@@ -67,8 +67,8 @@ def test_files_imported_from_the_same_folder_are_included(tmp_path: Path) -> Non
         "other.py": "",
     }.items():
         (tmp_path / name).write_text(text)
-    assert sorted(sources(tmp_path / "node.py")) == ["helper.py", "more.py", "node.py"]
+    assert sorted(read_sources(tmp_path / "node.py")) == ["helper.py", "more.py", "node.py"]
     (tmp_path / "node.py").write_bytes(b"# coding: latin-1\n# \xe9\nimport helper")
-    assert "\xe9" in sources(tmp_path / "node.py")["node.py"]
+    assert "\xe9" in read_sources(tmp_path / "node.py")["node.py"]
     (tmp_path / "node.py").write_bytes(b"\xff\xfe")
-    assert sources(tmp_path / "node.py") == {}
+    assert read_sources(tmp_path / "node.py") == {}

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from tests.checks.made import FOLDER, UP, exited, trace
+from tests.checks.builders import FOLDER, NODE_UP, exited, trace
 from tutor.judge.causes import diagnose_no_answer, diagnose_process
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
@@ -32,7 +32,7 @@ main()
 
 
 def started(*body: str, **more: object) -> Trace:
-    return replace(trace(graph=UP, **more), sources={"node.py": NODE.format(body="\n    ".join(body))})  # type: ignore[arg-type]
+    return replace(trace(graph=NODE_UP, **more), sources={"node.py": NODE.format(body="\n    ".join(body))})  # type: ignore[arg-type]
 
 
 def stack_at(line: int, code: str, function: str = "main") -> tuple[Frame, ...]:

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.checks.made import CRASH, FOLDER, lines, trace
-from tests.judge.real import OWN, crash
+from tests.checks.builders import CRASH, FOLDER, lines, trace
+from tests.judge.crashes import OWN, crash
 from tutor.judge.causes import diagnose_traceback
 from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.tracebacks import (

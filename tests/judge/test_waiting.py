@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from tutor.judge.trace import Sample
-from tutor.judge.waiting import OTHER_NAME_S, OTHER_TYPE_S, RARE_S, SETTLE_S, wait_for_message
+from tutor.judge.waiting import MESSAGE_GAP_S, OTHER_NAME_S, OTHER_TYPE_S, SETTLE_S, wait_for_message
 from tutor.ros_model import Graph, TopicEndpoint
 
 TOPIC, TYPE = "/sensor/temperature", "std_msgs/msg/Float64"
@@ -44,15 +44,15 @@ class FakeRun:
     ("publishers", "gives_up_after_s"),
     [
         ([], SETTLE_S),
-        ([(0.0, TOPIC, TYPE)], RARE_S),
+        ([(0.0, TOPIC, TYPE)], MESSAGE_GAP_S),
         ([(0.0, "/status", "std_msgs/msg/String")], SETTLE_S),
         ([(0.0, TOPIC, "std_msgs/msg/String")], OTHER_TYPE_S),
         ([(0.0, "/temperature", TYPE)], OTHER_NAME_S),
         ([(2.0, "/temperature", TYPE)], 2.0 + OTHER_NAME_S),
         ([(4.0, "/temperature", TYPE)], SETTLE_S),
-        ([(0.0, "/temperature", TYPE), (2.0, TOPIC, TYPE)], 2.0 + RARE_S),
-        ([(3.0, "/temperature", TYPE), (3.25, TOPIC, TYPE)], 3.25 + RARE_S),
-        ([(3.0, TOPIC, "std_msgs/msg/String"), (3.25, TOPIC, TYPE)], 3.25 + RARE_S),
+        ([(0.0, "/temperature", TYPE), (2.0, TOPIC, TYPE)], 2.0 + MESSAGE_GAP_S),
+        ([(3.0, "/temperature", TYPE), (3.25, TOPIC, TYPE)], 3.25 + MESSAGE_GAP_S),
+        ([(3.0, TOPIC, "std_msgs/msg/String"), (3.25, TOPIC, TYPE)], 3.25 + MESSAGE_GAP_S),
     ],
 )
 async def test_the_publishers_determine_how_long_to_wait(

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from textual.pilot import Pilot
 
-from tests.live.world import THERMOMETER, LiveApp, World, world
+from tests.live.private_domain import THERMOMETER, LiveApp, PrivateDomain, private_domain
 from tutor.content import load_course
 from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.topics_panel import TopicsPanel
@@ -25,7 +25,7 @@ async def wait_until(pilot: Pilot[int], condition: Callable[[], bool]) -> None:
     await pilot.pause()
 
 
-async def take_all(folder: Path, ros_world: World, size: tuple[int, int], theme: str) -> None:
+async def take_all(folder: Path, ros_world: PrivateDomain, size: tuple[int, int], theme: str) -> None:
     def take(name: str) -> None:
         file = folder / f"live-{name}-{size[0]}x{size[1]}-{theme.rsplit('-', 1)[1]}.svg"
         file.write_text(app.export_screenshot(title="live"))
@@ -39,7 +39,7 @@ async def take_all(folder: Path, ros_world: World, size: tuple[int, int], theme:
         await pilot.pause(0.3)
         take("nothing")
         node = ros_world.run(THERMOMETER)
-        pane.show_for(load_course().find("i1.1"))
+        pane.set_lesson(load_course().find("i1.1"))
         topics = pane.query_one(TopicsPanel)
         await wait_until(pilot, lambda: topics.view is not None and len(topics.view.points) > 60)
         take("topics")
@@ -96,7 +96,7 @@ async def main(folder: Path, only: str = "") -> None:
     for size in ((78, 18), (84, 26), (120, 40)):
         for theme in (DARK.name, LIGHT.name):
             if only in f"{size[0]}{theme}":
-                with world() as ros_world:
+                with private_domain() as ros_world:
                     await take_all(folder, ros_world, size, theme)
     print(f"{len(list(folder.glob('live-*.svg')))} pictures in {folder}")
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from tests.live.private_domain import private_domain
 from tests.live.test_live_process import LIMIT_S, Watcher
-from tests.live.world import world
 from tutor.live.protocol import Follow
 from tutor.live.updates import TopicUpdate
 
@@ -35,7 +35,7 @@ def peak_memory_mb(pid: int) -> float:
 
 def test_following_a_topic_with_big_messages_takes_little_memory(tmp_path: Any) -> None:
     (tmp_path / "big.py").write_text(BIG)
-    with world() as ros_world, contextlib.ExitStack() as stack:
+    with private_domain() as ros_world, contextlib.ExitStack() as stack:
         ros_world.run(tmp_path / "big.py", "1000000")
         watcher = Watcher(ros_world)
         stack.callback(watcher.close)
@@ -71,6 +71,6 @@ class FakeSubscription:
 def test_a_batch_of_big_messages_is_small(size: int) -> None:
     from tutor.bundled_ros.ros2 import receiving
 
-    messages, total = receiving._all_of(FakeSubscription(size), True, lambda *_: None)  # type: ignore[arg-type]
+    messages, total = receiving._take_all(FakeSubscription(size), True, lambda *_: None)  # type: ignore[arg-type]
     assert total == size
-    assert len(messages) == min(5000, max(1, receiving.MOST_BYTES // size))
+    assert len(messages) == min(5000, max(1, receiving.MAX_BYTES // size))

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.live.world import METRONOME, World, world
+from tests.live.private_domain import METRONOME, PrivateDomain, private_domain
 from tutor.live.protocol import Follow, Ready, SetVisible, Update, WatcherRequest, decode_update, encode_request
 from tutor.live.updates import TopicUpdate
 
@@ -23,7 +23,7 @@ LIMIT_S = 30.0
 class Watcher:
     """A watcher process, with its requests and updates."""
 
-    def __init__(self, ros_world: World) -> None:
+    def __init__(self, ros_world: PrivateDomain) -> None:
         command = ros_world.command()
         pipe = subprocess.PIPE
         self.process = subprocess.Popen(
@@ -57,12 +57,12 @@ class Watcher:
 
 
 @pytest.fixture
-def ros_world() -> Iterator[World]:
-    with world() as private:
+def ros_world() -> Iterator[PrivateDomain]:
+    with private_domain() as private:
         yield private
 
 
-def test_every_message_of_a_1_khz_topic_is_counted_with_few_updates(ros_world: World) -> None:
+def test_every_message_of_a_1_khz_topic_is_counted_with_few_updates(ros_world: PrivateDomain) -> None:
     watcher = Watcher(ros_world)
     try:
         watcher.send(Follow("/ticks"))
@@ -88,7 +88,7 @@ def test_every_message_of_a_1_khz_topic_is_counted_with_few_updates(ros_world: W
         watcher.close()
 
 
-def test_while_hidden_it_counts_without_sending_updates(ros_world: World) -> None:
+def test_while_hidden_it_counts_without_sending_updates(ros_world: PrivateDomain) -> None:
     watcher = Watcher(ros_world)
     try:
         watcher.send(Follow("/ticks"))
@@ -105,7 +105,7 @@ def test_while_hidden_it_counts_without_sending_updates(ros_world: World) -> Non
         watcher.close()
 
 
-def test_the_watcher_ends_when_its_stdin_closes(ros_world: World) -> None:
+def test_the_watcher_ends_when_its_stdin_closes(ros_world: PrivateDomain) -> None:
     watcher = Watcher(ros_world)
     watcher.wait_until_ready()
     assert watcher.process.stdin is not None
@@ -114,7 +114,7 @@ def test_the_watcher_ends_when_its_stdin_closes(ros_world: World) -> None:
     watcher.close()
 
 
-def test_the_watcher_ends_even_if_its_stdin_closes_before_it_is_ready(ros_world: World) -> None:
+def test_the_watcher_ends_even_if_its_stdin_closes_before_it_is_ready(ros_world: PrivateDomain) -> None:
     watcher = Watcher(ros_world)
     assert watcher.process.stdin is not None
     watcher.process.stdin.close()
@@ -122,7 +122,7 @@ def test_the_watcher_ends_even_if_its_stdin_closes_before_it_is_ready(ros_world:
     watcher.close()
 
 
-def test_an_invalid_request_line_is_ignored(ros_world: World) -> None:
+def test_an_invalid_request_line_is_ignored(ros_world: PrivateDomain) -> None:
     watcher = Watcher(ros_world)
     try:
         assert watcher.process.stdin is not None
@@ -151,7 +151,7 @@ asyncio.run(main())
 """
 
 
-def test_the_watcher_does_not_outlive_a_killed_app(ros_world: World) -> None:
+def test_the_watcher_does_not_outlive_a_killed_app(ros_world: PrivateDomain) -> None:
     app = subprocess.Popen([sys.executable, "-c", APP], env=ros_world.environ, stdout=subprocess.PIPE)
     assert app.stdout is not None
     pid = int(app.stdout.readline())

@@ -11,7 +11,7 @@ from std_msgs.msg import Byte, Float64, Float64MultiArray, String
 from tutor.errors import UnknownType
 from tutor.ros import bundled_interfaces
 from tutor.ros.fields import fill_request, request_fields
-from tutor.ros.yaml_format import LONGEST, number_at, numeric_fields, to_yaml
+from tutor.ros.yaml_format import DEFAULT_MAX_LENGTH, number_at, numeric_fields, to_yaml
 from tutor.ros_model import Field
 
 
@@ -25,14 +25,14 @@ def test_strings_are_quoted_where_necessary_and_truncated_if_long() -> None:
     assert to_yaml(String(data="Hello World: 3")) == "data: 'Hello World: 3'\n"
     assert to_yaml(String(data="wärme")) == "data: wärme\n"
     assert to_yaml(String(data="")) == "data: ''\n"
-    assert to_yaml(String(data="x" * 200)) == f"data: {'x' * LONGEST}...\n"
+    assert to_yaml(String(data="x" * 200)) == f"data: {'x' * DEFAULT_MAX_LENGTH}...\n"
 
 
 def test_arrays_are_lists_and_truncated_if_long() -> None:
     assert to_yaml(Float64MultiArray(data=[1.0, 2.0])).endswith("data:\n- 1.0\n- 2.0\n")
     lines = to_yaml(Float64MultiArray(data=[1.0] * 500)).splitlines()
     assert lines[-1] == "- '...'"
-    assert lines.count("- 1.0") == LONGEST
+    assert lines.count("- 1.0") == DEFAULT_MAX_LENGTH
     assert to_yaml(PoseWithCovariance()).count("- 0.0") == 36
 
 

@@ -4,7 +4,7 @@ import sys
 import time
 
 from tutor.process import CpuMeter, own_cpu_time
-from tutor.process.cpu_wait import free_s
+from tutor.process.cpu_wait import estimate_unblocked_s
 
 BUSY = "while True: pass"
 
@@ -74,8 +74,8 @@ def test_our_own_cpu_time_is_measured() -> None:
 
 
 def test_free_time_is_the_time_in_which_no_process_waits() -> None:
-    assert free_s(10, [0, 0]) == 10
-    assert free_s(10, [5, 5]) == 2.5
-    assert free_s(10, [10, 0]) == 0
-    assert free_s(10, [30, 1]) == 0  # several processes that all wait the whole time
-    assert free_s(0, []) == 0
+    assert estimate_unblocked_s(10, [0, 0]) == 10
+    assert estimate_unblocked_s(10, [5, 5]) == 2.5
+    assert estimate_unblocked_s(10, [10, 0]) == 0
+    assert estimate_unblocked_s(10, [30, 1]) == 0  # several processes that all wait the whole time
+    assert estimate_unblocked_s(0, []) == 0

@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from tests import ordinary
+from tests import unprivileged
 
 INTRUDER = """
 import ctypes, json, os
@@ -43,7 +43,7 @@ asyncio.run(main())
 
 
 def test_our_processes_cannot_be_opened_or_traced() -> None:
-    prefix = ordinary.prefix()
+    prefix = unprivileged.prefix()
     if prefix is None:
         pytest.skip("no program can be run here as an ordinary user")
     ran = subprocess.run(

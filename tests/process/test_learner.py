@@ -298,7 +298,7 @@ print(time.monotonic() - start, file=sys.stderr)
     assert (await wait_for_exit(learner)).code == 0
     assert len(texts(learner)) + learner.dropped_lines == 30_000
     # Throttled, the program would take at least this long.
-    assert float(texts(learner, "stderr")[0]) < 30_000 * (50 + pipe.LINE_BYTES) / pipe.MOST_PER_S
+    assert float(texts(learner, "stderr")[0]) < 30_000 * (50 + pipe.LINE_BYTES) / pipe.MAX_PER_S
 
 
 async def test_output_after_a_flood_is_not_delayed(bench: Any) -> None:

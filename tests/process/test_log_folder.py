@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tutor.process.log_folder import MOST_OPENED, keep_small, limit, temporary_log_folder
+from tutor.process.log_folder import MAX_OPENED, keep_small, keep_small_until_cancelled, temporary_log_folder
 
 
 def symlink(folder: Path, elsewhere: Path) -> None:
@@ -73,10 +73,10 @@ def test_only_log_files_are_emptied_when_they_grow_too_big(tmp_path: Path) -> No
     os.mkfifo(logs / "c.log")
     folder = os.open(logs, os.O_RDONLY)
     try:
-        keep_small(folder, most=300_000)
+        keep_small(folder, max_bytes=300_000)
         assert (logs / "node.log").stat().st_size == len(big)
         with (logs / "node.log").open("ab") as log:
-            keep_small(folder, most=150_000)
+            keep_small(folder, max_bytes=150_000)
             log.write(b"next")
     finally:
         os.close(folder)
@@ -89,11 +89,11 @@ def test_only_log_files_are_emptied_when_they_grow_too_big(tmp_path: Path) -> No
 
 async def test_a_large_log_among_many_is_emptied_repeatedly(tmp_path: Path) -> None:
     logs = tmp_path / "log"
-    limiting = asyncio.create_task(limit(logs, most=150_000))
+    limiting = asyncio.create_task(keep_small_until_cancelled(logs, max_bytes=150_000))
     try:
         await asyncio.sleep(0)  # the folder does not exist yet
         logs.mkdir()
-        for number in range(MOST_OPENED + 20):
+        for number in range(MAX_OPENED + 20):
             (logs / f"{number}.log").write_bytes(b"x")
         for text in ("once", "again"):
             (logs / "node.log").write_bytes(text.encode() * 50_000)

@@ -136,7 +136,7 @@ def test_evidence_is_one_phrase_per_exercise_and_day() -> None:
         "i2.1 shutdown passed, 2026-01-02",
         "i2.2 passed",
     ]
-    assert describe_evidence(found, calendar_day, most=1) == [
+    assert describe_evidence(found, calendar_day, max_items=1) == [
         "i2.1 defaults, timer and validation passed, 2026-01-03",
         "2 more",
     ]

@@ -16,10 +16,10 @@ import pytest
 from tests.ros.own_network import OWN_NETWORK, needs_own_network
 from tutor.errors import NoFreeDomain
 from tutor.ros import domain
-from tutor.ros.discovery import DDS_PORTS, PORTS_OF_CHECKS
+from tutor.ros.discovery import CHECK_PORTS, DDS_PORTS
 from tutor.ros.domain import IDS, reserve_domain
 
-FIRST, PER_DOMAIN = PORTS_OF_CHECKS
+FIRST, PER_DOMAIN = CHECK_PORTS
 
 ROOT = Path(domain.__file__).parents[2]
 
@@ -104,8 +104,8 @@ import socket
 from contextlib import ExitStack
 from tutor.ros.domain import IDS, reserve_domain
 from tutor.errors import NoFreeDomain
-from tutor.ros.discovery import PORTS_OF_CHECKS
-FIRST, PER_DOMAIN = PORTS_OF_CHECKS
+from tutor.ros.discovery import CHECK_PORTS
+FIRST, PER_DOMAIN = CHECK_PORTS
 port = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 port.bind(("", FIRST + PER_DOMAIN * IDS[41]))
 with ExitStack() as held:

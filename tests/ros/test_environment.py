@@ -21,7 +21,7 @@ from tutor.ros.environment import RosEnvironment, detect, learner_env
 ROOT = Path(environment.__file__).parents[2]
 PROBE = ROOT / "tutor" / "ros" / "probe.py"
 PLAIN = {
-    "PATH": prefixes.joined(prefixes.without_bundled(os.environ, "PATH")),
+    "PATH": prefixes.join_entries(prefixes.without_bundled(os.environ, "PATH")),
     "HOME": os.environ.get("HOME", "/"),
     "LANG": "C.UTF-8",
 }

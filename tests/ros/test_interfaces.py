@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from tests.ros.users_domain import users_domain
+from tests.ros.ordinary_domain import ordinary_domain
 from tutor.errors import InterfacesNotBuiltError
 from tutor.ros import bundled_interfaces
 
@@ -97,7 +97,7 @@ rclpy.try_shutdown()
 def environment(tmp_path: Path) -> Iterator[dict[str, str]]:
     """An environment without ROS, except for a private domain limited to this host."""
     kept = {name: os.environ[name] for name in ("PATH", "HOME", "TMPDIR") if name in os.environ}
-    with users_domain() as domain:
+    with ordinary_domain() as domain:
         yield {
             **kept,
             "ROS_DOMAIN_ID": str(domain),

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros.users_domain import users_domain
+from tests.ros.ordinary_domain import ordinary_domain
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import detect, learner_env
 
@@ -46,7 +46,7 @@ def count_participants(folder: Path, domain: AbstractContextManager[int], *, iso
 
 @pytest.mark.parametrize("isolated", [False, True], ids=["a learner's terminal", "a check"])
 def test_participants_are_counted(tmp_path: Path, *, isolated: bool) -> None:
-    domain = reserve_domain() if isolated else users_domain()
+    domain = reserve_domain() if isolated else ordinary_domain()
     assert count_participants(tmp_path, domain, isolated=isolated) == "[1, 2, 3]"
 
 
@@ -54,4 +54,4 @@ def test_with_a_users_own_profile_the_count_is_unknown(tmp_path: Path) -> None:
     own = tmp_path / "own.xml"
     own.write_text("<dds/>")
     variables = {"FASTRTPS_DEFAULT_PROFILES_FILE": str(own), "FASTDDS_DEFAULT_PROFILES_FILE": str(own)}
-    assert count_participants(tmp_path, users_domain(), isolated=False, **variables) == "[None, None, None]"
+    assert count_participants(tmp_path, ordinary_domain(), isolated=False, **variables) == "[None, None, None]"

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros.users_domain import users_domain
+from tests.ros.ordinary_domain import ordinary_domain
 from tutor.doctor.child import PROBE
 from tutor.ros import stale_segments
 from tutor.ros.discovery import DDS_PORTS
@@ -26,7 +26,7 @@ SHM = Path("/dev/shm")
 @pytest.fixture
 def env(tmp_path: Path) -> Iterator[dict[str, str]]:
     """The environment of nodes that communicate over shared memory only."""
-    with users_domain() as domain:
+    with ordinary_domain() as domain:
         environ = {**os.environ, "FASTDDS_BUILTIN_TRANSPORTS": "SHM"}
         yield learner_env(
             detect(environ), domain_id=domain, log_dir=tmp_path, package_root=None, isolated=False, environ=environ

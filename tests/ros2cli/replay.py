@@ -2,7 +2,7 @@
 
     python -m tests.ros2cli.replay FOLDER [--only TEXT] [--session N] [--diff]
 
-Prints a line per record ("same", "wanted" for a deliberate difference, "not supported" or "differs") and a table.
+Prints a line per record ("same", "deliberate" for a known difference, "not supported" or "differs") and a table.
 Exits with 1 if anything differs without a reason.
 """
 
@@ -32,7 +32,7 @@ from tests.ros2cli.records import Output, Record, read_all
 
 LIMIT_S = 60.0
 _WAITING = "stdout: waiting for service to become available..."
-SAME, WANTED, UNSUPPORTED, DIFFERS = "same", "wanted", "not supported", "differs"
+SAME, DELIBERATE, UNSUPPORTED, DIFFERS = "same", "deliberate", "not supported", "differs"
 _NODE_END = re.compile(rf"\[[\w.]+-\d+\] ({TRACEBACK}|KeyboardInterrupt|Exception ignored in: .*|\S+Error: .*)$")
 _HINT = re.compile(r" \(is it [^()]+\?\)")
 _UNORDERED = re.compile(r"ros2 (launch|interface package) |bash -c")
@@ -57,7 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--only", default="", metavar="TEXT", help="only records whose file name or command contains TEXT"
     )
     parser.add_argument("--session", type=int, help="only this session")
-    parser.add_argument("--diff", action="store_true", help="print all differences, including wanted ones")
+    parser.add_argument("--diff", action="store_true", help="print all differences, including deliberate ones")
     options = parser.parse_args(arguments)
 
     records = [
@@ -76,7 +76,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 print(f"{'':23} {line}")
     total = sum(counts.values())
     print()
-    for kind in (SAME, WANTED, UNSUPPORTED, DIFFERS):
+    for kind in (SAME, DELIBERATE, UNSUPPORTED, DIFFERS):
         print(f"{kind:13} {counts[kind]:5} {100 * counts[kind] / max(total, 1):6.1f} %")
     print(f"{'records':13} {total:5}")
     return 1 if counts[DIFFERS] else 0
@@ -159,8 +159,8 @@ def compare(record: Record, ours: Output, paths: Mapping[str, str]) -> Result:
     diff = tuple(difflib.unified_diff(recorded, printed, "recorded", "ours", lineterm="", n=1))
     if ours.code == 2 and "not supported" in ours.stderr:
         return Result(record, UNSUPPORTED, ours.stderr.strip().splitlines()[-1], diff)
-    reason = _improvement(record, recorded, printed) or _wanted(record.command, recorded, printed)
-    return Result(record, WANTED, reason, diff) if reason else Result(record, DIFFERS, "", diff)
+    reason = _improvement(record, recorded, printed) or _deliberate(record.command, recorded, printed)
+    return Result(record, DELIBERATE, reason, diff) if reason else Result(record, DIFFERS, "", diff)
 
 
 def _lines(record: Record, output: Output, paths: Mapping[str, str]) -> list[str]:
@@ -190,9 +190,9 @@ def _improvement(record: Record, recorded: Sequence[str], printed: Sequence[str]
     return ""
 
 
-def _wanted(command: str, recorded: Sequence[str], printed: Sequence[str]) -> str:
-    """Return the reason that wanted.toml gives for the difference, or "" if there is none."""
-    known = tomllib.loads((Path(__file__).parent / "wanted.toml").read_text(encoding="utf-8"))["wanted"]
+def _deliberate(command: str, recorded: Sequence[str], printed: Sequence[str]) -> str:
+    """Return the reason that deliberate.toml gives for the difference, or "" if there is none."""
+    known = tomllib.loads((Path(__file__).parent / "deliberate.toml").read_text(encoding="utf-8"))["deliberate"]
     for each in known:
         lacks = [f"stdout: {line}" for line in each.get("lacks", ())]
         if re.fullmatch(each["command"], command):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from tests.ros.users_domain import users_domain
+from tests.ros.ordinary_domain import ordinary_domain
 from tests.ros2cli.bench import TALKER, Bench, Ran, command
-from tests.ros2cli.typing_at import terminal
+from tests.ros2cli.pseudo_terminal import terminal
 
 SERVER = """
 from example_interfaces.srv import AddTwoInts
@@ -174,7 +174,7 @@ def test_action_verbs_without_any_actions(bench: Bench) -> None:
 
 
 def test_doctor_names_a_topic_without_subscribers(bench: Bench) -> None:
-    with users_domain() as domain:
+    with ordinary_domain() as domain:
         bench.env["ROS_DOMAIN_ID"] = str(domain)
         with bench.node(TALKER):
             ran = bench.ros2("doctor")

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros.users_domain import users_domain
+from tests.ros.ordinary_domain import ordinary_domain
 from tests.ros2cli.bench import Bench
 from tests.ros2cli.lesson_commands import Command, find_commands
 from tutor.content import load_course
@@ -134,7 +134,7 @@ class Started:
 def test_each_command_of_a_lesson_prints_what_the_lesson_shows(bench: Bench, lesson: Lesson) -> None:
     workspace = Workspace(bench.folder / "ws")
     with ExitStack() as nodes:
-        bench.env["ROS_DOMAIN_ID"] = str(nodes.enter_context(users_domain()))
+        bench.env["ROS_DOMAIN_ID"] = str(nodes.enter_context(ordinary_domain()))
         shell = Shell(bench, workspace)
         nodes.enter_context(shell.open())
         running: list[Started] = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.ros2cli.records import Output, Record
-from tests.ros2cli.replay import DIFFERS, SAME, WANTED, compare
+from tests.ros2cli.replay import DELIBERATE, DIFFERS, SAME, compare
 
 PATHS = {"/tmp/x/ws": "$WORKSPACE", "/venv": "$ROS"}
 
@@ -87,22 +87,22 @@ def test_anything_else_differs(command: str, recorded: Output, ours: Output) -> 
 
 def test_ours_may_be_more_helpful_with_the_same_exit_code() -> None:
     traceback = out("", stderr="Traceback (most recent call last):\n  File x\nRCLError: bad\n", code=1)
-    assert classify("ros2 topic echo 'b d' x", traceback, out("", stderr="bad\n", code=1)) == WANTED
+    assert classify("ros2 topic echo 'b d' x", traceback, out("", stderr="bad\n", code=1)) == DELIBERATE
     unknown = out("", stderr="Package 'my_pakage' not found\n", code=1)
     hint = out("", stderr="Package 'my_pakage' not found (is it my_package?)\n", code=1)
-    assert classify("ros2 run my_pakage x", unknown, hint) == WANTED
+    assert classify("ros2 run my_pakage x", unknown, hint) == DELIBERATE
 
 
-def test_a_wanted_difference_may_be_limited_to_certain_lines() -> None:
+def test_a_deliberate_difference_may_be_limited_to_certain_lines() -> None:
     recorded = out("domain_coordinator\nstd_msgs\n")
-    assert classify("ros2 pkg list", recorded, out("std_msgs\n")) == WANTED
+    assert classify("ros2 pkg list", recorded, out("std_msgs\n")) == DELIBERATE
     assert classify("ros2 pkg list", recorded, out("")) == DIFFERS
 
 
 def test_ours_may_get_further_until_ctrl_c_but_not_less_far() -> None:
     waits, answers = out("waiting\n", code=2), out("waiting\nrequest\n", code=2)
-    assert classify("ros2 service call /a x", waits, answers, ctrl_c_after_s=2.0) == WANTED
+    assert classify("ros2 service call /a x", waits, answers, ctrl_c_after_s=2.0) == DELIBERATE
     assert classify("ros2 service call /a x", answers, waits, ctrl_c_after_s=2.0) == DIFFERS
     assert classify("ros2 service call /a x", waits, answers) == DIFFERS
     waited = out("waiting for service to become available...\n", code=2)  # ours found it at once
-    assert classify("ros2 service call /a x", waited, out("request\n", code=2), ctrl_c_after_s=2.0) == WANTED
+    assert classify("ros2 service call /a x", waited, out("request\n", code=2), ctrl_c_after_s=2.0) == DELIBERATE

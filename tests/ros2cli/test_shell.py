@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros.users_domain import users_domain
+from tests.ros.ordinary_domain import ordinary_domain
 from tests.ros2cli.bench import TALKER, Bench, Ran
-from tests.ros2cli.typing_at import terminal
+from tests.ros2cli.pseudo_terminal import terminal
 from tutor.ros.discovery import PROFILE
 
 TUTOR = [sys.executable, "-P", "-c", "import sys; from tutor.cli import main; sys.exit(main())"]
@@ -53,7 +53,7 @@ def workspace(bench: Bench) -> Iterator[Path]:
 
     A DDS profile of the user's keeps the traffic within the test.
     """
-    with users_domain() as domain:
+    with ordinary_domain() as domain:
         bench.env["ROS_DOMAIN_ID"] = str(domain)
         yield _make_workspace(bench)
 

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from tests.ros2cli.bench import TALKER, Bench
-from tutor.bundled_ros.ros2.topic.statistics import Rate, size
+from tutor.bundled_ros.ros2.topic.statistics import Rate, format_size
 
 STAMPED = """
 from geometry_msgs.msg import PointStamped
@@ -77,4 +77,4 @@ def test_a_clock_jump_backwards_resets_the_rate() -> None:
 
 @pytest.mark.parametrize(("count", "expected"), [(12.4, "12 B"), (1500, "1.50 KB"), (2_340_000, "2.34 MB")])
 def test_sizes_are_printed_in_a_suitable_unit(count: float, expected: str) -> None:
-    assert size(count, count) == expected
+    assert format_size(count, count) == expected

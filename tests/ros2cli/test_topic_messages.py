@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.ros2cli.bench import TALKER, Bench, Ran, command
-from tests.ros2cli.typing_at import terminal
+from tests.ros2cli.pseudo_terminal import terminal
 
 LISTENER = """
 from std_msgs.msg import String

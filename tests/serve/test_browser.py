@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.running import runs
+from tests.running import is_running
 from tests.serve.chromium import LIMIT_S, PROGRAM, browser, wait_until
 from tutor.content import load_course
 from tutor.judge.verdict import Status
@@ -48,9 +48,9 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
 
             node.write_text(lesson.files[0].solution.read_text())
             await page.press("r")
-            await wait_until(lambda: runs(node), "the node runs")
+            await wait_until(lambda: is_running(node), "the node runs")
             await page.press("r")
-            await wait_until(lambda: not runs(node), "the node is stopped")
+            await wait_until(lambda: not is_running(node), "the node is stopped")
 
             await page.press("c")
             await wait_until(lambda: workspace.progress().read().of("i1.1").attempts, "the check is over")
@@ -70,12 +70,12 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
 
             await page.press_for("6 of 6 passed", "Escape")
             await page.press("r")
-            await wait_until(lambda: runs(node), "the node runs")
+            await wait_until(lambda: is_running(node), "the node runs")
 
             elsewhere = [url for url in page.requested if not url.startswith((address, address.replace("http", "ws")))]
             assert elsewhere == []
             assert page.complaints == []
-        await wait_until(lambda: not runs(node), "closing the page ends its node")
+        await wait_until(lambda: not is_running(node), "closing the page ends its node")
         server.send_signal(signal.SIGINT)
         async with asyncio.timeout(LIMIT_S):
             await server.communicate()

@@ -28,7 +28,7 @@ async def test_log_files_are_limited_only_in_our_own_folder(
     ours: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(private_folders, "base", lambda: tmp_path / "ours")
-    monkeypatch.setattr(log_folder, "limit", _limit_to_150_kb)
+    monkeypatch.setattr(log_folder, "keep_small_until_cancelled", _limit_to_150_kb)
     logs = tmp_path / ("ours" if ours else "theirs") / "log"
     logs.mkdir(parents=True)
     program = LOGS if ours else LOGS.replace("+ 20", "+ 1")
@@ -38,8 +38,8 @@ async def test_log_files_are_limited_only_in_our_own_folder(
     assert [line.text for line in node.state.lines] == ["emptied" if ours else "as it was"]
 
 
-_original_limit = log_folder.limit
+_keep_small_until_cancelled = log_folder.keep_small_until_cancelled
 
 
 async def _limit_to_150_kb(path: Path) -> None:
-    await _original_limit(path, most=150_000)
+    await _keep_small_until_cancelled(path, max_bytes=150_000)

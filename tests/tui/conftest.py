@@ -18,8 +18,8 @@ from textual.pilot import Pilot
 from textual.widget import Widget
 from textual.widgets import Static
 
-from tests.ros.users_domain import users_domain
-from tests.tui import made
+from tests.ros.ordinary_domain import ordinary_domain
+from tests.tui import fakes
 from tests.tui.person import Person
 from tutor.content import load_course
 from tutor.judge.events import Event
@@ -83,7 +83,7 @@ class Learner(Person[TutorApp]):
     def node(self) -> Node | None:
         """The node whose log is shown."""
         shown = self.main.nodes.shown
-        return None if shown is None else self.main.nodes.known.get(shown)
+        return None if shown is None else self.main.nodes.by_path.get(shown)
 
     @property
     def editor(self) -> CodeEditor:
@@ -99,7 +99,7 @@ class Learner(Person[TutorApp]):
 
     def background(self) -> list[str]:
         """The output of every node, whether its log is on the screen or not."""
-        nodes = {} if self.app.main is None else self.main.nodes.known
+        nodes = {} if self.app.main is None else self.main.nodes.by_path
         return [f"{name}: {line.text}" for name, node in nodes.items() for line in node.state.lines]
 
     async def type_text(self, text: str) -> None:
@@ -127,7 +127,7 @@ class Learner(Person[TutorApp]):
 
     async def engine_emits(self, *lines: Event | str) -> None:
         """Have the engine emit these events. In a daemon thread, as opening the pipe blocks until the child reads."""
-        assert isinstance(self.session, made.FakeSession)
+        assert isinstance(self.session, fakes.FakeSession)
         thread = threading.Thread(target=self.session.engine.emit, args=lines, daemon=True)
         thread.start()
         await self.until(lambda: not thread.is_alive(), "the engine reads")
@@ -141,10 +141,10 @@ async def open_app(session: Session, size: tuple[int, int] = (120, 36)) -> Async
     async with app.run_test(size=size, notifications=True) as pilot:
         try:
             if session.workspace.exists:
-                await made.wait_until_ready(app, pilot)
+                await fakes.wait_until_ready(app, pilot)
             yield Learner(app, pilot, session)
         finally:
-            if isinstance(session, made.FakeSession):
+            if isinstance(session, fakes.FakeSession):
                 session.engine.close()
             if app.main is not None:
                 await app.main.close_down()
@@ -153,7 +153,7 @@ async def open_app(session: Session, size: tuple[int, int] = (120, 36)) -> Async
 @pytest.fixture
 def session(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Session]:
     """The real course and an empty workspace, on a domain that nobody else uses."""
-    with users_domain() as domain:
+    with ordinary_domain() as domain:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         yield Session(load_course(), Workspace(tmp_path / "ws"))
@@ -166,6 +166,6 @@ def learner(tmp_path: Path) -> Callable[..., object]:
     def open_learner(
         size: tuple[int, int] = (120, 36), *, started: bool = True
     ) -> AbstractAsyncContextManager[Learner]:
-        return open_app(made.FakeSession(tmp_path / "learner", started=started), size)
+        return open_app(fakes.FakeSession(tmp_path / "learner", started=started), size)
 
     return open_learner

@@ -11,7 +11,7 @@ from textual.pilot import Pilot
 from textual.screen import Screen
 from textual.widgets import TextArea
 
-from tests.patience import seen_within
+from tests.waiting import wait_for
 
 
 class Person[A: App[Any]]:
@@ -40,7 +40,7 @@ class Person[A: App[Any]]:
         await self.until(lambda: bool(screen := self.screen()) and text not in screen, f"no {text}")
 
     async def until(self, condition: Callable[[], bool], what: object = "", *, limit_s: float | None = None) -> None:
-        if not await seen_within(condition, self.limit_s if limit_s is None else limit_s):
+        if not await wait_for(condition, self.limit_s if limit_s is None else limit_s):
             pytest.fail("\n".join([f"not seen: {what}", self.screen(), *self.background()]))
 
     def background(self) -> list[str]:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.tui import made
+from tests.tui import fakes
 from tests.tui.conftest import open_app
 from tutor.judge.events import CriterionJudged, ExerciseJudged
 
@@ -18,16 +18,16 @@ SIZES = [(120, 36), (80, 24)]
 
 async def start_check(me: Any) -> None:
     await me.press("c")
-    await me.engine_emits(*made.started_events())
+    await me.engine_emits(*fakes.started_events())
 
 
 @pytest.mark.parametrize("size", SIZES)
 async def test_during_a_check_each_criterion_shows_its_progress(learner: Any, size: Any) -> None:
     async with learner(size) as me:
         await start_check(me)
-        await me.engine_emits(made.progress_event("rate", 0.6, "setting publish_rate to 5.0"))
+        await me.engine_emits(fakes.progress_event("rate", 0.6, "setting publish_rate to 5.0"))
         await me.sees("60%", "setting publish_rate to 5.0", "waiting", "c Cancel", "Esc cancels")
-        await me.engine_emits(CriterionJudged("i1.1", made.result("publishes", made.GOOD)))
+        await me.engine_emits(CriterionJudged("i1.1", fakes.result("publishes", fakes.GOOD)))
         await me.until(lambda: "✓ publishes" in me.criterion("publishes"))
         assert "60%" in me.criterion("rate")
 
@@ -37,18 +37,18 @@ async def test_a_waiting_criterion_shows_the_findings_so_far_until_its_verdict(l
     async with learner(size) as me:
         await start_check(me)
         await me.engine_emits(
-            made.progress_event("publishes", 0.1, "waiting for the first message", so_far="/node is up, but silent")
+            fakes.progress_event("publishes", 0.1, "waiting for the first message", so_far="/node is up, but silent")
         )
         await me.sees("so far: /node is up, but silent")
         await me.engine_emits(
-            made.progress_event("publishes", 0.1, "waiting", so_far="likely [b]no spin[/b]: it never spins")
+            fakes.progress_event("publishes", 0.1, "waiting", so_far="likely [b]no spin[/b]: it never spins")
         )
         await me.until(lambda: "so far: likely [b]no spin[/b]" in me.criterion("publishes"))
-        await me.engine_emits(made.progress_event("publishes", 0.8, "pressing Ctrl+C"))
+        await me.engine_emits(fakes.progress_event("publishes", 0.8, "pressing Ctrl+C"))
         await me.until(lambda: "pressing Ctrl+C" in me.criterion("publishes"))
         assert "so far" not in me.criterion("publishes")
-        await me.engine_emits(made.progress_event("publishes", 0.1, "waiting", so_far="/node is up"))
-        await me.engine_emits(*made.final_events(made.BAD))
+        await me.engine_emits(fakes.progress_event("publishes", 0.1, "waiting", so_far="/node is up"))
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
         await me.until(lambda: "✓ publishes" in me.criterion("publishes"))
         assert "so far" not in me.screen()
 
@@ -57,7 +57,7 @@ async def test_a_waiting_criterion_shows_the_findings_so_far_until_its_verdict(l
 async def test_a_failure_is_shown_with_its_diagnosis(learner: Any, size: Any) -> None:
     async with learner(size) as me:
         await start_check(me)
-        await me.engine_emits(*made.final_events(made.BAD))
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
         await me.sees("✗ rate  ", "Expected", "Observed", "Cause", "Next step", "2 of 3 passed")
         await me.sees("0.20 Hz over 3 messages", "rate used as a period")
         assert "line 18" not in me.diagnosis()  # the evidence is folded
@@ -75,12 +75,12 @@ async def test_a_failure_is_shown_with_its_diagnosis(learner: Any, size: Any) ->
 async def test_the_first_failure_is_shown_at_once_and_stays_while_the_check_continues(learner: Any, size: Any) -> None:
     async with learner(size) as me:
         await start_check(me)
-        await me.engine_emits(CriterionJudged("i1.1", made.result("shutdown", made.BAD, bonus=True)))
-        await me.engine_emits(CriterionJudged("i1.1", made.result("rate", made.BAD)))
+        await me.engine_emits(CriterionJudged("i1.1", fakes.result("shutdown", fakes.BAD, bonus=True)))
+        await me.engine_emits(CriterionJudged("i1.1", fakes.result("rate", fakes.BAD)))
         await me.sees("✗ rate  ", "Next step  Give create_timer", "rate used as a period", "checking")
-        await me.engine_emits(CriterionJudged("i1.1", made.result("publishes", made.BAD)))
+        await me.engine_emits(CriterionJudged("i1.1", fakes.result("publishes", fakes.BAD)))
         await me.until(lambda: "✗ publishes" in me.criterion("publishes"))
-        await me.engine_emits(*made.final_events(made.BAD))
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
         await me.sees("2 of 3 passed")
         assert me.main.chosen_criterion == "rate"
         assert "✗ rate" in me.diagnosis()
@@ -90,16 +90,16 @@ async def test_a_selected_waiting_criterion_shows_the_full_findings_until_its_ve
     async with learner() as me:
         await start_check(me)
         await me.engine_emits(
-            made.progress_event("range", 0.2, "collecting values", so_far="no messages yet, " + "words " * 20 + "end")
+            fakes.progress_event("range", 0.2, "collecting values", so_far="no messages yet, " + "words " * 20 + "end")
         )
         await me.press("5")
         await me.pilot.click(me.main.query("CriterionRow")[1])
         await me.until(lambda: "So far, and not final: no messages yet" in me.diagnosis(), "the full findings so far")
         assert "end" in me.diagnosis()
-        await me.engine_emits(CriterionJudged("i1.1", made.result("rate", made.BAD)))
+        await me.engine_emits(CriterionJudged("i1.1", fakes.result("rate", fakes.BAD)))
         await me.until(lambda: "✗ rate" in me.criterion("rate"))
         assert "range" in me.diagnosis()  # the selection stays
-        await me.engine_emits(CriterionJudged("i1.1", made.result("range", made.GOOD)))
+        await me.engine_emits(CriterionJudged("i1.1", fakes.result("range", fakes.GOOD)))
         await me.until(lambda: "54 values from 20.03 to 29.87" in me.diagnosis())
         assert "So far" not in me.diagnosis()
 
@@ -109,7 +109,7 @@ async def test_a_check_can_be_set_to_end_at_its_first_failure(learner: Any) -> N
         await me.press("F")
         await me.sees("A check now ends at its first failure")
         await start_check(me)
-        await me.engine_emits(*made.final_events(made.BAD))
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
         me.session.engine.close()
         await me.until(lambda: me.main.checks.running is None)
         assert me.session.first
@@ -120,7 +120,7 @@ async def test_a_check_can_be_set_to_end_at_its_first_failure(learner: Any) -> N
 async def test_selecting_another_criterion_shows_what_was_measured(learner: Any) -> None:
     async with learner() as me:
         await start_check(me)
-        await me.engine_emits(*made.final_events(made.BAD))
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
         await me.sees("Next step")
         await me.pilot.click(me.main.query("CriterionRow")[1])
         await me.sees("✓ range  ", "54 values from 20.03 to 29.87")
@@ -130,7 +130,7 @@ async def test_selecting_another_criterion_shows_what_was_measured(learner: Any)
 async def test_a_pass_is_celebrated_and_names_the_next_step(learner: Any, size: Any) -> None:
     async with learner(size) as me:
         await start_check(me)
-        await me.engine_emits(*made.final_events(made.GOOD))
+        await me.engine_emits(*fakes.final_events(fakes.GOOD))
         await me.sees("I1.1 Sensor Publisher passed", "Well done", "Next: press n for", "3 of 3 passed")
         await me.press("n")
         await me.sees("I1.3  Calculator Service")
@@ -146,7 +146,7 @@ async def test_a_pass_is_celebrated_and_names_the_next_step(learner: Any, size: 
 async def test_cancelling_interrupts_the_engine_and_waits_for_it(learner: Any, key: str) -> None:
     async with learner() as me:
         await start_check(me)
-        await me.engine_emits(made.progress_event("rate", 0.3, "listening"))
+        await me.engine_emits(fakes.progress_event("rate", 0.3, "listening"))
         await me.sees("listening")
         pid = me.session.engine.pid
         await me.press(key)
@@ -161,7 +161,7 @@ async def test_cancelling_interrupts_the_engine_and_waits_for_it(learner: Any, k
 async def test_a_crash_of_the_engine_is_our_fault_and_prints_no_traceback_over_the_screen(learner: Any) -> None:
     async with learner() as me:
         await start_check(me)
-        await me.engine_emits(CriterionJudged("i1.1", made.result("publishes", made.GOOD)), "crash")
+        await me.engine_emits(CriterionJudged("i1.1", fakes.result("publishes", fakes.GOOD)), "crash")
         await me.sees("! error", "the check ended before it was done", "not of your code")
         await me.press("i")
         await me.until(lambda: "RuntimeError: the engine has a bug" in me.diagnosis())
@@ -198,7 +198,7 @@ async def test_a_check_continues_while_another_lesson_is_open(learner: Any) -> N
         await start_check(me)
         await me.press("n")
         await me.sees("I1.3  Calculator Service", "checking I1.1")
-        await me.engine_emits(*made.final_events(made.GOOD))
+        await me.engine_emits(*fakes.final_events(fakes.GOOD))
         me.session.engine.close()
         await me.sees("I1.1 passed.", "○ Criteria  publishes, range, rate")
 
@@ -206,7 +206,7 @@ async def test_a_check_continues_while_another_lesson_is_open(learner: Any) -> N
 async def test_quitting_ends_the_check(learner: Any) -> None:
     async with learner() as me:
         await start_check(me)
-        await me.engine_emits(made.progress_event("rate", 0.3, "listening"))
+        await me.engine_emits(fakes.progress_event("rate", 0.3, "listening"))
         await me.sees("listening")
         pid = me.session.engine.pid
         await me.press("q")
@@ -221,7 +221,7 @@ async def test_a_save_replaces_the_running_check_by_a_new_one(learner: Any) -> N
         await me.press("w")
         await me.sees("a save checks")
         await start_check(me)
-        await me.engine_emits(made.progress_event("rate", 0.3, "listening"))
+        await me.engine_emits(fakes.progress_event("rate", 0.3, "listening"))
         await me.sees("listening")
         first = me.session.engine.pid
         me.session.engine.detach()
@@ -230,7 +230,7 @@ async def test_a_save_replaces_the_running_check_by_a_new_one(learner: Any) -> N
         await me.until(lambda: me.main.checks.running is not None and me.session.engine.pid != first, "checked again")
         with pytest.raises(ProcessLookupError):
             os.kill(first, 0)
-        await me.engine_emits(*made.started_events(), *made.final_events(made.GOOD))
+        await me.engine_emits(*fakes.started_events(), *fakes.final_events(fakes.GOOD))
         me.session.engine.close()
         await me.until(lambda: me.main.model.progress.of("i1.1").best is not None)
 
@@ -238,7 +238,7 @@ async def test_a_save_replaces_the_running_check_by_a_new_one(learner: Any) -> N
 async def test_attempts_are_recorded_and_listed(learner: Any) -> None:
     async with learner((180, 50)) as me:
         await start_check(me)
-        await me.engine_emits(*made.final_events(made.BAD))
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
         me.session.engine.close()
         await me.sees("1 attempt", "2 of 3", "not yet: rate")
         await me.until(lambda: me.main.checks.running is None)
@@ -250,21 +250,21 @@ async def test_in_the_editor_the_hints_name_keys_that_work_there(learner: Any) -
     async with learner() as me:
         await me.focus_editor()
         await me.press("f9")
-        await me.engine_emits(*made.started_events())
+        await me.engine_emits(*fakes.started_events())
         await me.sees("F9 cancels")
-        await me.engine_emits(*made.final_events(made.GOOD))
+        await me.engine_emits(*fakes.final_events(fakes.GOOD))
         await me.sees("Next: press Esc, then n for I1.3")
         await me.press("escape")
         await me.sees("Next: press n for I1.3")
         await me.press("n")
         await me.sees("I1.3  Calculator Service")
-        assert me.session.path(me.session.lessons[0].files[0]).read_text() == made.NODE
+        assert me.session.path(me.session.lessons[0].files[0]).read_text() == fakes.NODE
 
 
 async def test_verdicts_are_marked_stale_while_the_code_differs_from_what_was_checked(learner: Any) -> None:
     async with learner() as me:
         await start_check(me)
-        await me.engine_emits(*made.final_events(made.BAD))
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
         await me.sees("Next step")
         changed = "your code has changed since this check"
         await me.focus_editor()
@@ -277,8 +277,8 @@ async def test_verdicts_are_marked_stale_while_the_code_differs_from_what_was_ch
 
 
 async def test_after_a_restart_the_last_check_is_shown(tmp_path: Path) -> None:
-    session = made.FakeSession(tmp_path / "learner")
-    done = made.final_events(made.BAD)[-2]
+    session = fakes.FakeSession(tmp_path / "learner")
+    done = fakes.final_events(fakes.BAD)[-2]
     assert isinstance(done, ExerciseJudged)
     session.record(done.result)
     async with open_app(session) as me:
@@ -289,7 +289,7 @@ async def test_after_a_restart_the_last_check_is_shown(tmp_path: Path) -> None:
 
 
 LONG = replace(
-    made.BAD,
+    fakes.BAD,
     expected="a rate that can be set: " + "words " * 20,
     hint="Change this " + "and that in the same place " * 11 + "and then check again.",
 )
@@ -298,7 +298,7 @@ LONG = replace(
 async def test_the_next_step_comes_first_and_no_notification_covers_it(learner: Any) -> None:
     async with learner((120, 36)) as me:
         await start_check(me)
-        await me.engine_emits(*made.final_events(LONG))
+        await me.engine_emits(*fakes.final_events(LONG))
         await me.sees("Next step  Change this", "then check again.", "Cause")
         me.main.say("A note that is as long as notes are. " * 5)
         await me.sees("A note that", "Next step  Change this", "check again.", "Cause")
@@ -312,7 +312,7 @@ async def test_the_next_step_comes_first_and_no_notification_covers_it(learner: 
 async def test_hints_begin_with_what_failed_and_continue_with_the_general_ones(learner: Any) -> None:
     async with learner() as me:
         await start_check(me)
-        await me.engine_emits(*made.final_events(made.BAD))
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
         await me.sees("Next step")
         await me.press("h")
         await me.sees("I1.1: a hint for what failed", "✗ rate", "Declare it.", "h: general hint")
@@ -336,5 +336,5 @@ async def test_on_the_lesson_page_unchecked_criteria_collapse_into_one_line(lear
         await me.sees(whole)
         await me.press("1")
         await start_check(me)
-        await me.engine_emits(*made.final_events(made.BAD))
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
         await me.sees("Next step", "✗ rate")

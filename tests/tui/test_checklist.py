@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from textual.widgets import Input
 
-from tests.tui import made
+from tests.tui import fakes
 from tests.tui.conftest import Learner
 from tutor.content import load_course
 from tutor.judge.result import CriterionResult, ExerciseResult
@@ -25,7 +25,7 @@ from tutor.workspace.progress import now
 @pytest.fixture
 def course(monkeypatch: pytest.MonkeyPatch) -> None:
     """The real lessons and the real checklist."""
-    monkeypatch.setattr(made, "course", lambda folder: load_course())
+    monkeypatch.setattr(fakes, "course", lambda folder: load_course())
 
 
 pytestmark = pytest.mark.usefixtures("course")
@@ -103,9 +103,9 @@ async def test_each_item_shows_the_evidence_from_checks(learner: Any) -> None:
 
         # While the checklist is open, a check ends, and another terminal ticks an item.
         lesson = me.session.course.find("i1.1")
-        judged = tuple(CriterionResult(c.id, c.text, c.bonus, made.GOOD, 1.0) for c in lesson.criteria)
+        judged = tuple(CriterionResult(c.id, c.text, c.bonus, fakes.GOOD, 1.0) for c in lesson.criteria)
         await asyncio.to_thread(me.session.tick, "custom-messages", True)
-        me.main.records.add(ExerciseResult(lesson.id, lesson.title, (), judged, 4.2))
+        me.main.records.record_attempt(ExerciseResult(lesson.id, lesson.title, (), judged, 4.2))
         await me.sees("✓ i1.1 rate passed, today", "✓ i1.1 shutdown passed, today", "1 of 15 ticked")
 
 
@@ -199,7 +199,7 @@ async def test_the_last_pass_leads_to_the_checklist_where_capital_x_exports_too(
         await me.sees("5 of 6 passed")
         await me.press("c")
         lesson = me.session.lessons[0]
-        await me.engine_emits(*made.started_events(), *made.lesson_final_events(lesson, made.GOOD))
+        await me.engine_emits(*fakes.started_events(), *fakes.lesson_final_events(lesson, fakes.GOOD))
         await me.sees("Every exercise is passed now.", "Next: press 6 for the checklist")
         await me.press("6")
         await me.sees("of 15 ticked")

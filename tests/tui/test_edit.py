@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.tui import made
+from tests.tui import fakes
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.workspace import back_up_file
 
@@ -21,13 +21,13 @@ async def test_typing_is_autosaved_and_command_keys_work_after_escape(learner: A
         editor = await me.focus_editor()
         await me.sees("Esc Commands", "Ctrl+S Save", "F5 Run", "F9 Check")
         await me.press(*"rcq", "enter")
-        await me.until(lambda: me.file.read_text() == "rcq\n" + made.NODE, "saved without asking")
+        await me.until(lambda: me.file.read_text() == "rcq\n" + fakes.NODE, "saved without asking")
         await me.sees("✓ saved")
         await me.press(*["ctrl+z"] * 4)  # at most one undo per key; quick typing is undone in one step
-        await me.until(lambda: me.file.read_text() == made.NODE, "undone, and saved")
+        await me.until(lambda: me.file.read_text() == fakes.NODE, "undone, and saved")
         await me.press("escape", "1")
         await me.sees("Objective")
-        assert editor.text == made.NODE
+        assert editor.text == fakes.NODE
 
 
 async def test_the_editor_indents_python(learner: Any) -> None:
@@ -48,11 +48,11 @@ async def test_an_outside_change_is_loaded_keeps_the_cursor_and_can_be_undone(le
     async with learner() as me:
         editor = await me.focus_editor()
         await me.press("down", "down", "right")
-        me.file.write_text("# theirs\n" + made.NODE)
+        me.file.write_text("# theirs\n" + fakes.NODE)
         await me.sees("was changed outside", "# theirs")
         assert editor.cursor_location == (3, 1), "the same line, now one row further down"
         await me.press("ctrl+z")
-        await me.until(lambda: me.file.read_text() == made.NODE)
+        await me.until(lambda: me.file.read_text() == fakes.NODE)
 
 
 async def cause_conflict(me: Any) -> None:
@@ -65,12 +65,12 @@ async def cause_conflict(me: Any) -> None:
 async def test_in_a_conflict_the_learner_keeps_their_version_and_the_files_is_backed_up(learner: Any) -> None:
     async with learner() as me:
         await cause_conflict(me)
-        assert backups(me.file) == ["m" + made.NODE]
+        assert backups(me.file) == ["m" + fakes.NODE]
         await me.press("d")
         await me.sees("- theirs = 1", "+ mimport signal")
         await me.press("enter")
         await me.sees("Your version is saved")
-        assert me.file.read_text() == "m" + made.NODE
+        assert me.file.read_text() == "m" + fakes.NODE
         assert backups(me.file) == ["theirs = 1\n"]
 
 
@@ -80,7 +80,7 @@ async def test_in_a_conflict_the_learner_takes_the_files_version_and_theirs_is_b
         await me.press("escape")
         await me.sees("version is shown", "theirs = 1")
         assert me.file.read_text() == "theirs = 1\n"
-        assert backups(me.file) == ["m" + made.NODE]
+        assert backups(me.file) == ["m" + fakes.NODE]
         assert me.editor.cursor_location == (0, 1), "unchanged"
         await me.press("x")
         await me.until(lambda: me.file.read_text() == "txheirs = 1\n", "typing continues")
@@ -92,7 +92,7 @@ async def test_text_typed_while_the_backup_is_written_is_backed_up_too(
     async with learner() as me:
 
         def back_up_while_typing(path: Path, text: str) -> Path:
-            if text == "m" + made.NODE:
+            if text == "m" + fakes.NODE:
                 me.app.call_from_thread(me.editor.insert, "ore")
             return back_up_file(path, text)
 
@@ -100,12 +100,12 @@ async def test_text_typed_while_the_backup_is_written_is_backed_up_too(
         await cause_conflict(me)
         await me.press("escape")
         await me.until(lambda: me.editor.text == "theirs = 1\n")
-        assert backups(me.file) == ["m" + made.NODE, "more" + made.NODE]
+        assert backups(me.file) == ["m" + fakes.NODE, "more" + fakes.NODE]
 
 
 async def test_the_views_of_the_code_and_a_reset_that_keeps_a_backup(learner: Any) -> None:
     async with learner() as me:
-        me.file.write_text(made.NODE.replace("the sensor is warm", "hot"))
+        me.file.write_text(fakes.NODE.replace("the sensor is warm", "hot"))
         await me.press("d")
         await me.sees("Your changes to the skeleton: 1 lines added (+), 1 removed (-)")
         await me.sees('- log("WARN", "the sensor is warm")', '+ log("WARN", "hot")')
@@ -119,7 +119,7 @@ async def test_the_views_of_the_code_and_a_reset_that_keeps_a_backup(learner: An
         await me.sees("becomes the skeleton again")
         await me.press("enter")
         await me.sees("is the skeleton again. Yours is kept as", "the sensor is warm")
-        assert me.file.read_text() == made.NODE
+        assert me.file.read_text() == fakes.NODE
         assert len(backups(me.file)) == 1
 
 
@@ -128,7 +128,7 @@ async def test_quitting_saves_pending_edits(learner: Any) -> None:
         await me.focus_editor()
         await me.press("x", "ctrl+q")
         await me.until(lambda: me.app.return_code == 0)
-        assert me.file.read_text() == "x" + made.NODE
+        assert me.file.read_text() == "x" + fakes.NODE
 
 
 async def test_a_file_that_is_still_being_read_when_the_app_closes_is_not_shown(learner: Any) -> None:
@@ -136,7 +136,7 @@ async def test_a_file_that_is_still_being_read_when_the_app_closes_is_not_shown(
         pane = me.main.query_one(CodePane)
         await me.main.close_down()
         await pane.remove_children()
-        await me.main.files.look(me.file)
+        await me.main.files.refresh(me.file)
         assert not pane.children
 
 
@@ -151,7 +151,7 @@ async def test_a_file_that_is_not_a_text_is_left_alone(learner: Any) -> None:
 async def test_ctrl_f_finds_a_text_and_steps_through_the_matches(learner: Any) -> None:
     async with learner() as me:
         editor = await me.focus_editor()
-        rows = [row for row, line in enumerate(made.NODE.split("\n")) for _ in range(line.count('log("'))]
+        rows = [row for row, line in enumerate(fakes.NODE.split("\n")) for _ in range(line.count('log("'))]
         await me.press("ctrl+f", *'LOG("')
         await me.sees("not found")
         await me.press("ctrl+u", *'log("')
@@ -168,7 +168,7 @@ async def test_ctrl_f_finds_a_text_and_steps_through_the_matches(learner: Any) -
             lambda: editor.selected_text == 'log("' and editor.selection.start[0] == rows[0], "the next match"
         )
         await me.press("X")
-        assert editor.text == made.NODE.replace('log("', "X", 1), "typing replaces the match"
+        assert editor.text == fakes.NODE.replace('log("', "X", 1), "typing replaces the match"
         await me.press("escape", "ctrl+f", "escape", "1")
         await me.sees("Objective")
 
@@ -181,7 +181,7 @@ async def test_select_all_and_jump_to_both_ends_of_the_file(learner: Any) -> Non
         await me.press("ctrl+home")
         assert editor.cursor_location == (0, 0)
         await me.press("ctrl+shift+end")
-        assert editor.selected_text == made.NODE
+        assert editor.selected_text == fakes.NODE
         await me.press("ctrl+a", *"x = 1")
         await me.until(lambda: me.file.read_text() == "x = 1", "all of it replaced")
 

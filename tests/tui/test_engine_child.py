@@ -6,7 +6,7 @@ import os
 import sys
 from pathlib import Path
 
-from tests.patience import seen_within
+from tests.waiting import wait_for
 from tutor.process.supervisor import processes
 from tutor.session.engine_child import EngineChild
 
@@ -29,7 +29,7 @@ os.kill(os.getpid(), signal.SIGKILL)
 
 async def test_a_daemon_does_not_outlive_a_killed_check(tmp_path: Path) -> None:
     child = await EngineChild.start([sys.executable, "-I", "-S", "-c", DAEMONIZES_AND_KILLS_ITSELF], tmp_path)
-    assert await seen_within((tmp_path / "daemon").exists, 20)
+    assert await wait_for((tmp_path / "daemon").exists, 20)
     daemon = int((tmp_path / "daemon").read_text())
     assert await child.ended() == -9
     assert processes()[daemon].parent == os.getpid()

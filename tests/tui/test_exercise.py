@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.tui import made
+from tests.tui import fakes
 
 
 async def test_start_copies_the_skeleton_and_shows_it(learner: Any) -> None:
@@ -48,7 +48,7 @@ async def test_if_the_file_is_missing_the_app_offers_to_start_the_exercise(learn
         assert not me.session.path(me.session.lessons[1].files[0]).exists()
         await me.press(key, "enter")
         await me.sees("1  import signal")
-        assert me.session.path(me.session.lessons[1].files[0]).read_text() == made.NODE
+        assert me.session.path(me.session.lessons[1].files[0]).read_text() == fakes.NODE
 
 
 async def test_hints_come_one_by_one_and_are_remembered(learner: Any) -> None:

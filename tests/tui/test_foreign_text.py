@@ -8,7 +8,7 @@ from typing import Any
 
 from rich.cells import cell_len
 
-from tests.tui import made
+from tests.tui import fakes
 from tutor.content import LessonFile
 from tutor.judge.verdict import Cause, failed
 from tutor.live.protocol import Ready, Update, WatcherError
@@ -130,10 +130,10 @@ async def test_hostile_text_in_a_verdict_and_the_attempts(learner: Any) -> None:
     verdict = failed(ALL, ALL, Cause(ALL, ALL, ALL), [*HOSTILE, ALL])
     async with learner() as me:
         await me.press("c")
-        await me.engine_emits(*made.started_events(), made.progress_event("rate", 0.5, ALL.replace("\ud800", "")))
+        await me.engine_emits(*fakes.started_events(), fakes.progress_event("rate", 0.5, ALL.replace("\ud800", "")))
         await me.press("5")
         assert_harmless(me)
-        await me.engine_emits(*made.final_events(verdict))
+        await me.engine_emits(*fakes.final_events(verdict))
         await me.sees("2 of 3")
         for key in ("down", "down", "i", "a"):
             await me.press(key)

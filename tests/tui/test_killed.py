@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from tests.benchmarks.terminal import Terminal
-from tests.ros.users_domain import users_domain
-from tests.tui import made
+from tests.ros.ordinary_domain import ordinary_domain
+from tests.tui import fakes
 from tutor.content import load_course
 from tutor.judge.events import ExerciseJudged
 from tutor.process.supervisor import descendants, processes
@@ -38,7 +38,7 @@ class KillableApp:
         start(lesson, self.workspace)
         self.file = self.workspace.path_of(lesson.files[0].name)
         self.file.write_bytes(lesson.files[0].solution.read_bytes())
-        passed = made.lesson_final_events(lesson, made.GOOD)[-2]
+        passed = fakes.lesson_final_events(lesson, fakes.GOOD)[-2]
         assert isinstance(passed, ExerciseJudged)
         self.before = self.workspace.progress().change(
             lambda progress: progress.with_attempt(passed.result, whole=True)
@@ -47,7 +47,7 @@ class KillableApp:
         name, _, value = self.token.partition("=")
         argv = [sys.executable, "-c", APP, "--workspace", str(self.workspace.root)]
         self.app = Terminal(argv, {**env, name: value})
-        self.app.until(b"1 of 6 passed")
+        self.app.wait_for_text(b"1 of 6 passed")
 
     def running(self) -> dict[int, str]:
         """The live processes of this app, including itself: each pid with its command line."""
@@ -100,7 +100,7 @@ class KillableApp:
 
 @pytest.fixture
 def learner(tmp_path: Path) -> Iterator[KillableApp]:
-    with users_domain() as domain:
+    with ordinary_domain() as domain:
         learner = KillableApp(tmp_path, domain)
         try:
             yield learner
@@ -112,11 +112,11 @@ def test_killed_while_a_node_is_watched_and_an_edit_is_pending(learner: Killable
     learner.app.press(b"4")
     learner.until(lambda: learner.runs("tutor.live"), "the watcher process")
     learner.app.press(b"r")
-    learner.app.until(b"publishes 2.0")
+    learner.app.wait_for_text(b"publishes 2.0")
     assert learner.runs("temperature_publisher.py", "tutor.live")
     whole = learner.file.read_text()
     learner.app.press(b"e")
-    learner.app.until(b"Commands")
+    learner.app.wait_for_text(b"Commands")
     learner.app.press(b"# new")
     learner.kill_app()
     assert learner.file.read_text() in (whole, "# new" + whole)
@@ -126,9 +126,9 @@ def test_killed_while_a_node_is_watched_and_an_edit_is_pending(learner: Killable
 def test_killed_during_a_check_right_after_a_save(learner: KillableApp) -> None:
     whole = learner.file.read_text()
     learner.app.press(b"e")
-    learner.app.until(b"Commands")
+    learner.app.wait_for_text(b"Commands")
     learner.app.press(b"# new\r\x13")
-    learner.app.until(b"is saved.")
+    learner.app.wait_for_text(b"is saved.")
     learner.app.press(b"\x1b[20~")  # F9
     learner.until(lambda: learner.runs("tutor.engine", "temperature_publisher.py"), "the check's nodes")
     learner.kill_app()
@@ -146,14 +146,14 @@ def test_a_termination_signal_interrupts_its_nodes_and_leaves_no_shared_memory(
     learner.app.press(b"4")
     learner.until(lambda: learner.runs("tutor.live"), "the watcher process")
     learner.app.press(b"r")
-    learner.app.until(b"publishes 2.0")
+    learner.app.wait_for_text(b"publishes 2.0")
     segments = [path for pid in learner.running() for path in segments_of(pid)]
     assert segments
     if signum == signal.SIGHUP:
         learner.app.detach()  # closing the terminal sends SIGHUP
     else:
         os.kill(learner.app.pid, signum)
-    assert learner.app.ended(LIMIT_S)
+    assert learner.app.wait_for_exit(LIMIT_S)
     assert ended.exists()
     assert not [path for path in segments if path.exists()]
 
@@ -167,7 +167,7 @@ def segments_of(pid: int) -> set[Path]:
 def test_killed_the_moment_a_save_or_a_check_begins(learner: KillableApp) -> None:
     whole = learner.file.read_text()
     learner.app.press(b"e")
-    learner.app.until(b"Commands")
+    learner.app.wait_for_text(b"Commands")
     learner.app.press(b"# new\r\x13\x1b[20~")
     learner.until(lambda: learner.file.read_text() != whole, "the save")
     learner.kill_app()

@@ -47,7 +47,7 @@ async def reading(session: Session, exercise: str) -> AsyncIterator[Reader]:
     session.start(lesson)
     for file in lesson.files:
         session.path(file).write_bytes(file.solution.read_bytes())
-    session.keep(AppState(lesson=lesson.id))
+    session.save_app_state(AppState(lesson=lesson.id))
     async with open_app(session, (180, 48)) as learner:
         me = Reader(learner.app, learner.pilot, session)
         await me.sees(f"{lesson.id.upper()}  {lesson.title}", "Objective")

@@ -10,7 +10,7 @@ from itertools import pairwise
 import pytest
 from textual.color import Color
 
-from tests.live.world import METRONOME, THERMOMETER, LiveApp, World, world
+from tests.live.private_domain import METRONOME, THERMOMETER, LiveApp, PrivateDomain, private_domain
 from tests.tui.person import Person
 from tutor.content import load_course
 from tutor.live.updates import TopicUpdate
@@ -45,23 +45,23 @@ class Watcher(Person[LiveApp]):
 
 
 @pytest.fixture(scope="module")
-def thermometer_world() -> Iterator[World]:
+def thermometer_world() -> Iterator[PrivateDomain]:
     """A domain with the thermometer on it."""
-    with world() as around:
-        around.run(THERMOMETER)
-        yield around
+    with private_domain() as ros_world:
+        ros_world.run(THERMOMETER)
+        yield ros_world
 
 
 @pytest.fixture
-def empty_world() -> Iterator[World]:
+def empty_world() -> Iterator[PrivateDomain]:
     """A domain with nothing on it."""
-    with world() as around:
-        yield around
+    with private_domain() as ros_world:
+        yield ros_world
 
 
 @asynccontextmanager
-async def watching(around: World, size: tuple[int, int] = (80, 20)) -> AsyncIterator[Watcher]:
-    app = LiveApp(around)
+async def watching(ros_world: PrivateDomain, size: tuple[int, int] = (80, 20)) -> AsyncIterator[Watcher]:
+    app = LiveApp(ros_world)
     async with app.run_test(size=size, notifications=True) as pilot:
         try:
             yield Watcher(app, pilot)
@@ -69,7 +69,9 @@ async def watching(around: World, size: tuple[int, int] = (80, 20)) -> AsyncIter
             await app.pane.close_down()
 
 
-async def test_a_topic_followed_with_enter_shows_its_echo_statistics_and_a_plot(thermometer_world: World) -> None:
+async def test_a_topic_followed_with_enter_shows_its_echo_statistics_and_a_plot(
+    thermometer_world: PrivateDomain,
+) -> None:
     async with watching(thermometer_world) as me:
         await me.sees("Topics 3", "/sensor/temperature", "std_msgs/Float64", "1 node")
         await me.press("down", "down")
@@ -82,7 +84,7 @@ async def test_a_topic_followed_with_enter_shows_its_echo_statistics_and_a_plot(
 
 
 async def test_a_paused_topic_freezes_its_view_and_keeps_counting(
-    thermometer_world: World, monkeypatch: pytest.MonkeyPatch
+    thermometer_world: PrivateDomain, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     counts: list[int] = []
     receive = TopicView.receive
@@ -111,7 +113,9 @@ async def test_a_paused_topic_freezes_its_view_and_keeps_counting(
         )
 
 
-async def test_messages_received_while_another_tab_is_open_are_in_the_list_afterwards(empty_world: World) -> None:
+async def test_messages_received_while_another_tab_is_open_are_in_the_list_afterwards(
+    empty_world: PrivateDomain,
+) -> None:
     async with watching(empty_world) as me:
         await me.sees("No node runs")
         me.topics().follow("/ticks")
@@ -125,7 +129,9 @@ async def test_messages_received_while_another_tab_is_open_are_in_the_list_after
         await me.until(lambda: any("/ticks" in line and " 300 " in line for line in me.screen().splitlines()))
 
 
-async def test_the_cursor_of_a_list_shows_its_focus_even_if_that_changed_while_hidden(thermometer_world: World) -> None:
+async def test_the_cursor_of_a_list_shows_its_focus_even_if_that_changed_while_hidden(
+    thermometer_world: PrivateDomain,
+) -> None:
     async with watching(thermometer_world) as me:
         blurred, focused = (
             Color.parse(me.app.theme_variables[name]).rich_color.triplet
@@ -148,7 +154,7 @@ async def test_the_cursor_of_a_list_shows_its_focus_even_if_that_changed_while_h
         await me.until(lambda: cursor_color() == focused, "the list has the focus again")
 
 
-async def test_any_numeric_field_can_be_plotted(thermometer_world: World) -> None:
+async def test_any_numeric_field_can_be_plotted(thermometer_world: PrivateDomain) -> None:
     async with watching(thermometer_world) as me:
         await me.sees("/cmd_vel")
         me.topics().follow("/cmd_vel")
@@ -161,16 +167,16 @@ async def test_any_numeric_field_can_be_plotted(thermometer_world: World) -> Non
         await me.sees("5 s ago")
 
 
-async def test_the_lessons_topic_and_service_are_selected_automatically(thermometer_world: World) -> None:
+async def test_the_lessons_topic_and_service_are_selected_automatically(thermometer_world: PrivateDomain) -> None:
     async with watching(thermometer_world) as me:
-        me.app.pane.show_for(load_course().find("i1.1"))
+        me.app.pane.set_lesson(load_course().find("i1.1"))
         await me.sees("/sensor/temperature", "data: 2")
-        me.app.pane.show_for(load_course().find("i1.3"))
+        me.app.pane.set_lesson(load_course().find("i1.3"))
         await me.open_tab("Services")
         await me.sees("/add  example_interfaces/AddTwoInts", "a int64", "b int64")
 
 
-async def test_a_parameter_is_set_in_the_table_and_the_nodes_response_is_kept(thermometer_world: World) -> None:
+async def test_a_parameter_is_set_in_the_table_and_the_nodes_response_is_kept(thermometer_world: PrivateDomain) -> None:
     async with watching(thermometer_world) as me:
         await me.sees("Parameters 5")
         await me.open_tab("Parameters")
@@ -190,7 +196,7 @@ async def test_a_parameter_is_set_in_the_table_and_the_nodes_response_is_kept(th
         await me.sees("serial is read-only")
 
 
-async def test_a_parameter_that_the_node_changes_itself_is_updated(thermometer_world: World) -> None:
+async def test_a_parameter_that_the_node_changes_itself_is_updated(thermometer_world: PrivateDomain) -> None:
     async with watching(thermometer_world) as me:
         await me.sees("Services 2")
         await me.open_tab("Parameters")
@@ -212,7 +218,7 @@ async def test_a_parameter_that_the_node_changes_itself_is_updated(thermometer_w
         await me.sees("calls")
 
 
-async def test_a_service_is_called_by_its_form_and_the_response_time_is_shown(thermometer_world: World) -> None:
+async def test_a_service_is_called_by_its_form_and_the_response_time_is_shown(thermometer_world: PrivateDomain) -> None:
     async with watching(thermometer_world) as me:
         await me.sees("Services 2")
         await me.open_tab("Services")
@@ -225,7 +231,7 @@ async def test_a_service_is_called_by_its_form_and_the_response_time_is_shown(th
         await me.sees("✓", "/add a=4, b=38", "answered in", "sum: 42")
 
 
-async def test_a_slow_call_blocks_nothing_and_can_be_cancelled(thermometer_world: World) -> None:
+async def test_a_slow_call_blocks_nothing_and_can_be_cancelled(thermometer_world: PrivateDomain) -> None:
     async with watching(thermometer_world) as me:
         await me.sees("Services 2")
         await me.open_tab("Services")
@@ -243,9 +249,9 @@ async def test_a_slow_call_blocks_nothing_and_can_be_cancelled(thermometer_world
 
 
 async def test_a_call_without_a_response_times_out_with_a_message(
-    thermometer_world: World, monkeypatch: pytest.MonkeyPatch
+    thermometer_world: PrivateDomain, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(services_panel, "LIMIT_S", 0.5)
+    monkeypatch.setattr(services_panel, "CALL_TIMEOUT_S", 0.5)
     async with watching(thermometer_world) as me:
         await me.sees("Services 2")
         panel = me.app.pane.query_one(ServicesPanel)
@@ -258,7 +264,7 @@ async def test_a_call_without_a_response_times_out_with_a_message(
 
 @pytest.mark.parametrize("size", [(80, 20), (120, 40)])
 async def test_the_graph_explains_why_two_nodes_are_not_connected(
-    thermometer_world: World, size: tuple[int, int]
+    thermometer_world: PrivateDomain, size: tuple[int, int]
 ) -> None:
     async with watching(thermometer_world, size) as me:
         await me.sees("Graph ✗ 1")
@@ -266,10 +272,10 @@ async def test_the_graph_explains_why_two_nodes_are_not_connected(
         await me.sees("──✗", "not connected", "reliability best_effort", "──▶")
 
 
-async def test_on_an_empty_domain_the_page_says_what_to_do_and_nodes_come_and_go(empty_world: World) -> None:
+async def test_on_an_empty_domain_the_page_says_what_to_do_and_nodes_come_and_go(empty_world: PrivateDomain) -> None:
     async with watching(empty_world) as me:
         await me.sees(f"No node runs in domain {empty_world.domain}: press r to run yours")
-        me.app.pane.show_for(load_course().find("i1.1"))
+        me.app.pane.set_lesson(load_course().find("i1.1"))
         node = await asyncio.to_thread(empty_world.run, THERMOMETER)
         await me.sees("data: 2", "1 node")
         await asyncio.to_thread(empty_world.interrupt, node)
@@ -277,12 +283,12 @@ async def test_on_an_empty_domain_the_page_says_what_to_do_and_nodes_come_and_go
 
 
 async def test_my_nodes_topic_is_followed_automatically_but_not_once_it_was_unfollowed(
-    empty_world: World,
+    empty_world: PrivateDomain,
 ) -> None:
     async with watching(empty_world) as me:
         await me.sees("No node runs")
-        me.app.pane.show_for(load_course().find("i1.1"))
-        me.app.pane.nodes_run(True)
+        me.app.pane.set_lesson(load_course().find("i1.1"))
+        me.app.pane.set_own_nodes_running(True)
         await asyncio.to_thread(empty_world.run, METRONOME, "5", "1000")
         await me.sees("/ticks  std_msgs/", "messages · ", "Hz")
         await me.press("delete")
@@ -293,27 +299,27 @@ async def test_my_nodes_topic_is_followed_automatically_but_not_once_it_was_unfo
         assert "/sensor/temperature" in me.app.pane.state.topics
 
 
-async def test_a_misspelled_topic_name_is_reported_with_its_node(empty_world: World) -> None:
+async def test_a_misspelled_topic_name_is_reported_with_its_node(empty_world: PrivateDomain) -> None:
     async with watching(empty_world, (120, 24)) as me:
         await me.sees("No node runs")
-        me.app.pane.show_for(load_course().find("i1.1"))
+        me.app.pane.set_lesson(load_course().find("i1.1"))
         misspelling = ("--ros-args", "-r", "/sensor/temperature:=/sensor/temprature")
         node = await asyncio.to_thread(empty_world.run, THERMOMETER, "20", *misspelling)
         await me.sees("/thermometer publishes /sensor/temprature; the exercise asks for /sensor/temperature. Did you")
-        me.app.pane.show_for(load_course().find("i1.3"))
+        me.app.pane.set_lesson(load_course().find("i1.3"))
         await me.sees_no("Did you mean")
-        me.app.pane.show_for(load_course().find("i1.1"))
+        me.app.pane.set_lesson(load_course().find("i1.1"))
         await me.sees("Did you mean")
         await asyncio.to_thread(empty_world.interrupt, node)
         await me.sees_no("Did you mean")
 
 
-async def test_topics_of_a_previous_lesson_disappear_with_their_publisher(empty_world: World) -> None:
+async def test_topics_of_a_previous_lesson_disappear_with_their_publisher(empty_world: PrivateDomain) -> None:
     async with watching(empty_world) as me:
-        me.app.pane.show_for(load_course().find("i1.1"))
+        me.app.pane.set_lesson(load_course().find("i1.1"))
         node = await asyncio.to_thread(empty_world.run, THERMOMETER)
         await me.sees("data: 2")
-        me.app.pane.show_for(load_course().find("i1.2"))
+        me.app.pane.set_lesson(load_course().find("i1.2"))
         await me.until(lambda: me.topics().chosen == "/chatter")
         await me.sees("/sensor/temperature")
         await asyncio.to_thread(empty_world.interrupt, node)
@@ -321,7 +327,7 @@ async def test_topics_of_a_previous_lesson_disappear_with_their_publisher(empty_
         await me.sees("No node runs")
 
 
-async def test_the_echo_keeps_messages_to_scroll_back_to(empty_world: World) -> None:
+async def test_the_echo_keeps_messages_to_scroll_back_to(empty_world: PrivateDomain) -> None:
     async with watching(empty_world) as me:
         await me.sees("No node runs")
         me.topics().follow("/ticks")
@@ -338,26 +344,26 @@ async def test_the_echo_keeps_messages_to_scroll_back_to(empty_world: World) -> 
         await me.until(lambda: echo.is_vertical_scroll_end)
 
 
-async def test_the_plot_marks_its_samples_and_the_required_range(empty_world: World) -> None:
+async def test_the_plot_marks_its_samples_and_the_required_range(empty_world: PrivateDomain) -> None:
     async with watching(empty_world, (120, 30)) as me:
-        me.app.pane.show_for(load_course().find("i1.1"))
+        me.app.pane.set_lesson(load_course().find("i1.1"))
         await asyncio.to_thread(empty_world.run, THERMOMETER, "2")
         await me.sees("asked: 20 to 30", "•", "╌╌╌", "30┤", "20┤")
 
 
-async def test_a_dead_watcher_is_reported_and_can_be_restarted(empty_world: World) -> None:
+async def test_a_dead_watcher_is_reported_and_can_be_restarted(empty_world: PrivateDomain) -> None:
     async with watching(empty_world) as me:
         await me.sees("No node runs")
         child = me.app.pane._child
         assert child is not None
         child.kill()
         await me.sees("Nothing is watched", "! not watching")
-        await me.until(lambda: bool(me.app.told), "a toast")
+        await me.until(lambda: bool(me.app.errors), "a toast")
         me.app.pane.start_watching(empty_world.command)
         await me.sees("No node runs")
 
 
-async def test_the_app_quits_at_once_and_leaves_no_watcher_process(empty_world: World) -> None:
+async def test_the_app_quits_at_once_and_leaves_no_watcher_process(empty_world: PrivateDomain) -> None:
     app = LiveApp(empty_world)
     async with app.run_test() as pilot:
         while app.pane._child is None:

@@ -43,14 +43,14 @@ class TerminalLearner:
         kept = {name: value for name, value in os.environ.items() if name not in ("EDITOR", "VISUAL")}
         argv = [sys.executable, "-c", APP, "--workspace", str(self.workspace.root)]
         self.app = Terminal(argv, {**kept, "PATH": str(self.programs), **environ})
-        self.app.until(b"Objective")
+        self.app.wait_for_text(b"Objective")
         return self.app
 
     def assert_responsive(self) -> None:
         """Assert that the app is still running and reacts to keys."""
         assert self.app is not None
         self.app.press(b"?")
-        self.app.until(b"Read the lesson, start")
+        self.app.wait_for_text(b"Read the lesson, start")
 
 
 @pytest.fixture
@@ -73,8 +73,8 @@ def test_without_a_configured_editor_an_installed_one_opens(me: TerminalLearner,
     me.install("vi", EDITOR_SCRIPT)
     app = me.open_app(**environ)
     app.press(b"E")
-    app.until(b"opened by vi")
-    app.until(b"# edited with 1 words")
+    app.wait_for_text(b"opened by vi")
+    app.wait_for_text(b"# edited with 1 words")
     me.assert_responsive()
 
 
@@ -82,7 +82,7 @@ def test_an_editor_with_arguments(me: TerminalLearner) -> None:
     me.install("code", EDITOR_SCRIPT)
     app = me.open_app(EDITOR="code -w")
     app.press(b"E")
-    app.until(b"# edited with 2 words: -w")
+    app.wait_for_text(b"# edited with 2 words: -w")
 
 
 @pytest.mark.parametrize(
@@ -101,7 +101,7 @@ def test_a_failing_editor_is_reported_in_the_app_which_continues(
         me.install(editor, script)
     app = me.open_app(EDITOR=editor)
     app.press(b"E")
-    app.until(message)
+    app.wait_for_text(message)
     me.assert_responsive()
 
 
@@ -129,7 +129,7 @@ def test_processes_that_an_editor_leaves_behind_are_not_adopted_by_the_app(me: T
         while not left.exists():
             assert time.monotonic() < deadline
             app.read(0.02)
-        app.until(b"not checked yet", resumed=True)
+        app.wait_for_text(b"not checked yet", resumed=True)
         daemon = int(left.read_text())
         left.unlink()
         try:

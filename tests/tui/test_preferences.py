@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from tests.tui import made
+from tests.tui import fakes
 from tutor.tui.app import TutorApp
 
 
@@ -12,7 +12,7 @@ async def reopen(me: Any) -> Any:
     """Open the app on the same workspace once more: the lesson id, page, theme and state with which it starts."""
     app = TutorApp(me.session)
     async with app.run_test(size=(120, 36)) as pilot:
-        await made.wait_until_ready(app, pilot)
+        await fakes.wait_until_ready(app, pilot)
         assert app.main is not None
         start = (app.main.model.lesson.id, app.main.page, app.theme, app.main.model.state)
         await app.main.close_down()
@@ -50,4 +50,4 @@ async def test_the_palette_finds_a_line_of_a_lesson_and_goes_there(learner: Any)
         await me.press("up", "enter")
         await me.until(lambda: me.main.model.lesson.id == "i2.3", "the lesson is open")
         await me.sees("I2.3  Multi-Threaded Service", "Publish random values")
-        assert len(made.BODY.splitlines()) > 5
+        assert len(fakes.BODY.splitlines()) > 5

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.tui import made
+from tests.tui import fakes
 from tests.tui.conftest import is_alive
 from tutor.session.node import Phase
 from tutor.tui.widgets.code_pane import CodePane
@@ -28,7 +28,7 @@ async def test_a_node_that_ignores_ctrl_c_is_ended_anyway(learner: Any, monkeypa
     monkeypatch.setattr("tutor.session.node.INTERRUPT_S", 0.2)
     async with learner() as me:
         me.session.path(me.session.lessons[0].files[0]).write_text(
-            "import os\nprint(os.getpid(), flush=True)\n" + made.STUBBORN
+            "import os\nprint(os.getpid(), flush=True)\n" + fakes.STUBBORN
         )
         await me.press("r")
         await me.sees("deaf")
@@ -72,7 +72,7 @@ async def test_the_node_keeps_running_while_another_lesson_is_open_and_the_termi
 async def test_quitting_ends_the_node(learner: Any) -> None:
     async with learner() as me:
         me.session.path(me.session.lessons[0].files[0]).write_text(
-            "import os\nprint(os.getpid(), flush=True)\n" + made.NODE
+            "import os\nprint(os.getpid(), flush=True)\n" + fakes.NODE
         )
         await me.press("r")
         await me.sees("ready")
@@ -89,7 +89,7 @@ ECHO = "import os, sys\nprint('given', *sys.argv[1:], flush=True)\nprint('pid', 
 
 async def test_a_node_runs_with_the_parameters_and_remaps_that_the_learner_sets(learner: Any) -> None:
     async with learner() as me:
-        me.file.write_text(ECHO + made.NODE)
+        me.file.write_text(ECHO + fakes.NODE)
         await me.press("o")
         await me.press(*"rate 5")
         await me.sees("'rate 5' sets no parameter: write name:=value", "F5 runs")
@@ -105,10 +105,10 @@ async def test_a_node_runs_with_the_parameters_and_remaps_that_the_learner_sets(
 
 async def test_a_save_restarts_the_node_if_enabled(learner: Any) -> None:
     async with learner() as me:
-        me.file.write_text(text := ECHO + made.NODE)
+        me.file.write_text(text := ECHO + fakes.NODE)
         pane = me.main.query_one(CodePane)
         # Otherwise, this write restarts the node later, one restart more than the test expects.
-        await me.until(lambda: pane.knows(me.file) and pane.text(me.file) == text, "the new text is noticed")
+        await me.until(lambda: pane.has_editor(me.file) and pane.text(me.file) == text, "the new text is noticed")
         await me.press("W")
         await me.sees("a save restarts")
         await me.press("r")
@@ -127,13 +127,13 @@ async def test_an_outside_change_restarts_the_node_and_leaves_the_focus_in_the_e
         await me.sees("the sensor is warm")
         before = me.node
         await me.focus_editor()
-        me.file.write_text(ECHO + made.NODE)
+        me.file.write_text(ECHO + fakes.NODE)
         await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "restarted")
         await me.until(lambda: any("pid" in line.text for line in me.node.state.lines), "output of the new file")
         assert me.main.page == "code"
         assert me.app.focused is me.editor
         await me.press("escape", "1")
-        me.file.write_text(made.NODE)
+        me.file.write_text(fakes.NODE)
         await me.sees("the sensor is warm")
 
 

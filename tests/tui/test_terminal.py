@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from tests.tui import made
+from tests.tui import fakes
 from tests.tui.conftest import is_alive
 from tutor import private_folders
 from tutor.tui.terminal.completion import complete
@@ -140,8 +140,8 @@ async def test_program_output_is_plain_text(learner: Any) -> None:
 
 
 async def test_a_lesson_command_is_run_by_key_and_by_click(learner: Any, monkeypatch: Any) -> None:
-    body = made.BODY + "\n```bash\necho by \\\n    key   # shown\necho by click\n```\n"
-    monkeypatch.setattr(made, "BODY", body)
+    body = fakes.BODY + "\n```bash\necho by \\\n    key   # shown\necho by click\n```\n"
+    monkeypatch.setattr(fakes, "BODY", body)
     async with learner() as me:
         await me.press("R")
         await me.sees("Run a command of the lesson", "echo by key", "echo by click")

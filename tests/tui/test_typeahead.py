@@ -11,7 +11,7 @@ from textual.events import Key, Paste
 from textual.keys import _character_to_key
 
 from tests.benchmarks.terminal import Terminal
-from tests.tui import made
+from tests.tui import fakes
 from tutor.content import load_course
 from tutor.tui.widgets.code_pane import CodeBody, CodePane
 from tutor.workspace import Workspace, start
@@ -37,7 +37,7 @@ async def test_moves_and_letters_in_the_editor_keep_their_order(learner: Any) ->
         type_ahead(me, *"ab", "home", *"c", "end", *"d", "left", "left", *"e", "enter", *"f", "backspace", *"g", "home")
         type_ahead(me, Paste("pasted"), "end", *"!")
         await me.until(lambda: "!" in editor.text)
-        first, second = (made.NODE.split("\n")[0] + "d"), "pastedg"
+        first, second = (fakes.NODE.split("\n")[0] + "d"), "pastedg"
         typed = "cab" + first
         assert editor.text.split("\n")[:2] == [typed[:-2] + "e", second + typed[-2:] + "!"]
 
@@ -47,7 +47,7 @@ async def test_keys_typed_after_a_command_go_where_the_command_leads(learner: An
         await me.press("2")
         await me.until(lambda: me.main.query_one(CodeBody).has_focus)
         await me.sees("1  import signal")
-        editor, expected = me.editor, made.NODE.replace("import", "rcqimport", 1).replace("ing\n", "ingx\n", 1)
+        editor, expected = me.editor, fakes.NODE.replace("import", "rcqimport", 1).replace("ing\n", "ingx\n", 1)
         type_ahead(me, "e", *"rcq", "escape", *"1", "n", "p", "3", "2", "e", "end", *"x")
         await me.until(lambda: editor.text == expected)
         assert me.main.page == "code"
@@ -82,12 +82,12 @@ def test_a_burst_of_bytes_in_a_real_terminal_becomes_the_intended_text(tmp_path:
     file.write_text("\nlast\n")
     app = Terminal([sys.executable, "-c", APP, "--workspace", str(workspace.root)], dict(os.environ))
     try:
-        app.until(b"Objective")
+        app.wait_for_text(b"Objective")
         app.press(b"2")
-        app.until(b"last")
+        app.wait_for_text(b"last")
         line = b"x = 1" + HOME + b"#!/usr/" + END + LEFT + DELETE + b"bin" + HOME + b"y" + END + b"\r"
         app.press(b"e" + line * 20 + b"end\x13")  # Ctrl+S
-        app.until(b"is saved.")
+        app.wait_for_text(b"is saved.")
     finally:
         app.close()
     assert file.read_text() == "y#!/usr/x = bin\n" * 20 + "end\nlast\n"

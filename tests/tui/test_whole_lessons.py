@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.running import runs
+from tests.running import is_running
 from tests.tui.conftest import Learner, open_app
 from tutor.content import load_course
 from tutor.session import Session
@@ -29,7 +29,7 @@ async def solving(session: Session, exercise: str) -> AsyncIterator[Learner]:
     session.start(lesson)
     for file in lesson.files:
         session.path(file).write_bytes(file.solution.read_bytes())
-    session.keep(AppState(lesson=lesson.id))
+    session.save_app_state(AppState(lesson=lesson.id))
     async with open_app(session) as me:
         await me.sees(f"{lesson.id.upper()}  {lesson.title}", "Objective")
         yield me
@@ -56,12 +56,12 @@ async def test_a_node_is_run_with_options_watched_and_changed_live(session: Sess
         await me.press("ctrl+u", *"roof", "enter")
         await me.sees("sensor_name = roof  accepted")
 
-        assert runs(me.file)
+        assert is_running(me.file)
         await me.press("r")
         await me.sees("No node runs in domain")
         await me.press("3")
         await me.sees("stopped")
-        assert not runs(me.file)
+        assert not is_running(me.file)
 
 
 async def test_a_failure_is_fixed_and_the_pass_is_evidence_in_the_checklist(session: Session) -> None:

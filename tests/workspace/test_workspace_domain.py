@@ -181,7 +181,8 @@ def test_concurrent_threads_agree_on_a_new_workspace(tmp_path: Path) -> None:
 def test_concurrent_workspaces_get_distinct_ids(
     tmp_path: Path, registry: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(claims, "preferred", lambda workspace: list(claims.USABLE))  # all prefer the same IDs
+    # All prefer the same IDs.
+    monkeypatch.setattr(claims, "preferred_order", lambda workspace: list(claims.USABLE_DOMAINS))
     workspaces = [make_workspace(tmp_path / str(number)) for number in range(20)]
     with ThreadPoolExecutor(20) as pool:
         got = list(pool.map(lambda workspace: domain_of(workspace, {}), workspaces))
@@ -203,7 +204,7 @@ def test_concurrent_workspaces_get_distinct_ids(
 def assert_stable_domain(workspace: Workspace) -> None:
     """Assert that the workspace gets a valid domain ID and keeps it, even without a usable registry."""
     first = domain_of(workspace, {})
-    assert first in claims.USABLE
+    assert first in claims.USABLE_DOMAINS
     assert domain_of(workspace, {}) == first == stored_domain(workspace)
 
 
@@ -241,7 +242,7 @@ def test_links_pipes_and_malformed_claims_are_ignored(
     (registry / f"{uid}-other").write_text('{"domain": "5", "workspace": 7}')
     (registry / f"{uid}-large").write_text("[" * 100_000)
     (registry / f"{uid + 1}-forged").write_text('{"domain": 5, "workspace": "/"}')
-    monkeypatch.setattr(claims, "preferred", lambda workspace: [5, 6])
+    monkeypatch.setattr(claims, "preferred_order", lambda workspace: [5, 6])
     assert domain_of(Workspace(tmp_path / "nobody else's"), {}) == 5
     assert_stable_domain(make_workspace(tmp_path / "ada"))
 
@@ -262,7 +263,7 @@ def test_two_users_share_the_registry_but_not_their_claims(tmp_path: Path, regis
     for root, code in programs:
         code = code.replace('print("here", flush=True)\ninput()\n', "")
         code = code.replace(
-            "print(domain_of", "claims.preferred = lambda workspace: list(claims.USABLE)\nprint(domain_of"
+            "print(domain_of", "claims.preferred_order = lambda workspace: list(claims.USABLE_DOMAINS)\nprint(domain_of"
         )
         # Import while still root: the other users may not read the source folder.
         code = f"import tutor.workspace, tutor.ros.domain\n{code}"

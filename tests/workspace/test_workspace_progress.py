@@ -87,7 +87,7 @@ def test_attempts_are_bounded() -> None:
 
 
 def test_hints_come_one_by_one_and_the_last_repeats(file: ProgressFile) -> None:
-    shown = [file.next_hint("i1.1", of=3) for _ in range(5)]
+    shown = [file.next_hint("i1.1", total=3) for _ in range(5)]
     assert shown == [(1, False), (2, False), (3, False), (3, True), (3, True)]
 
 

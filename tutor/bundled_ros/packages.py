@@ -22,19 +22,19 @@ class PackageNotFound(LookupError):
 
     def __init__(self, package: str) -> None:
         self.package = package
-        near = difflib.get_close_matches(package, packages_with_programs())
-        self.hint = hint(package, packages_with_programs())
+        near = difflib.get_close_matches(package, packages_with_executables())
+        self.hint = hint(package, packages_with_executables())
         super().__init__(f"package '{package}' not found" + (f"; is it {' or '.join(near)}?" if near else ""))
 
 
 class ExecutableNotFound(LookupError):
     """The package exists but has no executable of this name."""
 
-    def __init__(self, package: str, executable: str, programs: list[str]) -> None:
+    def __init__(self, package: str, executable: str, executables: list[str]) -> None:
         self.package = package
         self.executable = executable
-        self.hint = hint(executable, programs)
-        super().__init__(f"executable '{executable}' not found in package '{package}'; it has: {_listed(programs)}")
+        self.hint = hint(executable, executables)
+        super().__init__(f"executable '{executable}' not found in package '{package}'; it has: {_listed(executables)}")
 
 
 def hint(name: str, names: Iterable[str]) -> str:
@@ -49,7 +49,7 @@ def find_executable(package: str, executable: str) -> list[str]:
     Raises PackageNotFound or ExecutableNotFound.
     """
     prefix = _find_prefix(package)
-    found = _find_programs(prefix, package)
+    found = _find_executables(prefix, package)
     if executable not in found:
         raise ExecutableNotFound(package, executable, sorted(found))
     program = str(found[executable])
@@ -58,9 +58,9 @@ def find_executable(package: str, executable: str) -> list[str]:
     return [sys.executable, "-P", program] if unreadable and _is_our_script(found[executable]) else [program]
 
 
-def programs_of(package: str) -> list[str]:
+def executable_names(package: str) -> list[str]:
     """Return the sorted names of a package's executables. Raises PackageNotFound."""
-    return sorted(_find_programs(_find_prefix(package), package))
+    return sorted(_find_executables(_find_prefix(package), package))
 
 
 def find_share(package: str) -> Path:
@@ -68,12 +68,12 @@ def find_share(package: str) -> Path:
     return _find_prefix(package) / "share" / package
 
 
-def programs(package: str) -> dict[str, Path]:
+def executables_of(package: str) -> dict[str, Path]:
     """Map the names of a package's executables to their paths. Raises PackageNotFound."""
-    return _find_programs(_find_prefix(package), package)
+    return _find_executables(_find_prefix(package), package)
 
 
-def packages_with_programs() -> list[str]:
+def packages_with_executables() -> list[str]:
     """Return the sorted names of all packages that have executables."""
     names = {
         path.name
@@ -105,7 +105,7 @@ def _is_valid_name(text: str) -> bool:
     return bool(text) and "/" not in text
 
 
-def _find_programs(prefix: Path, package: str) -> dict[str, Path]:
+def _find_executables(prefix: Path, package: str) -> dict[str, Path]:
     """Map the names of a package's executable files to their paths."""
     found: dict[str, Path] = {}
     for folder, below, files in os.walk(prefix / "lib" / package):

@@ -143,14 +143,14 @@ def _prove(lessons: Sequence[Lesson], course: Course) -> Sequence[Proof] | None:
 
 def _print_proofs(proofs: Sequence[Proof], findings: list[Problem]) -> int:
     """Print the findings of the runs and add them to `findings`; return how many criteria could not be judged."""
-    from tutor.content.proof import faults, find_disproofs
+    from tutor.content.proof import find_contradictions, unjudged_criteria
 
     unjudged = 0
     for proof in proofs:
-        found = list(find_disproofs(proof.lesson, proof.kind, proof.result))
+        found = list(find_contradictions(proof.lesson, proof.kind, proof.result))
         findings += found
         _print_findings(found)
-        for criterion in faults(proof.result):
+        for criterion in unjudged_criteria(proof.result):
             unjudged += 1
             why = " ".join(f"{criterion.verdict.cause}; {criterion.verdict.hint}".split())
             terminal.out(f"{proof.lesson.id} {proof.kind}, {criterion.id}: could not be judged: {why}\n")

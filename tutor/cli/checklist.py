@@ -98,7 +98,7 @@ def _render(course: Course, progress: Progress) -> str:
         lines += [f"{terminal.style(group.title, '1', sys.stdout)}  {group.ticked} of {len(group.items)}"]
         for item in group.items:
             box = terminal.style("[x]", "32", sys.stdout) if item.ticked else "[ ]"
-            shown = "; ".join(describe_evidence(item.evidence, near_day, most=_MAX_EVIDENCE))
+            shown = "; ".join(describe_evidence(item.evidence, near_day, max_items=_MAX_EVIDENCE))
             lines += [f"  {box} {item.id:{width}}  {item.text}{f'  ({shown})' if shown else ''}"]
         lines += [""]
     if assessment.ready:

@@ -32,7 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
             f"`{command('start', lesson.id)}` makes one, `{command('hint', lesson.id, '--all')}` shows them all"
         )
     else:
-        number, again = workspace.progress(terminal.say).next_hint(lesson.id, of=count)
+        number, again = workspace.progress(terminal.say).next_hint(lesson.id, total=count)
         terminal.out(_render_hint(number, lesson.hints))
         if again:
             terminal.say(f"that was the last hint, again; `{command('solution', lesson.id)}` shows our solution")

@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     sys.stdout.flush()
     try:
         if ros.kind == "bundled":
-            interpreter.become(command, env)
+            interpreter.exec_program(command, env)
         os.execve(command[0], command, env)
     except OSError as error:
         raise UsageError(f"{shlex.join(command)} cannot be started: {error.strerror}") from error

@@ -22,7 +22,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Run the user's shell, or one command line in it, and return its exit code."""
     from tutor import private_folders
     from tutor.bundled_ros.ros2 import sourced
-    from tutor.bundled_ros.ros2.terminal import interactive, users_shell
+    from tutor.bundled_ros.ros2.terminal import interactive_command, users_shell
     from tutor.ros.environment import detect
     from tutor.workspace import domain_of
 
@@ -39,12 +39,12 @@ def run(arguments: argparse.Namespace) -> int:
             first = "" if setup is None else f". {shlex.quote(str(setup))}\n"
             return _run([str(path), "-c", first + arguments.line], env)
         where = context.display_path(workspace.root)
-        command = interactive(
+        command = interactive_command(
             shell,
             path,
             env=env,
-            changed={name: value for name, value in env.items() if os.environ.get(name) != value},
-            dropped=sorted(set(os.environ) - set(env)),
+            exported={name: value for name, value in env.items() if os.environ.get(name) != value},
+            unset=sorted(set(os.environ) - set(env)),
             tools=tools,
             mark=f"(ROS 2: {workspace.root.name}) ",
             setup=setup,

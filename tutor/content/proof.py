@@ -10,12 +10,12 @@ from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
 
 
-def find_disproofs(lesson: Lesson, kind: str, result: ExerciseResult) -> Iterator[Problem]:
+def find_contradictions(lesson: Lesson, kind: str, result: ExerciseResult) -> Iterator[Problem]:
     """Find where the verdicts on the "skeleton" or the "solution" (`kind`) contradict the lesson.
 
     The solution must pass every criterion, bonus included. The untouched skeleton must fail the criteria that it leaves
     open and no others; a criterion skipped because of a failed one may be either. Criteria that could not be judged
-    are no findings: see `faults`.
+    are no findings: see `unjudged_criteria`.
     """
     texts = {text.id: text for text in lesson.criteria}
     for criterion in result.criteria:
@@ -30,7 +30,7 @@ def find_disproofs(lesson: Lesson, kind: str, result: ExerciseResult) -> Iterato
         yield Problem(lesson.folder / kind, "no criterion fails", "leave something to do")
 
 
-def faults(result: ExerciseResult) -> list[CriterionResult]:
+def unjudged_criteria(result: ExerciseResult) -> list[CriterionResult]:
     """Return the criteria that could not be judged, through no fault of the course."""
     return [criterion for criterion in result.criteria if criterion.verdict.status is Status.ERROR]
 

@@ -20,7 +20,7 @@ from tutor.ros.environment import RosEnvironment, learner_env
 PROBE = Path(__file__).resolve().parent.parent / "ros" / "probe.py"
 
 
-def ask(ros: RosEnvironment, environ: Mapping[str, str], program: str, limit_s: float) -> dict[str, Any]:
+def run_probe(ros: RosEnvironment, environ: Mapping[str, str], program: str, limit_s: float) -> dict[str, Any]:
     """Run one program of the probe to completion and return the JSON object it prints. Raises ProbeFailed."""
     with private_folders.temporary("doctor") as folder:
         env = learner_env(ros, domain_id=0, log_dir=folder, package_root=None, isolated=True, environ=environ)

@@ -57,17 +57,17 @@ def loopback_multicast() -> Finding:
 def shared_memory_room() -> Finding:
     """Examine whether enough shared memory is free for ROS to load, and for nodes to use it."""
     name = "Shared memory"
-    room = shared_memory.room()
-    if room is None:
+    space = shared_memory.free_space()
+    if space is None:
         return Finding(name, True, "this machine sets no limit on it")
-    size, free = _megabytes(room.size), _megabytes(room.free)
+    size, free = _megabytes(space.size), _megabytes(space.free)
     hint = shared_memory.HINT[0].upper() + shared_memory.HINT[1:] + "."
-    if not room.enough:
-        return Finding(name, False, f"{room.place} is full ({size}), so ROS cannot be loaded.", hint)
-    if room.free < _BYTES_PER_NODE * _NODES:
-        text = f"{room.place} has {free} of {size} left, which is little: each node takes {_BYTES_PER_NODE / 1e6} MB."
+    if not space.enough:
+        return Finding(name, False, f"{space.folder} is full ({size}), so ROS cannot be loaded.", hint)
+    if space.free < _BYTES_PER_NODE * _NODES:
+        text = f"{space.folder} has {free} of {size} left, which is little: each node takes {_BYTES_PER_NODE / 1e6} MB."
         return Finding(name, None, f"{text} Without it, nodes print errors and send over the network instead.", hint)
-    return Finding(name, True, f"{room.place} has {free} of {size} left")
+    return Finding(name, True, f"{space.folder} has {free} of {size} left")
 
 
 def temporary_files() -> Finding:

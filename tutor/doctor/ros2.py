@@ -64,7 +64,7 @@ def wheels(ros: RosEnvironment, path: Sequence[str] | None = None) -> Finding:
 def rclpy_import(ros: RosEnvironment, environ: Mapping[str, str]) -> Finding:
     """Examine whether `import rclpy` works in a learner's process, and how long it takes."""
     try:
-        answer = child.ask(ros, environ, "import", limit_s=20.0)
+        answer = child.run_probe(ros, environ, "import", limit_s=20.0)
     except ProbeFailed as failure:
         return Finding("rclpy", False, f"rclpy cannot be imported: {failure}", _hint_for_import(ros))
     return Finding("rclpy", True, f"imported in {answer['seconds']:.2f} s from {answer['file']}")
@@ -74,7 +74,7 @@ def example_interfaces(ros: RosEnvironment, environ: Mapping[str, str]) -> Findi
     """Examine whether example_interfaces/srv/AddTwoInts, which the service exercises use, can be loaded."""
     name = "example_interfaces"
     try:
-        child.ask(ros, environ, "interfaces", limit_s=20.0)
+        child.run_probe(ros, environ, "interfaces", limit_s=20.0)
     except ProbeFailed as failure:
         hint = "sudo apt install ros-jazzy-example-interfaces" if ros.kind == "system" else _REINSTALL
         if shared_memory.problem():

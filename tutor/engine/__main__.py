@@ -14,7 +14,7 @@ from pathlib import Path
 from tutor.content import load_course
 from tutor.engine import run_check
 from tutor.errors import ContentError, EngineError, SubmissionError, UnknownExercise
-from tutor.interpreter import collect_garbage_seldom
+from tutor.interpreter import reduce_gc_frequency
 from tutor.judge.events import Event, encode
 from tutor.process.prctl import die_with_parent
 from tutor.stop_signals import Stopped, run_until_stopped
@@ -27,7 +27,7 @@ def main() -> int:
     Exit code 0: judged, whatever the verdict; 2: wrong usage; 3: a fault; 130: interrupted. 2 and 3 are explained on
     stderr.
     """
-    collect_garbage_seldom()
+    reduce_gc_frequency()
     parser = argparse.ArgumentParser(prog="python -m tutor.engine")
     parser.add_argument("exercise")
     parser.add_argument("path", type=Path)

@@ -19,7 +19,7 @@ from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
 from tutor.judge.bench import Run, Scenario
 from tutor.judge.exceptions import KnownException
 from tutor.judge.submission import Submission
-from tutor.judge.verdict import MOST_CHARACTERS
+from tutor.judge.verdict import MAX_CHARACTERS
 from tutor.process import LearnerProcess
 from tutor.process.log_folder import temporary_log_folder
 from tutor.ros.domain import reserve_domain
@@ -175,7 +175,7 @@ class RosBench:
         return found
 
     def report_progress(self, fraction: float, text: str) -> None:
-        self.on_progress(min(1.0, max(0.0, fraction)), text[:MOST_CHARACTERS])
+        self.on_progress(min(1.0, max(0.0, fraction)), text[:MAX_CHARACTERS])
 
     def report_facts(self, facts: object) -> None:
         self.on_facts(facts)

@@ -11,7 +11,7 @@ POLL_S = 0.1
 """Minimum interval between two readings of the process's threads."""
 
 
-class Idle:
+class IdleDetector:
     """Detects whether a process is idle.
 
     `for_s`: how long its threads must have been blocked, in seconds. `cpu_wait_s()`: how long we have waited for a CPU
@@ -27,7 +27,7 @@ class Idle:
         self._idle_since = self._waited_before_s = 0.0
         self._idle = False
 
-    def until(self, deadline: float) -> bool:
+    def is_idle_until(self, deadline: float) -> bool:
         """Whether the process is idle and will stay so until `deadline` (seconds since the epoch). Must be polled."""
         now = time.monotonic()
         if now - self._read_at < POLL_S:

@@ -10,17 +10,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tutor.content import LiveView
-from tutor.engine.so_far import Moment, SoFar, describe
-from tutor.judge.verdict import MOST_OF_A_LINE
+from tutor.engine.so_far import RunSnapshot, SoFar, describe
+from tutor.judge.verdict import MAX_LINE_CHARACTERS
 from tutor.report.plain import one_line
 
 if TYPE_CHECKING:  # it imports rclpy, whose environment must be set by then
     from tutor.engine.run import RosRun
 
-WAIT_S = 1.0
+QUIET_WAIT_S = 1.0
 """Waits shorter than this are not commented on."""
 
-EVERY_S = 0.5
+UPDATE_INTERVAL_S = 0.5
 """Minimum interval between updates."""
 
 NOTHING = SoFar()
@@ -69,14 +69,15 @@ class Provisional:
 
     async def _poll(self) -> None:
         while True:
-            await asyncio.sleep(max(EVERY_S, self._since + WAIT_S - time.monotonic()))
-            if time.monotonic() < self._since + WAIT_S:
+            await asyncio.sleep(max(UPDATE_INTERVAL_S, self._since + QUIET_WAIT_S - time.monotonic()))
+            if time.monotonic() < self._since + QUIET_WAIT_S:
                 continue
             found = [each.describe(self._requested, self._published) for each in self._followed]
             self._update(max(found, key=lambda each: each.weight, default=NOTHING))
 
     def _update(self, so_far: SoFar) -> None:
-        so_far = replace(so_far, text=one_line(so_far.text, MOST_OF_A_LINE))  # it may contain output of the program
+        # The text may contain output of the program.
+        so_far = replace(so_far, text=one_line(so_far.text, MAX_LINE_CHARACTERS))
         if so_far != self._so_far:
             self._so_far = so_far
             self._on_progress(self._fraction, self._doing, so_far)
@@ -94,14 +95,14 @@ class _FollowedRun:
         """Describe the run as it is now; reuse the description if nothing relevant has changed. Updates `published`."""
         run = self._run
         if run.interrupted_at is not None:
-            late = run.exit is None and run.now() - run.interrupted_at >= WAIT_S
+            late = run.exit is None and run.now() - run.interrupted_at >= QUIET_WAIT_S
             return SoFar("it has not ended after Ctrl+C yet") if late else NOTHING
         published.update(topic for topic in self._watched if run.samples_on(topic))
         graph = run.peek_graph()
         state = (
             run.exit,
             graph,
-            run.unanswered,
+            run.awaits_response,
             sum(line.stream == "stderr" for line in run.output),
             bool(run.logs),
             [topic for topic in self._watched if run.samples_on(topic)],
@@ -109,6 +110,6 @@ class _FollowedRun:
         )
         if state != self._state:
             self._state = state
-            moment = Moment(run.trace_of(graph), self._watched, run.unanswered, frozenset(published))
-            self._description = describe(moment, requested)
+            snapshot = RunSnapshot(run.trace_of(graph), self._watched, run.awaits_response, frozenset(published))
+            self._description = describe(snapshot, requested)
         return self._description

@@ -14,8 +14,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
-from tutor.engine.idle import Idle
-from tutor.engine.source import launch_arguments, sources, uncalled_main, with_code
+from tutor.engine.idle import IdleDetector
+from tutor.engine.source import add_source_lines, launch_arguments, read_sources, uncalled_main
 from tutor.errors import EngineError, MachineTooBusy, UnknownType
 from tutor.judge import tracebacks
 from tutor.judge.bench import Handler
@@ -35,9 +35,9 @@ from tutor.judge.trace import (
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import RESENT_S
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
-from tutor.process.cpu_wait import free_s
+from tutor.process.cpu_wait import estimate_unblocked_s
 from tutor.ros import echo, graph, parameters
-from tutor.ros.intake import MOST_SAMPLES
+from tutor.ros.intake import MAX_SAMPLES
 from tutor.ros.messages import to_plain
 from tutor.ros.observer import ANY_PUBLISHER, AnswerTooLarge, Observer
 from tutor.ros.talker import Talker
@@ -109,7 +109,7 @@ class RosRun:
         """When Ctrl+C was pressed, in seconds since the epoch."""
 
     @property
-    def unanswered(self) -> bool:
+    def awaits_response(self) -> bool:
         """Whether one of our requests is waiting for its response."""
         return self._pending_requests > 0
 
@@ -166,7 +166,7 @@ class RosRun:
 
     def serve(self, service: str, type: str, handler: Handler) -> None:
         def record(request: Mapping[str, Any], response: Mapping[str, Any]) -> None:
-            if len(self._facts.served) < MOST_SAMPLES:
+            if len(self._facts.served) < MAX_SAMPLES:
                 self._facts.served.append(ServedRequest(service, request, response, time.time()))
             self._facts.notify()
 
@@ -193,7 +193,7 @@ class RosRun:
 
     async def until(self, seen: Callable[[], bool], limit_s: float, *, idle_s: float | None = None) -> bool:
         # The limit is for the node: time in which the machine let neither it nor us run does not count.
-        idle = Idle(self._process.next_wake, self.our_cpu_wait_s, idle_s) if idle_s is not None else None
+        idle = IdleDetector(self._process.next_wake, self.our_cpu_wait_s, idle_s) if idle_s is not None else None
         return await self._until(seen, limit_s, lambda: (self._read_cpu_time().waited_s, self.our_cpu_wait_s()), idle)
 
     async def wait_for_exit(
@@ -209,7 +209,7 @@ class RosRun:
 
         # Only the main thread's wait for a CPU excuses a late exit. Other threads may wait while it sleeps, and a delay
         # of ours changes nothing, since an exit that we see late still has its own time.
-        idle = Idle(self._process.next_wake, self.our_cpu_wait_s, RESENT_S)
+        idle = IdleDetector(self._process.next_wake, self.our_cpu_wait_s, RESENT_S)
         return await self._until(ended, limit_s, lambda: (self._read_cpu_time().main_waited_s,), idle, all_sent)
 
     async def _until(
@@ -217,7 +217,7 @@ class RosRun:
         seen: Callable[[], bool],
         limit_s: float,
         waited_s: Callable[[], tuple[float, ...]],
-        idle: Idle | None = None,
+        idle: IdleDetector | None = None,
         all_sent: Callable[[], bool] = lambda: True,
     ) -> bool:
         """Wait as `until` does; the growth of each of `waited_s` during the wait, in seconds, extends the limit.
@@ -240,7 +240,7 @@ class RosRun:
                 ended_at = now
             if ended_at is not None and now - ended_at >= IN_FLIGHT_S:
                 return False
-            if idle is not None and all_sent() and idle.until(time.time() + deadline - now):
+            if idle is not None and all_sent() and idle.is_idle_until(time.time() + deadline - now):
                 return False
             if now >= deadline:
                 if self._read_cpu_time().ran_s - ran_before_s >= ENOUGH_CPU_S:  # it was not starved
@@ -251,7 +251,8 @@ class RosRun:
                 if extension_s < POLL_S:
                     # With a limit below 1 s, no verdict depends on the result; with enough CPU time, the node did run.
                     ran_enough = limit_s < 1.0 or self._read_cpu_time().ran_s - ran_before_s >= LITTLE_CPU_S
-                    starved = sum(cpu_waits_s) > max_extension_s and free_s(now - began, cpu_waits_s) < limit_s
+                    unblocked_s = estimate_unblocked_s(now - began, cpu_waits_s)
+                    starved = sum(cpu_waits_s) > max_extension_s and unblocked_s < limit_s
                     if not ran_enough and starved:
                         raise MachineTooBusy(TOO_BUSY)
                     return False
@@ -333,8 +334,8 @@ class RosRun:
         await self.wait_for_exit(limit_s)
         ended = self.exit
         took = (self.started_at + ended.after_s if ended is not None else time.time()) - pressed
-        left = await self._survivors()
-        return Ending(ended, took, limit_s, tuple(line for line in self.output if line.at >= pressed), left)
+        survivors = await self._survivors()
+        return Ending(ended, took, limit_s, tuple(line for line in self.output if line.at >= pressed), survivors)
 
     async def _survivors(self) -> tuple[str, ...]:
         """The command lines of surviving processes, after a grace period if the first process has ended."""
@@ -355,7 +356,7 @@ class RosRun:
             os.kill(self._process.pid, signal.SIGABRT)
         await self._process.wait(2.0)
         frames = tracebacks.dumped_frames(line for line in self.output if line.at >= aborted_at)
-        return with_code(frames)
+        return add_source_lines(frames)
 
     def trace(self) -> Trace:
         return self.trace_of(self._final_graph())
@@ -397,7 +398,7 @@ class RosRun:
         return {
             "uncalled_main": uncalled_main(path),
             "launch_arguments": launch_arguments(path),
-            "sources": sources(path),
+            "sources": read_sources(path),
         }
 
     def _final_graph(self) -> Graph:

@@ -31,21 +31,21 @@ class SoFar:
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class RunSnapshot:
     """What is known about one run at one moment.
 
-    `watched`: maps the topics on which messages are awaited to their types. `unanswered`: whether a request is waiting
-    for its response. `elsewhere`: topics on which another run of the same check has published; this run may be silent
-    has_publisher on purpose, as its parameters demand.
+    `watched`: maps the topics on which messages are awaited to their types. `awaits_response`: whether a request is
+    waiting for its response. `published_elsewhere`: topics on which another run of the same check has published; this
+    run may be silent there on purpose, as its parameters demand.
     """
 
     trace: Trace
     watched: Mapping[str, str] = field(default_factory=dict)
-    unanswered: bool = False
-    elsewhere: Collection[str] = ()
+    awaits_response: bool = False
+    published_elsewhere: Collection[str] = ()
 
 
-def describe(seen: Moment, requested: LiveView) -> SoFar:
+def describe(seen: RunSnapshot, requested: LiveView) -> SoFar:
     """Name the likely cause of what is missing, or else what is missing.
 
     `requested`: the names that the exercise asks for.
@@ -75,10 +75,10 @@ def _likely(cause: Cause) -> SoFar:
     return SoFar(f"likely {cause}", likely=True)
 
 
-def _find_causes(seen: Moment, requested: LiveView) -> Iterator[Cause]:
+def _find_causes(seen: RunSnapshot, requested: LiveView) -> Iterator[Cause]:
     """Yield the possible causes, the likeliest first."""
     trace, graph = seen.trace, seen.trace.graph
-    silent = [topic for topic in _silent_topics(seen) if topic not in seen.elsewhere]
+    silent = [topic for topic in _silent_topics(seen) if topic not in seen.published_elsewhere]
     if (asleep := causes.diagnose_lifecycle(trace)) is not None:
         yield asleep
     for topic in silent:
@@ -98,11 +98,11 @@ def _find_causes(seen: Moment, requested: LiveView) -> Iterator[Cause]:
             yield Cause("wrong name", f"{miss.node} {miss.does} {miss.found}, not {miss.wanted}", "")
     if (mismatch := causes.diagnose_incompatible_service(graph.servers)) is not None:
         yield mismatch
-    if (silent or seen.unanswered) and trace.sources and not source.calls(trace, *_SPINS):
+    if (silent or seen.awaits_response) and trace.sources and not source.calls(trace, *_SPINS):
         yield Cause(names.NO_SPIN, f"{_describe_nodes(trace)}, and the program never calls rclpy.spin()", "")
 
 
-def _describe_missing(seen: Moment, requested: LiveView) -> Iterator[str]:
+def _describe_missing(seen: RunSnapshot, requested: LiveView) -> Iterator[str]:
     """Describe what has not come yet, the most informative first.
 
     Each text starts with the most important part, since its end may be cut off.
@@ -111,7 +111,7 @@ def _describe_missing(seen: Moment, requested: LiveView) -> Iterator[str]:
     for topic in _silent_topics(seen):
         has_publisher = any(each.topic == topic for each in trace.graph.publishers)
         yield f"{'nothing published' if has_publisher else 'no publisher'} on {topic} yet, {up()}"
-    if seen.unanswered:
+    if seen.awaits_response:
         yield f"no answer to a request yet, {up()}"
     graph = trace.graph
     offered = [each.name for each in graph.servers if not each.is_standard]
@@ -132,7 +132,7 @@ def _is_found(wanted: str, found: Sequence[str]) -> bool:
     return any(each.endswith(wanted) for each in found)
 
 
-def _silent_topics(seen: Moment) -> list[str]:
+def _silent_topics(seen: RunSnapshot) -> list[str]:
     return [topic for topic in seen.watched if not seen.trace.samples_on(topic)]
 
 

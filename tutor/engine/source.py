@@ -49,7 +49,7 @@ def launch_arguments(path: Path) -> tuple[str, ...]:
     return tuple(names)
 
 
-def sources(path: Path) -> Mapping[str, str]:
+def read_sources(path: Path) -> Mapping[str, str]:
     """Map file names to source texts: those of the file and of the modules beside it that it imports.
 
     For a launch file, also those of the nodes and launch files beside it that it names. Unreadable files are left out.
@@ -66,7 +66,7 @@ def sources(path: Path) -> Mapping[str, str]:
     return found
 
 
-def with_code(frames: Collection[Frame]) -> tuple[Frame, ...]:
+def add_source_lines(frames: Collection[Frame]) -> tuple[Frame, ...]:
     """Add its source line to each frame of a stack dump; "" if that cannot be read.
 
     The paths are not to be trusted: a program can print a fake dump that names any file.

@@ -20,7 +20,7 @@ from tutor.engine.alone import RunningScenarios
 EXTRA_SLOTS = 1
 """Concurrent starts beyond one per core, since a start also waits for the disk and for discovery."""
 
-ITERATIONS = 5
+GATHER_ITERATIONS = 5
 """Requests within this many iterations of the event loop are sorted together: a scenario may request several starts."""
 
 
@@ -59,7 +59,7 @@ class StartLimiter:
     async def _acquire(self, expected_s: float) -> None:
         turn = asyncio.get_running_loop().create_future()
         if not self._waiting:
-            self._grant_after(ITERATIONS)
+            self._grant_after(GATHER_ITERATIONS)
         heapq.heappush(self._waiting, (-expected_s, next(self._number), turn))
         try:
             await turn

@@ -42,7 +42,7 @@ class Rate:
         """Whether most messages directly follow another one: the mean may be right, but the spacing is not."""
         return self.samples >= MIN_FOR_BURSTS and self.median_s is not None and self.median_s * self.hz < EVEN_SHARE
 
-    def agrees(self, asked_hz: float) -> bool:
+    def agrees_with(self, asked_hz: float) -> bool:
         """Whether this is the requested rate, within the tolerance, and not in bursts."""
         return abs(self.hz - asked_hz) <= TOLERANCE * asked_hz and not self.in_bursts
 

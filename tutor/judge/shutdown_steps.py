@@ -70,7 +70,7 @@ def _with_interrupt_caught(file: NodeFile) -> list[Edit]:
         for handler in handlers:
             caught = ast.unparse(handler.type) if handler.type is not None else ""
             if any(name in caught for name in SPIN_ENDINGS) and not all(name in caught for name in SPIN_ENDINGS):
-                name, imported = file.own("ExternalShutdownException", "rclpy.executors")
+                name, imported = file.import_name("ExternalShutdownException", "rclpy.executors")
                 line = file.text.splitlines()[handler.lineno - 1].strip()
                 both = f"except (KeyboardInterrupt, {name})"
                 found += [

@@ -82,7 +82,7 @@ class SourceFile:
         found = [each for each in statements if each.lineno <= line <= (each.end_lineno or 0)]
         return max(found, key=lambda each: (each.lineno, -(each.end_lineno or 0)), default=None)
 
-    def named(self, name: str) -> list[Function]:
+    def functions_named(self, name: str) -> list[Function]:
         """The functions and methods with this name."""
         return [each for each in self.functions if each.name == name]
 
@@ -100,7 +100,7 @@ class SourceFile:
                 return self.function(first)
         return None
 
-    def reached(self, function: Function) -> list[Function]:
+    def reachable_from(self, function: Function) -> list[Function]:
         """The function itself and all functions of the file that it calls, directly or indirectly."""
         found, todo = [], [function]
         while todo:

@@ -77,14 +77,14 @@ class Ending:
     """What happened after one SIGINT (as sent by Ctrl+C).
 
     `exit` is None if the process was still running after `limit_s` seconds; `output` is what it wrote since the SIGINT.
-    `left` holds the command lines of the processes that remained at the end (including its own).
+    `survivors` holds the command lines of the processes that remained at the end (including its own).
     """
 
     exit: Exit | None
     took_s: float
     limit_s: float
     output: tuple[OutputLine, ...] = ()
-    left: tuple[str, ...] = ()
+    survivors: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from itertools import groupby
 
 from tutor.judge.trace import OutputLine, Trace
 
-MOST_CHARACTERS = 1000
+MAX_CHARACTERS = 1000
 """Maximum length of a traceback line; longer ones are cut, since the complex patterns applied to them are slow."""
 
 _AT_EXIT = "Exception ignored in atexit callback"
@@ -152,7 +152,7 @@ def lines_without_tracebacks(output: Sequence[OutputLine]) -> tuple[str, ...]:
 
 
 def _parse_tracebacks(written: Sequence[str]) -> Iterable[Traceback]:
-    lines = _without_margins([_COLOUR.sub("", text)[:MOST_CHARACTERS] for text in written])
+    lines = _without_margins([_COLOUR.sub("", text)[:MAX_CHARACTERS] for text in written])
     frames: list[Frame] = []
     headed = ignored = at_exit = chained = False
     previous: Traceback | None = None

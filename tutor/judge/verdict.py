@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import Enum
 
-MOST_CHARACTERS, MOST_OF_A_HINT, MOST_OF_A_LINE, MOST_LINES = 2000, 10_000, 500, 20
+MAX_CHARACTERS, MAX_HINT_CHARACTERS, MAX_LINE_CHARACTERS, MAX_LINES = 2000, 10_000, 500, 20
 """Size limits of a verdict: its texts, its hint (which may be a whole program), each line and all lines of evidence."""
 
 BUSY_HINT = "close what keeps this machine busy, then check again"
@@ -65,11 +65,11 @@ def bounded(verdict: Verdict) -> Verdict:
     """The verdict with its texts and evidence truncated, since they may contain output of the learner's program."""
     return replace(
         verdict,
-        expected=_truncate(verdict.expected, MOST_CHARACTERS),
-        observed=_truncate(verdict.observed, MOST_CHARACTERS),
-        cause=_truncate(verdict.cause, MOST_CHARACTERS),
-        hint=_truncate(verdict.hint, MOST_OF_A_HINT),
-        evidence=tuple(_truncate(line, MOST_OF_A_LINE) for line in verdict.evidence[:MOST_LINES]),
+        expected=_truncate(verdict.expected, MAX_CHARACTERS),
+        observed=_truncate(verdict.observed, MAX_CHARACTERS),
+        cause=_truncate(verdict.cause, MAX_CHARACTERS),
+        hint=_truncate(verdict.hint, MAX_HINT_CHARACTERS),
+        evidence=tuple(_truncate(line, MAX_LINE_CHARACTERS) for line in verdict.evidence[:MAX_LINES]),
     )
 
 

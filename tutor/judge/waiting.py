@@ -22,10 +22,10 @@ OTHER_NAME_S = 2.5
 """Patience once an endpoint has the right type but the wrong name: all others appear within this time, even if the node
 pauses for 2 s."""
 
-RARE_S = 12.0
+MESSAGE_GAP_S = 12.0
 """Time that an existing publisher may take between messages."""
 
-AGAIN_S = 3.5
+REMEASURE_S = 3.5
 """Minimum length of a repeated rate measurement, long enough to recognise a rate of 1 Hz."""
 
 IDLE_S = 0.7
@@ -57,16 +57,16 @@ async def wait_until_seen(
     seen: Callable[[], bool],
     *,
     promised: Callable[[], bool] = lambda: False,
-    rare_s: float = RARE_S,
+    message_gap_s: float = MESSAGE_GAP_S,
     idle_s: float = RESENT_S,
     settle_s: Callable[[], float] = lambda: SETTLE_S,
 ) -> bool:
     """Wait until `seen()`; give up if the process ends, never creates a node, or its node shows no sign of it in time.
 
-    `promised()`: something announces it, such as a publisher on the topic; then wait up to `rare_s` more seconds.
-    `idle_s`: also give up once the node has been idle for that long (see `Run.until`); keep the default when waiting
-    for a change to the graph, which may reach us late. `settle_s()`: how much longer, given what is known of the node
-    now, it may take to be seen or promised; the total is limited to `SETTLE_S`.
+    `promised()`: something announces it, such as a publisher on the topic; then wait up to `message_gap_s` more
+    seconds. `idle_s`: also give up once the node has been idle for that long (see `Run.until`); keep the default when
+    waiting for a change to the graph, which may reach us late. `settle_s()`: how much longer, given what is known of
+    the node now, it may take to be seen or promised; the total is limited to `SETTLE_S`.
     """
     if await run.until(lambda: seen() or bool(run.graph.nodes), START_S, idle_s=NO_NODE_S) and not seen():
         limit_s, since, cpu_wait_s = SETTLE_S, run.now(), run.node_cpu_wait_s()
@@ -81,7 +81,7 @@ async def wait_until_seen(
         if not seen() and not promised():
             return False
         if not seen():
-            await run.until(seen, rare_s, idle_s=idle_s)
+            await run.until(seen, message_gap_s, idle_s=idle_s)
     return seen()
 
 
@@ -93,13 +93,13 @@ def patience_s(present: Iterable[tuple[str, str]], name: str, type_name: str) ->
     return OTHER_NAME_S if others else SETTLE_S
 
 
-async def wait_for_message(run: Run, topic: str, type_name: str, *, rare_s: float = RARE_S) -> bool:
+async def wait_for_message(run: Run, topic: str, type_name: str, *, message_gap_s: float = MESSAGE_GAP_S) -> bool:
     """Wait for a message of this type on this (watched) topic."""
     return await wait_until_seen(
         run,
         lambda: bool(run.samples_on(topic)),
         promised=lambda: any(p.topic == topic and p.type == type_name for p in run.graph.publishers),
-        rare_s=rare_s,
+        message_gap_s=message_gap_s,
         idle_s=IDLE_S,
         settle_s=lambda: _publisher_patience_s(run, topic, type_name),
     )
@@ -127,9 +127,9 @@ async def find_stuck_frames(bench: Bench, file: str) -> tuple[Frame, ...]:
         return await run.dump_stacks()
 
 
-async def wait_until_log_quiet(run: Run, *, quiet_s: float, most_s: float) -> None:
-    """Wait until nothing has been logged for `quiet_s`, but at most for `most_s`, since a node may log forever."""
-    seen, until = -1, run.now() + most_s
+async def wait_until_log_quiet(run: Run, *, quiet_s: float, max_s: float) -> None:
+    """Wait until nothing has been logged for `quiet_s`, but at most for `max_s`, since a node may log forever."""
+    seen, until = -1, run.now() + max_s
     while len(run.logs) != seen and run.now() < until:
         seen = len(run.logs)
         await run.until(lambda seen=seen: len(run.logs) != seen, quiet_s)  # type: ignore[misc]
@@ -150,27 +150,27 @@ async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: f
     start, for_s = max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz
     rate, messages = await _measure_window(run, topic, start, for_s)
     for _ in range(TRIES):
-        if rate is not None and rate.agrees(asked_hz):
+        if rate is not None and rate.agrees_with(asked_hz):
             break
-        for_s, cpu_wait_s = max(window_s(asked_hz), AGAIN_S), run.node_cpu_wait_s()
+        for_s, cpu_wait_s = max(window_s(asked_hz), REMEASURE_S), run.node_cpu_wait_s()
         rate, messages = await _measure_window(run, topic, run.now(), for_s)
-        if not too_few_by_cpu_wait(messages, asked_hz, cpu_wait_s=run.node_cpu_wait_s() - cpu_wait_s, of_s=for_s):
+        if not too_few_by_cpu_wait(messages, asked_hz, cpu_wait_s=run.node_cpu_wait_s() - cpu_wait_s, elapsed_s=for_s):
             break
     else:
-        if rate is None or not rate.agrees(asked_hz):
+        if rate is None or not rate.agrees_with(asked_hz):
             raise MachineTooBusy("this machine is too busy to measure a rate")
     return rate, messages
 
 
-def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, of_s: float) -> bool:
-    """Whether the node's wait for a CPU (`cpu_wait_s` of `of_s`) alone may explain why it sent so few messages.
+def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, elapsed_s: float) -> bool:
+    """Whether the node's wait for a CPU (`cpu_wait_s` of `elapsed_s`) alone may explain why it sent so few messages.
 
     Too many messages are never excused.
     """
-    if cpu_wait_s < CPU_WAIT_SHARE * of_s:
+    if cpu_wait_s < CPU_WAIT_SHARE * elapsed_s:
         return False
-    mean_hz = max(messages, 1) / of_s
-    running_share = max(0.05, 1 - cpu_wait_s / of_s)
+    mean_hz = max(messages, 1) / elapsed_s
+    running_share = max(0.05, 1 - cpu_wait_s / elapsed_s)
     return mean_hz <= asked_hz and mean_hz / running_share >= (1 - TOLERANCE) * asked_hz
 
 

@@ -11,7 +11,7 @@ import os
 import sys
 from typing import BinaryIO
 
-from tutor.interpreter import collect_garbage_seldom
+from tutor.interpreter import reduce_gc_frequency
 from tutor.live.protocol import Update, decode_request, encode_update
 from tutor.live.request_reader import read_lines
 from tutor.live.updates import TopicUpdate
@@ -19,13 +19,13 @@ from tutor.process.prctl import die_with_parent
 from tutor.ros.environment import detect
 from tutor.ros.process_setup import prepare_for_rclpy
 
-MOST_UNREAD_BYTES = 1 << 20
+MAX_UNREAD_BYTES = 1 << 20
 """With more than this many bytes unread, topic updates are dropped, since later ones supersede them."""
 
 
 def main() -> int:
     """Watch until stdin ends. Exit code 0."""
-    collect_garbage_seldom()
+    reduce_gc_frequency()
     prepare_for_rclpy(detect(), isolated=False)
     die_with_parent()
     # Anything that libraries print must not get mixed into the updates.
@@ -44,7 +44,7 @@ async def _watch(pipe: BinaryIO) -> None:
     transport, _ = await loop.connect_write_pipe(asyncio.BaseProtocol, pipe)
 
     def send(update: Update) -> None:
-        if not (isinstance(update, TopicUpdate) and transport.get_write_buffer_size() > MOST_UNREAD_BYTES):
+        if not (isinstance(update, TopicUpdate) and transport.get_write_buffer_size() > MAX_UNREAD_BYTES):
             transport.write(encode_update(update).encode() + b"\n")
 
     watcher = Watcher(_domain_id(), send)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from tutor.errors import UnknownType
 from tutor.live.protocol import Call
-from tutor.live.topics import MOST_TEXT
+from tutor.live.topics import MAX_TEXT
 from tutor.live.updates import CallOutcome, RequestForm
 from tutor.ros.fields import fill_request, message_fields, request_fields
 from tutor.ros.messages import truncate
@@ -66,7 +66,7 @@ class ServiceCalls:
         fields = {name: getattr(request, name) for name in request.get_fields_and_field_types()}
         answer = await self._observer.call(call.service, call.type, fields, call.limit_s)
         if answer is not None:
-            return truncate(to_yaml(answer), MOST_TEXT), ""
+            return truncate(to_yaml(answer), MAX_TEXT), ""
         if not self._is_offered(call.service):
             return None, "no answer: no node offers this service any more"
         return None, f"no answer within {call.limit_s:g} s: does the node spin, and does its callback return?"

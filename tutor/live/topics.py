@@ -21,10 +21,10 @@ POINTS_PER_UPDATE = 10
 BIG_BYTES = 100_000
 """If messages are larger than this, only the newest is sampled."""
 
-MOST_BYTES = 10_000_000
+MAX_BYTES = 10_000_000
 """Messages larger than this are only counted."""
 
-MOST_TEXT = 100_000
+MAX_TEXT = 100_000
 """A message's YAML text is cut at this many characters."""
 
 SILENT_INTERVAL_S = 1.0
@@ -145,7 +145,7 @@ class FollowedTopics:
             followed.stale = False
         followed.reported_at = now
         text, fields = self._format_newest(followed, newest, now)
-        readable = [each for each in samples if followed.path and len(each[1]) <= MOST_BYTES]
+        readable = [each for each in samples if followed.path and len(each[1]) <= MAX_BYTES]
         points = [
             (stamp, value)
             for stamp, raw in readable
@@ -171,12 +171,12 @@ class FollowedTopics:
     ) -> tuple[str | None, tuple[str, ...]]:
         if newest is None or newest is followed.reported or now < followed.text_after:
             return None, ()
-        if len(newest) > MOST_BYTES:
+        if len(newest) > MAX_BYTES:
             followed.reported = newest
             return f"(a message of {len(newest) / 1e6:.0f} MB: too big to show here)", ()
         began = time.perf_counter()
         message = deserialize(followed.type, newest)
-        text = truncate(to_yaml(message), MOST_TEXT)
+        text = truncate(to_yaml(message), MAX_TEXT)
         fields = numeric_fields(message)
         if not followed.path and fields:
             followed.path = next((path for path in fields if "stamp" not in path.split(".")), fields[0])

@@ -90,7 +90,7 @@ class ChecklistCommands:
 
 
 def _describe(item: AssessedItem) -> str:
-    shown = "; ".join(describe_evidence(item.evidence, near_day, most=_MAX_EVIDENCE))
+    shown = "; ".join(describe_evidence(item.evidence, near_day, max_items=_MAX_EVIDENCE))
     return f"{'ticked' if item.ticked else 'not ticked'}: {item.text}.{f' Evidence: {shown}.' if shown else ''}"
 
 

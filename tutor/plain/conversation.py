@@ -47,7 +47,7 @@ class Conversation:
         self.lesson = lesson
         self.say(f"You are at {self.describe(lesson, self.session.progress())}")
         try:
-            self.session.keep(replace(self.session.app_state(), lesson=lesson.id))
+            self.session.save_app_state(replace(self.session.app_state(), lesson=lesson.id))
         except StorageError as error:
             self.say(f"Your place could not be saved: {error}")
 

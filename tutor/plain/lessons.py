@@ -102,7 +102,7 @@ class Lessons:
         count = len(lesson.hints)
         number, again = 1, False
         if session.workspace.exists:
-            number, again = session.workspace.progress(self._conversation.say).next_hint(lesson.id, of=count)
+            number, again = session.workspace.progress(self._conversation.say).next_hint(lesson.id, total=count)
         self._conversation.say(
             f"Hint {number} of {count}{', again' if again else ''}: {_as_one_line(lesson.hints[number - 1])}"
         )

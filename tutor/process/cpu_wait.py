@@ -61,12 +61,12 @@ def own_cpu_time() -> CpuTime:
     return _own_reading[2]
 
 
-def free_s(of_s: float, late_s: Iterable[float]) -> float:
-    """Estimate for how much of `of_s` seconds nobody waited for a CPU.
+def estimate_unblocked_s(elapsed_s: float, cpu_waits_s: Iterable[float]) -> float:
+    """Estimate for how much of `elapsed_s` seconds no process waited for a CPU.
 
-    `late_s` holds how long each one waited; their waits are taken as independent of each other.
+    `cpu_waits_s` holds how long each one waited; their waits are taken as independent of each other.
     """
-    return of_s * math.prod(max(0.0, 1 - each / of_s) for each in late_s) if of_s > 0 else 0.0
+    return elapsed_s * math.prod(max(0.0, 1 - each / elapsed_s) for each in cpu_waits_s) if elapsed_s > 0 else 0.0
 
 
 def recent_processes(pid: int) -> dict[int, Process]:

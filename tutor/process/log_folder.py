@@ -15,14 +15,14 @@ from uuid import uuid4
 
 from tutor import private_folders
 
-MOST_BYTES = 16_000_000
+MAX_BYTES = 16_000_000
 """Disk usage above which the log files of a check are truncated. Nobody reads them."""
 
-MOST_APP_BYTES = 256_000_000
+MAX_APP_BYTES = 256_000_000
 """The same limit for all nodes that the app has run, whose log files people may want to read."""
 
 CHECK_INTERVAL_S = 0.2
-MOST_ENTRIES, MOST_OPENED = 10_000, 100
+MAX_ENTRIES, MAX_OPENED = 10_000, 100
 
 _FOLDER_FLAGS = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
 _FILE_FLAGS = os.O_WRONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
@@ -52,27 +52,27 @@ def temporary_log_folder() -> Iterator[Path]:
         os.close(folder)
 
 
-async def limit(path: Path, most: int = MOST_APP_BYTES) -> None:
+async def keep_small_until_cancelled(path: Path, max_bytes: int = MAX_APP_BYTES) -> None:
     """Keep the log files in a folder small until cancelled. The folder need not exist yet."""
     while True:
         with contextlib.suppress(OSError):
             folder = os.open(path, _FOLDER_FLAGS)
             try:
-                keep_small(folder, most)
+                keep_small(folder, max_bytes)
             finally:
                 os.close(folder)
         await asyncio.sleep(CHECK_INTERVAL_S)
 
 
-def keep_small(folder: int, most: int = MOST_BYTES) -> None:
-    """Truncate the log files in an open folder and its direct subfolders if they use more than `most` bytes of disk."""
+def keep_small(folder: int, max_bytes: int = MAX_BYTES) -> None:
+    """Truncate the log files in an open folder and its direct subfolders if they use more than `max_bytes` on disk."""
     with contextlib.ExitStack() as opened, contextlib.suppress(OSError):
         folders = [folder, *_open_all(folder, _largest(folder, folders=True), _FOLDER_FLAGS, opened)]
         logs = [(each, _largest(each)) for each in folders]
-        if _disk_bytes(blocks for _, found in logs for blocks, _ in found) <= most:  # the usual case: no file is opened
-            return
+        if _disk_bytes(blocks for _, found in logs for blocks, _ in found) <= max_bytes:
+            return  # the usual case: no file is opened
         files = [file for each, found in logs for file in _open_all(each, found, _FILE_FLAGS, opened)]
-        if _disk_bytes(os.fstat(file).st_blocks for file in files) > most:
+        if _disk_bytes(os.fstat(file).st_blocks for file in files) > max_bytes:
             for file in files:
                 os.ftruncate(file, 0)  # loggers open it for appending, so they continue at the new end
 
@@ -86,10 +86,10 @@ def _largest(folder: int, *, folders: bool = False) -> list[tuple[int, str]]:
     with os.scandir(folder) as entries:
         found = [
             (_blocks(entry), entry.name)
-            for entry in itertools.islice(entries, MOST_ENTRIES)
+            for entry in itertools.islice(entries, MAX_ENTRIES)
             if entry.is_dir(follow_symlinks=False) == folders and (folders or entry.name.endswith(".log"))
         ]
-    return heapq.nlargest(MOST_OPENED, found)
+    return heapq.nlargest(MAX_OPENED, found)
 
 
 def _open_all(folder: int, found: Iterable[tuple[int, str]], flags: int, opened: contextlib.ExitStack) -> Iterator[int]:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 PIPE_BYTES = 1 << 20
 
-MOST_PER_S = 2_000_000
+MAX_PER_S = 2_000_000
 LINE_BYTES = 100
 """Sustained read rate of a pipe in bytes per second, with each line counted as `LINE_BYTES` extra: about 20,000 short
 lines or 2 MB of long ones. A faster writer blocks, as it does on a slow terminal.
@@ -83,18 +83,18 @@ class PipeReader:
     def _delay_s(self) -> float:
         """Return how many seconds to wait before the next read to hold the rate limit; 0 or less if none."""
         now = time.monotonic()
-        self._credit = min(BURST_BYTES, self._credit + (now - self._credit_at) * MOST_PER_S)
+        self._credit = min(BURST_BYTES, self._credit + (now - self._credit_at) * MAX_PER_S)
         self._credit_at = now
-        return -self._credit / MOST_PER_S
+        return -self._credit / MAX_PER_S
 
-    def _read(self, most: int) -> int:
+    def _read(self, max_bytes: int) -> int:
         if self._fd < 0:
             return 0
         try:
-            data = os.read(self._fd, most)
+            data = os.read(self._fd, max_bytes)
         except BlockingIOError:
             return 0
-        self._credit = max(self._credit - len(data) - LINE_BYTES * data.count(b"\n"), -_LONGEST_PAUSE_S * MOST_PER_S)
+        self._credit = max(self._credit - len(data) - LINE_BYTES * data.count(b"\n"), -_LONGEST_PAUSE_S * MAX_PER_S)
         if data:
             self._feed(data)
         else:

@@ -27,10 +27,10 @@ def near_day(at: str, today: date | None = None) -> str:
     return {now: "today", now - timedelta(days=1): "yesterday"}.get(found, found.isoformat())
 
 
-def describe_evidence(evidence: Sequence[Evidence], day: Day, most: int | None = None) -> list[str]:
+def describe_evidence(evidence: Sequence[Evidence], day: Day, max_items: int | None = None) -> list[str]:
     """Return one phrase per exercise and day: "i2.1 runtime-params and timer passed, today".
 
-    If there are more than `most`, return the first `most`, followed by "N more".
+    If there are more than `max_items`, return the first `max_items`, followed by "N more".
     """
     criteria_by_day: dict[tuple[str, str], list[str]] = {}
     for each in evidence:
@@ -39,9 +39,9 @@ def describe_evidence(evidence: Sequence[Evidence], day: Day, most: int | None =
         f"{_join_names(exercise, criteria)} passed{f', {when}' if when else ''}"
         for (exercise, when), criteria in criteria_by_day.items()
     ]
-    if most is None or len(phrases) <= most:
+    if max_items is None or len(phrases) <= max_items:
         return phrases
-    return [*phrases[:most], f"{len(phrases) - most} more"]
+    return [*phrases[:max_items], f"{len(phrases) - max_items} more"]
 
 
 def describe_sources(sources: Sequence[Source]) -> list[str]:

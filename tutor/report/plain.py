@@ -9,28 +9,28 @@ from tutor.terminal_text import printable
 MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status.ERROR: "!"}
 
 
-def one_line(text: str, most: int = 300) -> str:
-    """Return `printable` text as one line, shortened to `most` characters with "..."."""
+def one_line(text: str, max_length: int = 300) -> str:
+    """Return `printable` text as one line, shortened to `max_length` characters with "..."."""
     text = " ".join(printable(text).split())
-    return text if len(text) <= most else f"{text[: most - 3].rstrip()}..."
+    return text if len(text) <= max_length else f"{text[: max_length - 3].rstrip()}..."
 
 
-def describe_waiting(doing: str, so_far: str, most: int) -> str:
+def describe_waiting(doing: str, so_far: str, max_length: int) -> str:
     """Describe a criterion that is still waiting: what is being done to the node, and the provisional result so far.
 
-    If both do not fit into `most` characters, only the provisional result is returned.
+    If both do not fit into `max_length` characters, only the provisional result is returned.
     """
     if not so_far:
         return doing
     known = f"so far: {one_line(so_far)}"
     both = f"{doing}; {known}" if doing else known
-    return both if len(both) <= most else known
+    return both if len(both) <= max_length else known
 
 
-def evidence_lines(verdict: Verdict, most: int = 500) -> list[str]:
-    """Return the evidence as `printable` lines of at most `most` characters."""
+def evidence_lines(verdict: Verdict, max_length: int = 500) -> list[str]:
+    """Return the evidence as `printable` lines of at most `max_length` characters."""
     lines = [line for text in verdict.evidence for line in printable(text).split("\n")]
-    return [line if len(line) <= most else f"{line[: most - 3]}..." for line in lines]
+    return [line if len(line) <= max_length else f"{line[: max_length - 3]}..." for line in lines]
 
 
 def details(verdict: Verdict) -> list[tuple[str, str]]:

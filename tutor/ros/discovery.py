@@ -16,7 +16,7 @@ _GROUP = f"239.{'.'.join(map(str, secrets.token_bytes(3)))}"
 """The multicast group for discovery in our checks. Each checking process picks its own at random, so that a program
 that joins another check's domain finds nobody there."""
 _LOOPBACK = "127.0.0.1"
-PORTS_OF_CHECKS = (2000, 25)
+CHECK_PORTS = (2000, 25)
 """Like `DDS_PORTS`, but for checks, as set in isolated.xml."""
 DDS_PORTS = (7400, 250)
 """The default port layout of RTPS: the first UDP port of domain 0, and the number of ports per domain."""
@@ -48,7 +48,7 @@ def own_ports(environ: Mapping[str, str] = os.environ) -> tuple[int, int] | None
     if Path("DEFAULT_FASTRTPS_PROFILES.xml").exists():  # Fast DDS reads it from the current folder
         return None
     if profiles == {str(PROFILE)}:
-        return PORTS_OF_CHECKS
+        return CHECK_PORTS
     return None if profiles - {str(PROMPT_PROFILE)} else DDS_PORTS
 
 

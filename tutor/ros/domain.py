@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from tutor.errors import NoFreeDomain
-from tutor.ros.discovery import DDS_PORTS, PORTS_OF_CHECKS, own_ports
+from tutor.ros.discovery import CHECK_PORTS, DDS_PORTS, own_ports
 
 IDS = tuple(id_ for id_ in range(240, 1224) if id_ % 10 in {0, 3})
 """Domain ids of checks. Their ports are below Linux's ephemeral range (which starts at 32768).
@@ -69,7 +69,7 @@ def participants_here(domain_id: int) -> int | None:
 
 def _is_quiet(domain: int) -> bool:
     """Return whether nothing on this machine has bound the domain's discovery port."""
-    first, per_domain = PORTS_OF_CHECKS
+    first, per_domain = CHECK_PORTS
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as port:
         return _try_bind(port, ("", first + per_domain * domain))
 

@@ -156,7 +156,7 @@ def _distro_of(path: Path) -> str:
 def _system_python(home: Path, environ: Mapping[str, str]) -> Path | None:
     own = [home / "bin" / "python3.12", Path("/usr/bin/python3.12"), Path("/usr/local/bin/python3.12")]
     base = Path(getattr(sys, "_base_executable", ""))
-    found = shutil.which("python3.12", path=prefixes.joined(prefixes.without_bundled(environ, "PATH")))
+    found = shutil.which("python3.12", path=prefixes.join_entries(prefixes.without_bundled(environ, "PATH")))
     candidates = [*own, base, *([Path(found)] if found else [])]
     return next((python for python in candidates if python.is_file() and not prefixes.is_bundled(python)), None)
 
@@ -171,12 +171,12 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
     }
     if ros.kind == "bundled":
         binaries = Path(sys.prefix) / "bin"
-        env["PATH"] = prefixes.joined([binaries, *prefixes.without_ros(environ, "PATH")])
-        env["LD_LIBRARY_PATH"] = prefixes.joined(
+        env["PATH"] = prefixes.join_entries([binaries, *prefixes.without_ros(environ, "PATH")])
+        env["LD_LIBRARY_PATH"] = prefixes.join_entries(
             [*prefixes.bundled_libraries(), *prefixes.without_ros(environ, "LD_LIBRARY_PATH")]
         )
         python_path = [str(bundled_interfaces.site_packages()), *prefixes.without_ros(environ, "PYTHONPATH")]
-        env["AMENT_PREFIX_PATH"] = prefixes.joined([bundled_interfaces.prefix(), sys.prefix])
+        env["AMENT_PREFIX_PATH"] = prefixes.join_entries([bundled_interfaces.prefix(), sys.prefix])
         rest = {name: prefixes.without_ros(environ, name) for name in _ROS_PATH_VARIABLES}
     else:
         python_path = prefixes.without_bundled(environ, "PYTHONPATH")
@@ -184,11 +184,11 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
             name: prefixes.without_bundled(environ, name)
             for name in ("PATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", *_ROS_PATH_VARIABLES)
         }
-    env["PYTHONPATH"] = prefixes.joined([*first_on_path, *python_path])
+    env["PYTHONPATH"] = prefixes.join_entries([*first_on_path, *python_path])
     for name, left in rest.items():
         env.pop(name, None)
         if left:
-            env[name] = prefixes.joined(left)
+            env[name] = prefixes.join_entries(left)
     env[BOOTSTRAP_DONE] = "1"
     env["RMW_IMPLEMENTATION"] = ros.rmw
     env[UNBUFFERED] = "1"  # otherwise output to a pipe would be delayed

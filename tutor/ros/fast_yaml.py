@@ -16,10 +16,10 @@ _QUOTED = re.compile(r"(?=.*: )[!-~](?:[ -~]*[!-~])?\Z")
 _RESERVED_WORDS = frozenset(["yes", "no", "true", "false", "on", "off", "null"])
 
 
-def dump_plain(message: Any, longest: int | None) -> str | None:
-    """Return the message in block style, arrays cut at `longest` elements; None if it needs PyYAML."""
+def dump_plain(message: Any, max_length: int | None) -> str | None:
+    """Return the message in block style, arrays cut at `max_length` elements; None if it needs PyYAML."""
     lines: list[str] = []
-    return "".join(lines) if _write(message, "", longest, lines) else None
+    return "".join(lines) if _write(message, "", max_length, lines) else None
 
 
 def is_array(value: Any) -> bool:
@@ -27,29 +27,29 @@ def is_array(value: Any) -> bool:
     return isinstance(value, (list, tuple, array.array)) or (hasattr(value, "tolist") and hasattr(value, "__len__"))
 
 
-def _write(message: Any, indent: str, longest: int | None, lines: list[str]) -> bool:
+def _write(message: Any, indent: str, max_length: int | None, lines: list[str]) -> bool:
     names = message.get_fields_and_field_types()
     for name in names:
         value = getattr(message, name)
         if name in _RESERVED_WORDS:
             return False
-        if (written := _scalar(value, longest)) is not None:
+        if (written := _scalar(value, max_length)) is not None:
             lines.append(f"{indent}{name}: {written}\n")
         elif hasattr(value, "get_fields_and_field_types"):
             lines.append(f"{indent}{name}:\n")
-            if not _write(value, f"{indent}  ", longest, lines):
+            if not _write(value, f"{indent}  ", max_length, lines):
                 return False
-        elif not is_array(value) or not _write_array(name, value, indent, longest, lines):
+        elif not is_array(value) or not _write_array(name, value, indent, max_length, lines):
             return False
     return bool(names)
 
 
-def _write_array(name: str, values: Any, indent: str, longest: int | None, lines: list[str]) -> bool:
+def _write_array(name: str, values: Any, indent: str, max_length: int | None, lines: list[str]) -> bool:
     if not len(values):
         lines.append(f"{indent}{name}: []\n")
         return True
-    shown = values[:longest]
-    written = [_scalar(value, longest) for value in (shown.tolist() if hasattr(shown, "tolist") else shown)]
+    shown = values[:max_length]
+    written = [_scalar(value, max_length) for value in (shown.tolist() if hasattr(shown, "tolist") else shown)]
     if None in written:
         return False
     lines.append(f"{indent}{name}:\n")
@@ -59,10 +59,10 @@ def _write_array(name: str, values: Any, indent: str, longest: int | None, lines
     return True
 
 
-def _scalar(value: Any, longest: int | None) -> str | None:
+def _scalar(value: Any, max_length: int | None) -> str | None:
     kind = type(value)
     if kind is str:
-        if longest is not None and len(value) > longest:
+        if max_length is not None and len(value) > max_length:
             return None
         if _PLAIN.match(value):
             return None if value.lower() in _RESERVED_WORDS else str(value)

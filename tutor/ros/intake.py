@@ -17,16 +17,16 @@ from tutor.ros_model import QoS
 QUEUE_DEPTH = 1000
 """Queue depth of our subscriptions, so that a burst arrives whole that a default-QoS subscriber would lose in part."""
 
-MOST_QUEUED_BYTES = 8_000_000
+MAX_QUEUED_BYTES = 8_000_000
 """Most bytes in the queue: it is made shorter for large messages. A single message above this is the last one taken."""
 
-MOST_READABLE_BYTES = 2_000_000
+MAX_READABLE_BYTES = 2_000_000
 """A larger message is counted, with its time and size, but not decoded."""
 
-MOST_SAMPLES = 20_000
+MAX_SAMPLES = 20_000
 """We unsubscribe from a topic after this many samples, so that a flood cannot exhaust our memory."""
 
-MOST_BYTES = 8_000_000
+MAX_BYTES = 8_000_000
 """We also unsubscribe after keeping this many bytes."""
 
 
@@ -74,19 +74,19 @@ class Intake:
         size = len(data)
         self._received += 1
         self._kept_bytes += self._take(self._read(data), info["source_timestamp"] * 1e-9)
-        if size > MOST_READABLE_BYTES:
+        if size > MAX_READABLE_BYTES:
             self._kept_bytes += size // RECEIVED_PER_KEPT_BYTE
-        if self._received >= MOST_SAMPLES or self._kept_bytes > MOST_BYTES or size > MOST_QUEUED_BYTES:
+        if self._received >= MAX_SAMPLES or self._kept_bytes > MAX_BYTES or size > MAX_QUEUED_BYTES:
             self.unsubscribe()
-        elif size * self._depth > MOST_QUEUED_BYTES:
+        elif size * self._depth > MAX_QUEUED_BYTES:
             self.unsubscribe()
-            self._depth = max(1, MOST_QUEUED_BYTES // size)
+            self._depth = max(1, MAX_QUEUED_BYTES // size)
             # Volatile: the messages stored for late subscribers have already arrived.
             self._requested = replace(self._requested, durability="volatile")
             self._subscription = self._subscribe()
 
     def _read(self, data: bytes) -> Any:
-        if len(data) > MOST_READABLE_BYTES:
+        if len(data) > MAX_READABLE_BYTES:
             return placeholder_message(self._type, f"(a message of {len(data) / 1e6:.1f} MB, too large to decode)")
         try:
             return deserialize_message(data, self._type)

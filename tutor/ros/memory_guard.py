@@ -14,7 +14,7 @@ import time
 from functools import cache
 from typing import Protocol
 
-MOST_BYTES = 32_000_000
+MAX_BYTES = 32_000_000
 """Most memory in large blocks, above the baseline. Taking a received message makes up to three copies of it."""
 
 _POLL_S = 0.02
@@ -121,7 +121,7 @@ def _run() -> None:
                 _thread = None
                 return
         time.sleep(_POLL_S)
-        exceeds = _exceeds(baseline + MOST_BYTES + len(watched) * _OBSERVER_BYTES)
+        exceeds = _exceeds(baseline + MAX_BYTES + len(watched) * _OBSERVER_BYTES)
         if exceeds or exceeded_since is not None:  # an innocent node loses nothing: its messages wait
             for participant in watched:
                 participant.pause(exceeds)
@@ -138,8 +138,8 @@ def _run() -> None:
             participant.drop_received()
 
 
-def _exceeds(most: int) -> bool:
-    return (_large_bytes() or 0) > most
+def _exceeds(max_bytes: int) -> bool:
+    return (_large_bytes() or 0) > max_bytes
 
 
 def _receiving(watched: tuple[Guarded, ...]) -> tuple[Guarded, ...]:

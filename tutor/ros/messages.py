@@ -12,7 +12,7 @@ from typing import Any
 
 from tutor.errors import UnknownType
 
-MOST_CHARACTERS, MOST_ELEMENTS = 10_000, 100_000
+MAX_CHARACTERS, MAX_ELEMENTS = 10_000, 100_000
 """Limits on what is kept: characters of each string, and array elements of a whole message."""
 
 _ELEMENT_BYTES = 16
@@ -46,7 +46,7 @@ def _has_interfaces(package: str) -> bool:
 def to_plain(message: Any) -> dict[str, Any]:
     """Return a message as a dict of its fields; nested messages become dicts, arrays become lists.
 
-    Strings are cut at `MOST_CHARACTERS`, and arrays once the whole message has more than `MOST_ELEMENTS` elements.
+    Strings are cut at `MAX_CHARACTERS`, and arrays once the whole message has more than `MAX_ELEMENTS` elements.
     """
     return to_plain_and_size(message)[0]
 
@@ -58,9 +58,9 @@ def to_plain_and_size(message: Any) -> tuple[dict[str, Any], int]:
     return plain, converter.bytes
 
 
-def truncate(text: str, most: int = MOST_CHARACTERS) -> str:
-    """Return the text, cut at `most` characters with an ellipsis."""
-    return text if len(text) <= most else f"{text[: most - 3]}..."
+def truncate(text: str, max_length: int = MAX_CHARACTERS) -> str:
+    """Return the text, cut at `max_length` characters with an ellipsis."""
+    return text if len(text) <= max_length else f"{text[: max_length - 3]}..."
 
 
 def kept_bytes(text: str, kept: str) -> int:
@@ -89,7 +89,7 @@ class _Converter:
 
     def __init__(self) -> None:
         self.bytes = 0
-        self._elements = MOST_ELEMENTS
+        self._elements = MAX_ELEMENTS
 
     def convert(self, message: Any) -> dict[str, Any]:
         return {name: self._plain(getattr(message, name)) for name in message.get_fields_and_field_types()}

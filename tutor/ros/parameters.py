@@ -26,12 +26,12 @@ _VALUE_FIELDS = (
 )
 
 
-MOST_PARAMETERS, MOST_ELEMENTS = 500, 1000
+MAX_PARAMETERS, MAX_ELEMENTS = 500, 1000
 """Limits on the parameters read from a node, and on the elements kept of an array. Strings are cut, too."""
 
 LONGEST_NAME = 1000
 
-MOST_BYTES = 64_000_000
+MAX_BYTES = 64_000_000
 """Once this much of a node's strings and arrays has been received, no more of them are requested."""
 
 TOO_LARGE = (0, "(too large to be read)")
@@ -96,7 +96,7 @@ async def _get_node_parameters(observer: Observer, node: str, limit_s: float) ->
         return ()
     if listed is None:
         return None
-    names = [name for name in listed.result.names[:MOST_PARAMETERS] if len(name) <= LONGEST_NAME]
+    names = [name for name in listed.result.names[:MAX_PARAMETERS] if len(name) <= LONGEST_NAME]
     if not names:
         return ()
     request = {"names": names}
@@ -130,11 +130,11 @@ class _ValueReader:
         self._limit_s = limit_s
 
     async def read_in_batches(self, names: list[str]) -> None:
-        """Read parameters of any size, and stop after `MOST_BYTES`."""
+        """Read parameters of any size, and stop after `MAX_BYTES`."""
         batch_size, received = 1, 0
         while names:
             batch, names = names[:batch_size], names[batch_size:]
-            if received > MOST_BYTES:
+            if received > MAX_BYTES:
                 self.found.update(dict.fromkeys(batch, TOO_LARGE))
                 continue
             size = await self.read(batch, large=True)
@@ -154,7 +154,7 @@ class _ValueReader:
             if len(names) > 1:
                 return sum([await self.read([name], large=large) for name in names])
             self.found[names[0]] = TOO_LARGE
-            return MOST_BYTES // 4
+            return MAX_BYTES // 4
         values = list(answer.values) if answer is not None else []
         # A parameter that is declared without a value makes get_parameters return nothing at all: read one by one then.
         if len(values) != len(names) and len(names) > 1:
@@ -186,7 +186,7 @@ def _read_value(value: Any) -> tuple[int, Any]:
     content = getattr(value, field) if field else None
     if isinstance(content, str):
         return value.type, truncate(content)
-    return value.type, content[:MOST_ELEMENTS] if content is not None and hasattr(content, "__len__") else content
+    return value.type, content[:MAX_ELEMENTS] if content is not None and hasattr(content, "__len__") else content
 
 
 def _value_bytes(value: Any) -> int:

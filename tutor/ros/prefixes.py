@@ -18,7 +18,7 @@ def entries(environ: Mapping[str, str], name: str) -> list[str]:
     return list(dict.fromkeys(entry for entry in environ.get(name, "").split(os.pathsep) if entry))
 
 
-def joined(parts: Iterable[str | Path]) -> str:
+def join_entries(parts: Iterable[str | Path]) -> str:
     """Join entries to the value of a PATH-like variable, without duplicates, in order."""
     return os.pathsep.join(dict.fromkeys(str(part) for part in parts))
 

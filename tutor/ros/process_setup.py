@@ -58,14 +58,14 @@ def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
     `tutor.ros.bundled_interfaces.activate` raises if the bundled interfaces are missing.
     """
     global _prepared_for
-    interpreter.answer_ctrl_c()  # in case this process has restarted itself
+    interpreter.unblock_sigint()  # in case this process has restarted itself
     shared_memory.require_enough()
     env = tutor_env(ros, isolated=isolated)
     if "rclpy" in sys.modules and _prepared_for != _identity(ros):
         raise RuntimeError("rclpy is already imported: choose the ROS first")
     _prepared_for = _identity(ros)
     if _has_wrong_libraries(ros) and os.environ.get(_RESTARTED_VARIABLE) != ros.kind:
-        interpreter.become([sys.executable, *sys.orig_argv[1:]], {**env, _RESTARTED_VARIABLE: ros.kind})
+        interpreter.exec_program([sys.executable, *sys.orig_argv[1:]], {**env, _RESTARTED_VARIABLE: ros.kind})
     for name in set(os.environ) - set(env):
         if name.startswith(_ROS_VARIABLE_PREFIXES):
             del os.environ[name]

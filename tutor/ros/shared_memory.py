@@ -14,37 +14,37 @@ HINT = "delete files there that nobody needs, or give the container more (docker
 
 
 @dataclass(frozen=True, slots=True)
-class Room:
+class FreeSpace:
     """Size and free space of shared memory in bytes. `enough`: ROS can be loaded."""
 
-    place: Path
+    folder: Path
     size: int
     free: int
     enough: bool
 
 
-def room(place: Path = _FOLDER) -> Room | None:
-    """Return the space in shared memory; None if the machine has none, or no limit on it.
+def free_space(folder: Path = _FOLDER) -> FreeSpace | None:
+    """Return the free space in shared memory; None if the machine has none, or no limit on it.
 
     Loading ROS makes its tracing library (LTTng) map one page for all users and one per user. If no page is left, the
     kernel kills the process (SIGBUS). Fast DDS, in contrast, prints a message and works without shared memory.
     """
     try:
-        found = os.statvfs(place)
+        found = os.statvfs(folder)
     except OSError:
         return None
     if not found.f_blocks:
         return None
     free = found.f_bavail * found.f_frsize
-    return Room(place, found.f_blocks * found.f_frsize, free, free >= _NEEDED_BYTES or _has_pages(place))
+    return FreeSpace(folder, found.f_blocks * found.f_frsize, free, free >= _NEEDED_BYTES or _has_pages(folder))
 
 
-def problem(place: Path = _FOLDER) -> str:
+def problem(folder: Path = _FOLDER) -> str:
     """Return one sentence on why ROS cannot be loaded and what to do; empty if it can."""
-    found = room(place)
+    found = free_space(folder)
     if found is None or found.enough:
         return ""
-    return f"{place} is full ({found.size / 2**20:.0f} MB), so ROS cannot be loaded; {HINT}"
+    return f"{folder} is full ({found.size / 2**20:.0f} MB), so ROS cannot be loaded; {HINT}"
 
 
 def require_enough() -> None:
@@ -54,6 +54,6 @@ def require_enough() -> None:
         raise OSError(text)
 
 
-def _has_pages(place: Path) -> bool:
-    held = [path.name for path in place.glob("lttng-ust-wait-*") if path.stat().st_blocks]
+def _has_pages(folder: Path) -> bool:
+    held = [path.name for path in folder.glob("lttng-ust-wait-*") if path.stat().st_blocks]
     return any(name.endswith(f"-{os.getuid()}") for name in held) and any(name.count("-") == 3 for name in held)

@@ -13,31 +13,31 @@ import yaml
 
 from tutor.ros.fast_yaml import dump_plain, is_array
 
-__all__ = ["LONGEST", "is_array", "number_at", "numeric_fields", "to_csv", "to_yaml"]
+__all__ = ["DEFAULT_MAX_LENGTH", "is_array", "number_at", "numeric_fields", "to_csv", "to_yaml"]
 
-LONGEST = 128
+DEFAULT_MAX_LENGTH = 128
 """Arrays and strings are cut at this length, as `ros2 topic echo` does."""
 
-_MOST_FIELDS = 64
-_MOST_ELEMENTS = 16
+_MAX_FIELDS = 64
+_MAX_ELEMENTS = 16
 
 
 def to_yaml(
     message: Any,
     *,
-    longest: int | None = LONGEST,
+    max_length: int | None = DEFAULT_MAX_LENGTH,
     no_arrays: bool = False,
-    no_texts: bool = False,
+    no_strings: bool = False,
     flow_style: bool = False,
 ) -> str:
-    """Return the message as block-style YAML, with arrays and strings cut at `longest` elements with an ellipsis.
+    """Return the message as block-style YAML, with arrays and strings cut at `max_length` elements with an ellipsis.
 
-    `no_arrays` and `no_texts` show only their types and lengths; `flow_style` writes lists on one line.
+    `no_arrays` and `no_strings` show only their types and lengths; `flow_style` writes lists on one line.
     """
-    if not (no_arrays or no_texts or flow_style) and (written := dump_plain(message, longest)) is not None:
+    if not (no_arrays or no_strings or flow_style) and (written := dump_plain(message, max_length)) is not None:
         return written
     return yaml.dump(
-        _plain(message, _Options(longest, no_arrays, no_texts)),
+        _plain(message, _Options(max_length, no_arrays, no_strings)),
         Dumper=_Dumper,
         allow_unicode=True,
         width=sys.maxsize,
@@ -46,14 +46,16 @@ def to_yaml(
     )
 
 
-def to_csv(message: Any, *, longest: int | None = LONGEST, no_arrays: bool = False, no_texts: bool = False) -> str:
+def to_csv(
+    message: Any, *, max_length: int | None = DEFAULT_MAX_LENGTH, no_arrays: bool = False, no_strings: bool = False
+) -> str:
     """Return the message's values, separated by commas and cut as in `to_yaml`."""
-    return _row(message, _Options(longest, no_arrays, no_texts))
+    return _row(message, _Options(max_length, no_arrays, no_strings))
 
 
 def numeric_fields(message: Any) -> tuple[str, ...]:
     """Return the paths of the numbers in a message, such as `pose.x` or `ranges[3]`; only the first of long arrays."""
-    return tuple(itertools.islice(_number_paths(message, ""), _MOST_FIELDS))
+    return tuple(itertools.islice(_number_paths(message, ""), _MAX_FIELDS))
 
 
 def number_at(message: Any, path: str) -> float | None:
@@ -73,14 +75,14 @@ def number_at(message: Any, path: str) -> float | None:
 
 @dataclass(frozen=True, slots=True)
 class _Options:
-    longest: int | None
+    max_length: int | None
     no_arrays: bool
-    no_texts: bool
+    no_strings: bool
 
     def text(self, value: str) -> str:
-        if self.no_texts:
+        if self.no_strings:
             return f"<string length: <{len(value)}>>"
-        return value if self.longest is None or len(value) <= self.longest else f"{value[: self.longest]}..."
+        return value if self.max_length is None or len(value) <= self.max_length else f"{value[: self.max_length]}..."
 
 
 class _Dumper(yaml.SafeDumper):
@@ -103,11 +105,15 @@ def _plain(value: Any, options: _Options) -> Any:
         return {name: _plain_field(getattr(value, name), slot, options) for name, slot in _slots(value)}
     if isinstance(value, bytes):
         text = "".join(map(chr, value))
-        return text if options.longest is None or len(text) <= options.longest else f"{text[: options.longest]}..."
+        return (
+            text
+            if options.max_length is None or len(text) <= options.max_length
+            else f"{text[: options.max_length]}..."
+        )
     if isinstance(value, str):
         return options.text(value)
     if is_array(value):
-        items = [_plain(item, options) for item in value[: options.longest]]
+        items = [_plain(item, options) for item in value[: options.max_length]]
         return items if len(items) == len(value) else [*items, "..."]
     return value.item() if hasattr(value, "item") else value
 
@@ -125,12 +131,12 @@ def _cell(value: Any, slot: Any, options: _Options) -> str:
     if is_array(value):
         if options.no_arrays and slot is not None:
             return _abbreviate(value, slot)
-        more = ["..."] if options.longest is not None and len(value) > options.longest else []
-        return _join_cells([*(_cell(item, None, options) for item in value[: options.longest]), *more])
+        more = ["..."] if options.max_length is not None and len(value) > options.max_length else []
+        return _join_cells([*(_cell(item, None, options) for item in value[: options.max_length]), *more])
     if hasattr(value, "get_fields_and_field_types"):
         return _row(value, options)
-    if isinstance(value, bytes) and options.longest is not None and len(value) > options.longest:
-        return str(value[: options.longest] + b"...")
+    if isinstance(value, bytes) and options.max_length is not None and len(value) > options.max_length:
+        return str(value[: options.max_length] + b"...")
     return options.text(value) if isinstance(value, str) else str(value)
 
 
@@ -165,7 +171,7 @@ def _number_paths(value: Any, path: str) -> Iterator[str]:
         for name in value.get_fields_and_field_types():
             yield from _number_paths(getattr(value, name), f"{path}.{name}" if path else name)
     elif is_array(value):
-        for index, item in enumerate(value[:_MOST_ELEMENTS]):
+        for index, item in enumerate(value[:_MAX_ELEMENTS]):
             yield from _number_paths(item, f"{path}[{index}]")
     elif not isinstance(value, (str, bytes)):
         yield path  # booleans count as numbers: they are plotted as 0 and 1

@@ -48,9 +48,9 @@ def only_own_pages(token: str = "") -> Middleware:
         origin = request.headers.get("Origin")
         if origin is not None and urlsplit(origin).netloc.lower() != request.host.lower():
             raise web.HTTPForbidden(text="This page belongs to another site.\n")
-        if not (is_this_machine(request.host) or (token and is_address_or_ours(request.host))):
+        if not (is_this_machine(request.host) or (token and is_address_or_own_name(request.host))):
             raise web.HTTPForbidden(text="This name is not known here: use the address that ros-tutor printed.\n")
-        if owner(request) not in (None, 0, os.getuid()):
+        if peer_uid(request) not in (None, 0, os.getuid()):
             raise web.HTTPForbidden(text="This app belongs to another user of this machine.\n")
         if token and _is_same_token(request.query.get(TOKEN, ""), token):
             # Move the token from the URL, which is easily shown to others, to a cookie.
@@ -73,7 +73,7 @@ def _is_same_token(given: str, token: str) -> bool:
     return hmac.compare_digest(given.encode(errors="replace"), token.encode())
 
 
-def is_address_or_ours(host: str) -> bool:
+def is_address_or_own_name(host: str) -> bool:
     """Return whether a `Host` header holds an IP address or this machine's own name, so not another site's name."""
     name = (urlsplit(f"//{host}").hostname or "").rstrip(".")
     own = socket.gethostname().lower()
@@ -97,7 +97,7 @@ def is_this_machine(host: str) -> bool:
         return False
 
 
-def owner(request: web.Request) -> int | None:
+def peer_uid(request: web.Request) -> int | None:
     """Return the user id at the other end; None if that is another machine, or cannot be known."""
     transport = request.transport
     peer, here = (None, None) if transport is None else map(transport.get_extra_info, ("peername", "sockname"))

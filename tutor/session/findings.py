@@ -64,7 +64,7 @@ class Findings:
         done = [1.0 if finding.verdict else finding.fraction for finding in self.criteria if finding.checking]
         return sum(done) / len(done) if done else 0.0
 
-    def begun(self) -> Findings:
+    def with_check_started(self) -> Findings:
         """Return the findings at the start of a check, without the results of earlier ones."""
         fresh = tuple(Finding(f.id, f.text, f.bonus, checking=True, before=f.before) for f in self.criteria)
         return Findings(self.exercise, fresh, checking=True, before=self.before)
@@ -80,7 +80,7 @@ class Findings:
         known = tuple(replace(f, before=met.get(f.id)) for f in self.criteria)
         return replace(self, criteria=known, before=last.at)
 
-    def after(self, event: Event) -> Findings:
+    def with_event(self, event: Event) -> Findings:
         """Return the findings after `event`. An event of another exercise changes nothing."""
         match event:
             case CheckStarted(exercise, criteria) if exercise == self.exercise:
@@ -113,7 +113,7 @@ class Findings:
 
         return replace(self, criteria=tuple(map(reset_unjudged, self.criteria)), checking=False, note=note)
 
-    def broken(self, what: str, hint: str, evidence: tuple[str, ...]) -> Findings:
+    def with_fault(self, what: str, hint: str, evidence: tuple[str, ...]) -> Findings:
         """Return the findings after a fault of the check itself: criteria without a verdict get an error verdict."""
         verdict = fault(what, hint, evidence)
         judged = tuple(f if f.verdict else replace(f, checking=True, verdict=verdict) for f in self.criteria)

@@ -113,7 +113,7 @@ class Node:
             self._publish_state(replace(self.state, phase=Phase.RUNNING, since=process.started_at))
             tasks = [asyncio.create_task(self._stop_on_request(process))]
             if (logs := command.env.get("ROS_LOG_DIR")) and private_folders.contains(Path(logs)):
-                tasks.append(asyncio.create_task(log_folder.limit(Path(logs))))
+                tasks.append(asyncio.create_task(log_folder.keep_small_until_cancelled(Path(logs))))
             try:
                 await self._follow(process)
             finally:

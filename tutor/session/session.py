@@ -116,7 +116,7 @@ class Session:
         """Read the app's saved state of this workspace."""
         return self.workspace.app_state(self.notify).read() if self.workspace.exists else AppState()
 
-    def keep(self, state: AppState) -> None:
+    def save_app_state(self, state: AppState) -> None:
         """Save the app's state. Raises StorageError."""
         if self.workspace.exists:
             self.workspace.app_state(self.notify).write(state)
@@ -138,7 +138,7 @@ class Session:
     def show_hint(self, lesson: Lesson) -> Progress:
         """Count one more hint as shown and return the new progress. Raises StorageError."""
         file = self.workspace.progress(self.notify)
-        file.next_hint(lesson.id, of=len(lesson.hints))
+        file.next_hint(lesson.id, total=len(lesson.hints))
         return file.read()
 
     def tick(self, item: str, ticked: bool) -> Progress:
@@ -224,7 +224,7 @@ class Session:
         from tutor.ros.environment import detect  # imported late, not to delay the first paint
 
         if self._tools is None:
-            self._tools = private_folders.until_exit("terminal")
+            self._tools = private_folders.create_until_exit("terminal")
         env = sourced_environment(detect(), self.workspace.root, self.domain, self._tools)
         return Shell(env, self.workspace.root)
 

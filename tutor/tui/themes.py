@@ -100,8 +100,19 @@ LIGHT = Theme(
     },
 )
 
-GROUNDS = ("background", "surface", "panel")
+BACKGROUNDS = ("background", "surface", "panel")
 """The background colours that text is shown on."""
 
-INKS = ("quiet", "good", "bad", "busy", "warn", "code-keyword", "code-string", "code-number", "code-name", "code-type")
+TEXT_COLOURS = (
+    "quiet",
+    "good",
+    "bad",
+    "busy",
+    "warn",
+    "code-keyword",
+    "code-string",
+    "code-number",
+    "code-name",
+    "code-type",
+)
 """The text colours, besides the foreground."""

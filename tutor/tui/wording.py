@@ -13,7 +13,7 @@ from tutor.workspace import ExerciseState, State
 MARKS = {Status.PASSED: "✓", Status.FAILED: "✗", Status.SKIPPED: "-", Status.ERROR: "!"}
 """Each is one cell wide in every terminal font that matters."""
 
-INKS = {Status.PASSED: "$good", Status.FAILED: "$bad", Status.SKIPPED: "$quiet", Status.ERROR: "$warn"}
+STATUS_COLOURS = {Status.PASSED: "$good", Status.FAILED: "$bad", Status.SKIPPED: "$quiet", Status.ERROR: "$warn"}
 """The theme's colour for each status; it always comes with a mark."""
 
 LEVELS = {Difficulty.EASY: "●○○ easy", Difficulty.MEDIUM: "●●○ medium", Difficulty.CHALLENGE: "●●● challenge"}
@@ -44,7 +44,7 @@ def summary(result: ExerciseResult) -> str:
     return f"{text} · {result.duration_s:.1f} s"
 
 
-def when(at: str) -> str:
+def format_time(at: str) -> str:
     """Format an ISO 8601 time from the progress file in the local time zone; return any other text unchanged."""
     try:
         moment = datetime.fromisoformat(at).astimezone()
@@ -54,11 +54,11 @@ def when(at: str) -> str:
     return f"today {moment:%H:%M}" if today else f"{moment:%Y-%m-%d %H:%M}"
 
 
-def key(name: str, *, typing: bool) -> str:
+def key_hint(name: str, *, typing: bool) -> str:
     """Return what to press for a one-letter command: with the focus in the editor, that needs Esc first."""
     return f"Esc, then {name}" if typing else name
 
 
-def fitted(text: str, width: int) -> str:
+def shorten_to(text: str, width: int) -> str:
     """Shorten a text to at most `width` columns, at a word boundary and with an ellipsis."""
     return text if len(text) <= width else shorten(text, max(1, width), placeholder=" …")

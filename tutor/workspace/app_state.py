@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from tutor.errors import StorageError
-from tutor.json_codec import read_as, read_document, write_document
+from tutor.json_codec import convert_to, read_document, write_document
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.regular import read_text
 
@@ -60,7 +60,7 @@ def encode(state: AppState) -> str:
 
 def decode(text: str) -> AppState:
     """Decode the output of `encode`. Raises ValueError with a description of the problem."""
-    return read_as(AppState, read_document(text, SCHEMA))
+    return convert_to(AppState, read_document(text, SCHEMA))
 
 
 class AppStateFile:

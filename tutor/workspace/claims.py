@@ -21,7 +21,7 @@ from pathlib import Path
 from tutor.workspace.locking import lock
 
 REGISTRY = Path("/tmp/ros-tutor-domains")  # not $TMPDIR, which may differ between users
-USABLE = range(1, 102)
+USABLE_DOMAINS = range(1, 102)
 """The domain ids to choose from: their ports are outside Linux's ephemeral range; 0 is the default of everyone else."""
 
 _LOCK_TIMEOUT_S = 5.0
@@ -87,21 +87,22 @@ def claim(
         return None
 
 
-def preferred(workspace: Path) -> list[int]:
+def preferred_order(workspace: Path) -> list[int]:
     """Return all usable ids, in an order that depends on the workspace, the user and the machine."""
     identity = f"{socket.gethostname()}:{os.getuid()}:{workspace}"
-    start = int.from_bytes(hashlib.sha256(identity.encode()).digest()[:8]) % len(USABLE)
-    return [*USABLE[start:], *USABLE[:start]]
+    start = int.from_bytes(hashlib.sha256(identity.encode()).digest()[:8]) % len(USABLE_DOMAINS)
+    return [*USABLE_DOMAINS[start:], *USABLE_DOMAINS[:start]]
 
 
 def _choose(workspace: Path, others: list[Claim], in_use: Collection[int]) -> int:
     taken = {claim.domain for claim in others}
-    free = [domain for domain in preferred(workspace) if domain not in taken]
+    free = [domain for domain in preferred_order(workspace) if domain not in taken]
     quiet = [domain for domain in free if domain not in in_use]
     if quiet or free:
         return (quiet or free)[0]
-    last_used = {domain: max(claim.used_at for claim in others if claim.domain == domain) for domain in USABLE}
-    return min(USABLE, key=last_used.__getitem__)  # more workspaces than domains: share the least recently used one
+    last_used = {domain: max(claim.used_at for claim in others if claim.domain == domain) for domain in USABLE_DOMAINS}
+    # More workspaces than domains: share the least recently used one.
+    return min(USABLE_DOMAINS, key=last_used.__getitem__)
 
 
 # --- the folder and its files ---

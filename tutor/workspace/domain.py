@@ -43,7 +43,7 @@ def _own_domain(root: Path) -> int:
         return saved
     chosen = claims.claim(root, lambda: _read_saved_domain(root), _in_use, claims.REGISTRY)
     if chosen is None:  # no registry: two workspaces collide with a probability of about 1 in 100
-        chosen = claims.preferred(root)[0] if saved is None else saved
+        chosen = claims.preferred_order(root)[0] if saved is None else saved
     if chosen != saved and os.path.isdir(root / MARKER):
         with contextlib.suppress(StorageError):
             write_atomically(root / MARKER / "domain", f"{chosen}\n")

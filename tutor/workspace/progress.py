@@ -6,12 +6,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 
-from tutor.json_codec import read_as, read_document, write_document
+from tutor.json_codec import convert_to, read_document, write_document
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
 
 SCHEMA = "ros-tutor/progress/1"
-MOST_ATTEMPTS = 200
+MAX_ATTEMPTS = 200
 """Older attempts are dropped; the best verdict is saved separately."""
 
 
@@ -96,7 +96,7 @@ class Progress:
         judged = () if whole else tuple(c.id for c in result.criteria if c.id not in result.unjudged)
         attempt = Attempt(now(), result.verdict, passed, whole, judged)
         best = result.verdict if whole and not before.is_passed else before.best
-        attempts = (*before.attempts, attempt)[-MOST_ATTEMPTS:]
+        attempts = (*before.attempts, attempt)[-MAX_ATTEMPTS:]
         started_at = before.started_at or attempt.at
         return self.with_exercise(result.id, replace(before, started_at=started_at, attempts=attempts, best=best))
 
@@ -124,6 +124,6 @@ def decode(text: str) -> Progress:
     """Decode the output of `encode`. Raises ValueError with a description of the problem."""
     document = read_document(text, SCHEMA)
     return Progress(
-        exercises=read_as(dict[str, ExerciseProgress], document.get("exercises")),
-        ticks=read_as(dict[str, str], document.get("checklist")),
+        exercises=convert_to(dict[str, ExerciseProgress], document.get("exercises")),
+        ticks=convert_to(dict[str, str], document.get("checklist")),
     )

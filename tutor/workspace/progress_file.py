@@ -62,8 +62,8 @@ class ProgressFile:
                 write_atomically(self.path, encode(after))
             return after
 
-    def next_hint(self, exercise: str, of: int) -> tuple[int, bool]:
-        """Count one more of the exercise's `of` hints as shown.
+    def next_hint(self, exercise: str, total: int) -> tuple[int, bool]:
+        """Count one more of the exercise's `total` hints as shown.
 
         Returns its number, from 1, and whether it was shown before: the last hint is repeated.
         """
@@ -72,10 +72,10 @@ class ProgressFile:
         def count(progress: Progress) -> Progress:
             nonlocal shown_before
             shown_before = progress.of(exercise).hints
-            return progress.with_hints(exercise, min(shown_before + 1, of))
+            return progress.with_hints(exercise, min(shown_before + 1, total))
 
         self.change(count)
-        return min(shown_before + 1, of), shown_before >= of
+        return min(shown_before + 1, total), shown_before >= total
 
     def _load(self) -> Progress:
         try:

@@ -7,8 +7,8 @@ import stat
 from pathlib import Path
 
 
-def read_regular(path: Path | str, most: int) -> bytes | None:
-    """Return the bytes of a file; None if it is not a regular file (a FIFO, a device) or larger than `most` bytes.
+def read_regular(path: Path | str, max_bytes: int) -> bytes | None:
+    """Return the bytes of a file; None if it is not a regular file (a FIFO, a device) or larger than `max_bytes` bytes.
 
     Never blocks. Raises OSError if it cannot be opened.
     """
@@ -16,13 +16,13 @@ def read_regular(path: Path | str, most: int) -> bytes | None:
     with os.fdopen(fd, "rb") as file:
         if not stat.S_ISREG(os.fstat(fd).st_mode):
             return None
-        data = file.read(most + 1)
-        return data if len(data) <= most else None
+        data = file.read(max_bytes + 1)
+        return data if len(data) <= max_bytes else None
 
 
-def read_text(path: Path, most: int = 16_000_000) -> str:
-    """Read one of our files. Raises OSError, or ValueError if it is not a UTF-8 text file of at most `most` bytes."""
-    data = read_regular(path, most)
+def read_text(path: Path, max_bytes: int = 16_000_000) -> str:
+    """Read one of our files. Raises OSError, or ValueError if it is not UTF-8 text of at most `max_bytes` bytes."""
+    data = read_regular(path, max_bytes)
     if data is None:
         raise ValueError("it is damaged")
     try:

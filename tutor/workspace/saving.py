@@ -10,7 +10,7 @@ from tutor.errors import StorageError
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.placing_files import free_name
 
-LARGEST = 1 << 20
+MAX_EDIT_BYTES = 1 << 20
 """Maximum size of a file that is opened for editing, in bytes."""
 
 
@@ -30,13 +30,13 @@ def read_source(path: Path) -> str | None:
     """Read a text file; return None if it does not exist. Raises StorageError if it cannot be read as UTF-8."""
     try:
         with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
+            content = file.read(MAX_EDIT_BYTES + 1)
     except FileNotFoundError:
         return None
     except OSError as error:
         raise StorageError.of(f"read {path}", error) from error
-    if len(content) > LARGEST:
-        raise StorageError(f"{path} is larger than {LARGEST >> 20} MiB: open it in your own editor")
+    if len(content) > MAX_EDIT_BYTES:
+        raise StorageError(f"{path} is larger than {MAX_EDIT_BYTES >> 20} MiB: open it in your own editor")
     try:
         return content.decode("utf-8")
     except UnicodeDecodeError as error:

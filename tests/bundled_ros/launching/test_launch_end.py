@@ -13,7 +13,7 @@ import pytest
 
 from tests.bundled_ros.launching.case import launch_file
 from tests.bundled_ros.launching.launcher import Launcher, Ran
-from tests.ros.users_domain import users_domain
+from tests.ros.ordinary_domain import ordinary_domain
 from tutor import interpreter, private_folders
 
 LIMIT_S = 60.0
@@ -128,7 +128,7 @@ def test_parameter_files_of_a_killed_launch_are_removed_at_the_next_start(
         "def generate_launch_description():\n"
         "    return LaunchDescription([Node(package='demo_nodes_py', executable='talker', parameters=[{'a': 1}])])\n"
     )
-    with users_domain() as domain:
+    with ordinary_domain() as domain:
         env = {**os.environ, "TMPDIR": str(temporary), "ROS_DOMAIN_ID": str(domain)}
         launch = subprocess.Popen(
             interpreter.module_command("tutor", "ros2", "launch", str(path)),

@@ -4,10 +4,10 @@ import signal
 import sys
 
 try:
-    from tutor.interpreter import answer_ctrl_c, collect_garbage_seldom
+    from tutor.interpreter import reduce_gc_frequency, unblock_sigint
 
-    answer_ctrl_c()
-    collect_garbage_seldom()
+    unblock_sigint()
+    reduce_gc_frequency()
     from tutor.bundled_ros.ros2.command import main
 
     sys.exit(main(sys.argv[1:]))

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from types import FrameType
 from typing import Any, NoReturn
 
-from tutor.bundled_ros.ros2 import completing
+from tutor.bundled_ros.ros2 import completion
 from tutor.bundled_ros.ros2.parsing import PACKAGE, LazyParser, add_choices
 from tutor.errors import CommandError
 from tutor.ros import shared_memory
@@ -67,8 +67,8 @@ def _run(argv: Sequence[str]) -> int:
             f"ros2: `ros2 {argv[0]}` needs an installed ROS 2; this ros2 knows: {', '.join(COMMANDS)}", 2
         )
     parser = build_parser()
-    if completing.is_requested():
-        completing.print_completions(parser)
+    if completion.is_requested():
+        completion.print_completions(parser)
     arguments = parser.parse_args(argv)
     sys.stdout, sys.stderr = guard_terminal(sys.stdout), guard_terminal(sys.stderr)
     if not arguments.use_python_default_buffering:

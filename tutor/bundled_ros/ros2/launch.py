@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from tutor.bundled_ros import packages
-from tutor.bundled_ros.ros2 import overlaying
+from tutor.bundled_ros.ros2 import use_overlay
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.pkg.names import all_packages
 from tutor.errors import CommandError
@@ -51,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> int:
     """Run the launch file and return launch's own exit code. Raises CommandError."""
-    overlaying.overlay_workspace(_search_start(arguments))
+    use_overlay.overlay_workspace(_search_start(arguments))
     given = list(arguments.arguments)
     if _is_path(arguments):
         path = Path(arguments.package)
@@ -67,7 +67,7 @@ def main(arguments: argparse.Namespace) -> int:
             given.append(f"{name}:={value}")
     if arguments.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
-    overlaying.restore_buffering()
+    use_overlay.restore_buffering()
     from tutor.bundled_ros import launching  # late: --help and usage errors do not need it
 
     code: int = launching.run(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tutor.bundled_ros.ros2.parsing import unsigned_int
-from tutor.ros.yaml_format import LONGEST, to_csv, to_yaml
+from tutor.ros.yaml_format import DEFAULT_MAX_LENGTH, to_csv, to_yaml
 
 
 def add_format_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,8 +18,8 @@ def add_format_arguments(parser: argparse.ArgumentParser) -> None:
         "--truncate-length",
         "-l",
         type=unsigned_int,
-        default=LONGEST,
-        help=f"after how many elements arrays and texts are cut (default: {LONGEST})",
+        default=DEFAULT_MAX_LENGTH,
+        help=f"after how many elements arrays and texts are cut (default: {DEFAULT_MAX_LENGTH})",
     )
     add("--no-arr", action="store_true", help="only type and length of arrays")
     add("--no-str", action="store_true", help="only the length of texts")
@@ -28,29 +28,29 @@ def add_format_arguments(parser: argparse.ArgumentParser) -> None:
 
 @dataclass(frozen=True, slots=True)
 class MessageFormat:
-    """How messages are printed. `longest` is the length at which arrays and texts are truncated (None: never)."""
+    """How messages are printed. `max_length` is the length at which arrays and texts are truncated (None: never)."""
 
-    longest: int | None
+    max_length: int | None
     no_arrays: bool
-    no_texts: bool
+    no_strings: bool
     flow_style: bool
 
     @classmethod
     def of(cls, arguments: argparse.Namespace) -> MessageFormat:
         """Build the format from the parsed options."""
-        longest = None if arguments.full_length else arguments.truncate_length
-        return cls(longest, arguments.no_arr, arguments.no_str, arguments.flow_style)
+        max_length = None if arguments.full_length else arguments.truncate_length
+        return cls(max_length, arguments.no_arr, arguments.no_str, arguments.flow_style)
 
     def yaml(self, message: Any) -> str:
         """Format the message as YAML."""
         return to_yaml(
             message,
-            longest=self.longest,
+            max_length=self.max_length,
             no_arrays=self.no_arrays,
-            no_texts=self.no_texts,
+            no_strings=self.no_strings,
             flow_style=self.flow_style,
         )
 
     def csv(self, message: Any) -> str:
         """Format the message's values, separated by commas."""
-        return to_csv(message, longest=self.longest, no_arrays=self.no_arrays, no_texts=self.no_texts)
+        return to_csv(message, max_length=self.max_length, no_arrays=self.no_arrays, no_strings=self.no_strings)

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 DEPTH = 10_000
 """Queue depth in messages: one second of a 10 kHz topic."""
 
-BIG = 10_000
-"""Messages larger than this, in bytes, get a shorter queue, so that it holds at most MOST_BYTES."""
+LARGE_MESSAGE_BYTES = 10_000
+"""Messages larger than this, in bytes, get a shorter queue, so that it holds at most MAX_BYTES."""
 
-MOST_BYTES = 30_000_000
-"""Bound on the memory of one batch and of a queue of big messages, in bytes."""
+MAX_BYTES = 30_000_000
+"""Bound on the memory of one batch and of a queue of large messages, in bytes."""
 
 _WAIT_NS = 50_000_000  # Ctrl+C takes effect between two waits
 _EVENTS_PERIOD_S = 0.1
@@ -67,9 +67,9 @@ def receive(
         wait_set.clear_entities()
         wait_set.add_subscription(subscription.handle)
         wait_set.wait(_WAIT_NS)
-        taken, size = _all_of(subscription, raw, deserialize_message)
-        if qos.depth == DEPTH and size > BIG:
-            qos.depth = max(1, MOST_BYTES // size)
+        taken, size = _take_all(subscription, raw, deserialize_message)
+        if qos.depth == DEPTH and size > LARGE_MESSAGE_BYTES:
+            qos.depth = max(1, MAX_BYTES // size)
             node.destroy_subscription(subscription)
             subscription = subscribe()
         yield taken
@@ -79,10 +79,10 @@ def receive(
         time.sleep(gather_s)
 
 
-def _all_of(
+def _take_all(
     subscription: Subscription, raw: bool, deserialize: Callable[[bytes, Any], Any]
 ) -> tuple[list[Received], int]:
-    """Take the queued messages (at most MOST_BYTES of them). Return them and the size of the first, in bytes."""
+    """Take the queued messages (at most MAX_BYTES of them). Return them and the size of the first, in bytes."""
     taken: list[Received] = []
     take, message_type = subscription.handle.take_message, subscription.msg_type
     with subscription.handle:
@@ -90,7 +90,7 @@ def _all_of(
             return [], 0
         size = len(first[0])
         taken.append(first if raw else (deserialize(first[0], message_type), first[1]))
-        limit = min(_MAX_BATCH, max(1, MOST_BYTES // size))
+        limit = min(_MAX_BATCH, max(1, MAX_BYTES // size))
         while len(taken) < limit and (one := take(message_type, raw)) is not None:
             taken.append(one)
     return taken, size

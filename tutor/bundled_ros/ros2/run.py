@@ -9,7 +9,7 @@ import subprocess
 from pathlib import Path
 
 from tutor.bundled_ros import packages
-from tutor.bundled_ros.ros2 import overlaying
+from tutor.bundled_ros.ros2 import use_overlay
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.errors import CommandError
 
@@ -28,8 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> int:
     """Run the program to its end and return its exit code (-N after signal N). Raises CommandError."""
-    overlaying.overlay_workspace(Path.cwd())
-    overlaying.restore_buffering()
+    use_overlay.overlay_workspace(Path.cwd())
+    use_overlay.restore_buffering()
     command = [
         *shlex.split(arguments.prefix or ""),
         *_find_command(arguments.package, arguments.executable),
@@ -61,14 +61,14 @@ def _find_command(package: str, executable: str) -> list[str]:
 
 def _complete_packages(**_: object) -> list[str]:
     """Complete packages that have executables."""
-    overlaying.overlay_workspace(Path.cwd())
-    return packages.packages_with_programs()
+    use_overlay.overlay_workspace(Path.cwd())
+    return packages.packages_with_executables()
 
 
 def _complete_executables(parsed_args: argparse.Namespace, **_: object) -> list[str]:
     """Complete the executables of the package that was typed."""
-    overlaying.overlay_workspace(Path.cwd())
-    return packages.programs_of(parsed_args.package)
+    use_overlay.overlay_workspace(Path.cwd())
+    return packages.executable_names(parsed_args.package)
 
 
 def _restore_sigint() -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from tutor import interpreter, private_folders
 from tutor.bundled_ros.ros2 import sources
 from tutor.ros.environment import RosEnvironment, learner_env
-from tutor.ros.prefixes import entries, is_bundled, joined
+from tutor.ros.prefixes import entries, is_bundled, join_entries
 
 WORKSPACE = "ROS_TUTOR_WORKSPACE"
 _CHECK_ONLY_VARIABLES = ("PYTHONUNBUFFERED", "PYTHONIOENCODING")
@@ -40,12 +40,12 @@ def sourced_environment(
         env |= {name: value for name, value in environ.items() if name.startswith(_USER_PREFIXES)}
         # Hide our own virtual environment's other programs from the user; the terminal needs only these few.
         user_path = [entry for entry in entries(env, "PATH") if not is_bundled(entry)]
-        _write_programs(tools / "bin", ros, with_ros2=shutil.which("ros2", path=joined(user_path)) is None)
-        env["PATH"] = joined([tools / "bin", *user_path])
+        _write_programs(tools / "bin", ros, with_ros2=shutil.which("ros2", path=join_entries(user_path)) is None)
+        env["PATH"] = join_entries([tools / "bin", *user_path])
     env["ROS_DOMAIN_ID"] = str(domain_id)
     env[WORKSPACE] = str(workspace)
     if roots := _import_roots(workspace):
-        env["PYTHONPATH"] = joined([*roots, *entries(env, "PYTHONPATH")])
+        env["PYTHONPATH"] = join_entries([*roots, *entries(env, "PYTHONPATH")])
     return env
 
 
@@ -71,8 +71,8 @@ def _write_programs(folder: Path, ros: RosEnvironment, *, with_ros2: bool) -> No
     programs = {"python3": f"{python}", "python": f"{python}"}
     if with_ros2:
         # -P: a module in the learner's folder must not shadow one of ours.
-        programs["ros2"] = f"{interpreter.CTRL_C_LATER} {python} -P -m tutor.bundled_ros.ros2"
-    programs["ros-tutor"] = f"{interpreter.CTRL_C_LATER} {shlex.join(interpreter.module_command('tutor'))}"
+        programs["ros2"] = f"{interpreter.BLOCK_SIGINT_PREFIX} {python} -P -m tutor.bundled_ros.ros2"
+    programs["ros-tutor"] = f"{interpreter.BLOCK_SIGINT_PREFIX} {shlex.join(interpreter.module_command('tutor'))}"
     for name, command in programs.items():
         path = folder / name
         path.write_text(f'#!/bin/sh\nexec {command} "$@"\n', encoding="utf-8")

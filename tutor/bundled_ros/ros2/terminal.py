@@ -8,7 +8,7 @@ import shutil
 from collections.abc import Mapping
 from pathlib import Path
 
-from tutor.bundled_ros.ros2.completing import registration_code
+from tutor.bundled_ros.ros2.completion import registration_code
 
 SHELLS = ("bash", "zsh")
 # Set by another ROS that the rc file may source: mixed with ours, neither would work.
@@ -52,24 +52,24 @@ def users_shell(environ: Mapping[str, str] = os.environ) -> tuple[str, Path]:
     raise LookupError("neither bash nor zsh is installed")
 
 
-def interactive(
+def interactive_command(
     shell: str,
     path: Path,
     *,
     env: dict[str, str],
-    changed: Mapping[str, str],
-    dropped: list[str],
+    exported: Mapping[str, str],
+    unset: list[str],
     tools: Path,
     mark: str,
     setup: Path | None,
 ) -> list[str]:
     """Return the command of an interactive shell; write its rc files into `tools` and extend `env`.
 
-    The variables in `changed` are exported, and those in `dropped` unset, again after the user's own rc file, which may
+    The variables in `exported` are exported, and those in `unset` unset, again after the user's own rc file, which may
     have set them for another ROS. The programs in `tools` come first on PATH. `setup` is sourced last. `mark` is put
     before the prompt. Raises OSError.
     """
-    lines = _restore_environment(changed, dropped, tools)
+    lines = _restore_environment(exported, unset, tools)
     if setup is not None:
         lines += f"source {shlex.quote(str(setup))}\n"
     lines += f"__ros_tutor_mark={shlex.quote(mark)}\n{_PROMPT[shell]}"
@@ -80,22 +80,22 @@ def interactive(
     folder = tools / "zsh"
     folder.mkdir(exist_ok=True)
     users = env.get("ZDOTDIR") or env.get("HOME", "")
-    unset = "" if env.get("ZDOTDIR") else '[[ "$ZDOTDIR" == "$HOME" ]] && unset ZDOTDIR\n'
+    unset_zdotdir = "" if env.get("ZDOTDIR") else '[[ "$ZDOTDIR" == "$HOME" ]] && unset ZDOTDIR\n'
     zshenv = _ZSHENV.format(users=shlex.quote(users), ours=shlex.quote(str(folder)))
     completion = _ZSH_COMPLETION.format(dump=shlex.quote(str(folder / "zcompdump"))) + registration_code("zsh")
     (folder / ".zshenv").write_text(zshenv, encoding="utf-8")
-    (folder / ".zshrc").write_text(f"{_ZSHRC.format(unset=unset)}{lines}{completion}", encoding="utf-8")
+    (folder / ".zshrc").write_text(f"{_ZSHRC.format(unset=unset_zdotdir)}{lines}{completion}", encoding="utf-8")
     env["ZDOTDIR"] = str(folder)
     return [str(path), "-i"]
 
 
-def _restore_environment(changed: Mapping[str, str], dropped: list[str], tools: Path) -> str:
+def _restore_environment(exported: Mapping[str, str], unset: list[str], tools: Path) -> str:
     exports = [
         f"export {name}={shlex.quote(value)}\n"
-        for name, value in sorted(changed.items())
+        for name, value in sorted(exported.items())
         if name not in ("PATH", "SHLVL")
     ]
     if (tools / "bin").is_dir():
         exports.append(f'export PATH={shlex.quote(str(tools / "bin"))}:"$PATH"\n')
-        dropped = sorted({*dropped, *_OTHER_ROS_VARIABLES})
-    return "".join(exports) + (f"unset {' '.join(dropped)}\n" if dropped else "")
+        unset = sorted({*unset, *_OTHER_ROS_VARIABLES})
+    return "".join(exports) + (f"unset {' '.join(unset)}\n" if unset else "")

@@ -13,10 +13,10 @@ from tutor.judge.causes.parameters import (
     RCLPY_REASON,
     diagnose_bursts,
     diagnose_old_timer,
+    diagnose_parameter_type,
     diagnose_period_as_rate,
     diagnose_rate_as_period,
     diagnose_refusal,
-    diagnose_types,
 )
 from tutor.judge.causes.process import (
     QUICK_S,
@@ -54,6 +54,7 @@ __all__ = [
     "diagnose_no_spin",
     "diagnose_nothing_received",
     "diagnose_old_timer",
+    "diagnose_parameter_type",
     "diagnose_period_as_rate",
     "diagnose_printed",
     "diagnose_process",
@@ -62,7 +63,6 @@ __all__ = [
     "diagnose_same_name",
     "diagnose_torn_thread",
     "diagnose_traceback",
-    "diagnose_types",
     "diagnose_unused_publisher",
     "diagnose_wrong_topic",
     "is_in_blocking_call",

@@ -68,7 +68,7 @@ def _look_up(each: Traceback, last: Traceback, trace: Trace) -> Cause | None:
     table = [k for k in (*trace.exceptions, *exceptions.load_shipped()) if k.type != ".*" or each is last.origin]
     found = exceptions.explain(seen, table, cause=names.UNHANDLED_EXCEPTION, after=_describe_last(each, last))
     if found is None and each.type.endswith("InvalidParameterTypeException"):
-        return parameters.diagnose_types(_describe(each, last, trace))
+        return parameters.diagnose_parameter_type(_describe(each, last, trace))
     if found is not None and each.type.endswith("ParameterAlreadyDeclaredException") and own is not None:
         node = node_file(seen.source)
         found = replace(found, hint=node.step(declare_once(node, own.line)) or found.hint)

@@ -77,7 +77,7 @@ def diagnose_callback_order(file: NodeFile) -> Cause | None:
 def _may_refuse(file: NodeFile, function: Function | None) -> bool:
     if function is None:
         return False
-    return any("successful=False" in ast.unparse(each).replace(" ", "") for each in file.reached(function))
+    return any("successful=False" in ast.unparse(each).replace(" ", "") for each in file.reachable_from(function))
 
 
 def _diagnose_own_set(file: NodeFile, name: str) -> Cause | None:
@@ -140,7 +140,7 @@ def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
         if (twice := _diagnose_second_definition(file, given)) is not None:
             return twice
         function = file.function_around(call)
-        if function is not None and file.setup is not None and function not in file.reached(file.setup):
+        if function is not None and file.setup is not None and function not in file.reachable_from(file.setup):
             step = file.step([*file.append_to_setup(ast.unparse(call))])
             text = f"{where(call)} is in {function.name}, which nothing calls when the node starts"
             return Cause("callback not registered", text, step) if step else None
@@ -186,7 +186,7 @@ def diagnose_old_value_read(file: NodeFile, name: str) -> Cause | None:
     if checker is None:
         return None
     timer_callbacks = [file.function(argument(each, 1, "callback")) for each in file.timers]
-    inside = [each for each in file.reached(checker) if each not in timer_callbacks]
+    inside = [each for each in file.reachable_from(checker) if each not in timer_callbacks]
     reads = [each for each in parameters.readings(file, name) if file.function_around(each) in inside]
     if not reads:
         return None
@@ -209,7 +209,7 @@ def why_accepted(file: NodeFile, bad: float) -> str:
         if later is not None:
             return f"{_name_and_line(later)} is called when the value is already set: it cannot reject any"
         return "nothing can reject a value: no on-set-parameters callback is registered"
-    code = "".join(map(ast.unparse, file.reached(checker)))
+    code = "".join(map(ast.unparse, file.reachable_from(checker)))
     if "successful=False" not in code and "successful = False" not in code:
         return f"{_name_and_line(checker)} never says no: nothing rejects {bad}"
     return (

@@ -33,7 +33,7 @@ _DEFAULTS = {
 _RANGE = re.compile(r"out of range Min: (?P<low>[-\d.e+]+), Max: (?P<high>[-\d.e+]+)|not close enough to a valid step")
 
 
-def diagnose_types(message: str) -> Cause:
+def diagnose_parameter_type(message: str) -> Cause:
     """A value of one type was given to a parameter of another; `message` is rclpy's, which names both types."""
     found = list(_TYPES.finditer(message))
     given = next((m["given"] for m in found if m["given"]), "")
@@ -63,7 +63,7 @@ def diagnose_refusal(reason: str, step: str) -> Cause:
         text = "a pre-set callback takes the value out of the list, and rclpy can only say that nothing is left"
         return Cause("value dropped", text, step)
     if _TYPES.search(reason):
-        return replace(diagnose_types(reason), hint=step)
+        return replace(diagnose_parameter_type(reason), hint=step)
     if "declared" in reason:
         return Cause("parameter not declared", reason, step)
     text = f'the node rejects a good value: "{reason}"' if reason else "the node rejects a good value, without a reason"

@@ -41,7 +41,7 @@ def diagnose_sleep(file: NodeFile, asked_hz: float) -> Cause | None:
 
     A sleep of less than a tenth of the period, at `asked_hz`, is negligible.
     """
-    called = file.reached(file.tick) if file.tick is not None else []
+    called = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
     for call in file.calls("sleep"):
         match call.args:
             case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s < 0.1 / asked_hz:

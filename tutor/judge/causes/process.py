@@ -156,9 +156,9 @@ def _remove_second_node(trace: Trace) -> str | None:
     return file.step([remove_statement(file.text, each) for each in statements])
 
 
-def output_tail(trace: Trace, most: int = 6) -> tuple[str, ...]:
+def output_tail(trace: Trace, max_lines: int = 6) -> tuple[str, ...]:
     """The last non-empty lines that the process wrote, as evidence."""
-    return tuple(line.text for line in trace.output if line.text.strip())[-most:]
+    return tuple(line.text for line in trace.output if line.text.strip())[-max_lines:]
 
 
 def node_names(trace: Trace) -> str:

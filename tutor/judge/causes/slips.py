@@ -10,7 +10,7 @@ from tutor.judge.trace import Trace
 _TRUTH_VALUES = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
 
 
-def boolean_compared_with_text(trace: Trace) -> str | None:
+def fix_bool_compared_with_text(trace: Trace) -> str | None:
     """The step for a parameter value (True or False) that is compared with a text such as 'true'; None if none is."""
     text = trace.sources.get(trace.file, "")
     for node in source.syntax_nodes(text):

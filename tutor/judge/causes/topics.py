@@ -236,7 +236,7 @@ def _diagnose_misplaced(
 
 def _replace_type(file: NodeFile, wrong: str, type_name: str) -> str | None:
     """The step that replaces a wrong message type throughout the file."""
-    own, imported = file.own(_class(type_name), f"{type_name.split('/')[0]}.msg")
+    own, imported = file.import_name(_class(type_name), f"{type_name.split('/')[0]}.msg")
     used = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id == wrong]
     return file.step([*imported, *replace_nodes(file.text, *((each, own) for each in used))])
 

@@ -192,7 +192,7 @@ def _make_async(text: str, number: int) -> Sequence[Edit] | None:
 
 def _find_function(text: str, name: str, line: int) -> Function | None:
     """The function with this name: the one that contains `line`, else the last."""
-    found = SourceFile(text).named(name)
+    found = SourceFile(text).functions_named(name)
     around = [each for each in found if each.lineno <= line <= (each.end_lineno or 0)]
     return next(iter([*around[-1:], *found[-1:]]), None)
 

@@ -141,7 +141,7 @@ def _callbacks(text: str, create: str) -> Iterator[Function]:
     for call in syntax_nodes(text):
         if isinstance(call, ast.Call) and called_name(call) == create:
             for each in (*call.args, *(given.value for given in call.keywords)):
-                yield from SourceFile(text).named(last_name(each))[-1:]
+                yield from SourceFile(text).functions_named(last_name(each))[-1:]
 
 
 def optional(text: str, words: Words) -> Sequence[Edit]:

@@ -35,7 +35,7 @@ def await_lines(file: NodeFile, line: int, code: str, last: int = 0) -> list[Edi
 
 def make_reentrant(file: NodeFile) -> list[Edit]:
     """Put every callback into a reentrant group, where it may run concurrently with others."""
-    name, imported = file.own("ReentrantCallbackGroup", "rclpy.callback_groups")
+    name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
     exclusive = file.calls("MutuallyExclusiveCallbackGroup")
     edits = [replace_node(file.text, each, f"{name}()") for each in exclusive]
     for each in file.calls(*WITH_CALLBACK_GROUP):

@@ -47,7 +47,7 @@ class NodeFile(SourceFile):
         )
 
     @property
-    def holder(self) -> str:
+    def owner(self) -> str:
         """The object of which a timer becomes an attribute, if it is not one yet: usually "self"."""
         return self.name.partition(".")[0]
 
@@ -74,12 +74,12 @@ class NodeFile(SourceFile):
     def first_timer(self) -> ast.Call | None:
         """The call that creates the initial timer: the first one reached from the setup, else the first in the file."""
         initial = [
-            each for each in self.timers if self.setup and self.function_around(each) in self.reached(self.setup)
+            each for each in self.timers if self.setup and self.function_around(each) in self.reachable_from(self.setup)
         ]
         return next(iter(initial or self.timers), None)
 
     @cached_property
-    def tick(self) -> Function | None:
+    def timer_callback(self) -> Function | None:
         """The timer's callback; if there is none, the function that publishes."""
         made = [self.first_timer] if self.first_timer else []
         callbacks = [found for each in made if (found := self.function(argument(each, 1, "callback"))) is not None]
@@ -123,7 +123,7 @@ class NodeFile(SourceFile):
             return []
         return [insert_above(first_line(first), code)]
 
-    def own(self, name: str, module: str) -> tuple[str, list[Edit]]:
+    def import_name(self, name: str, module: str) -> tuple[str, list[Edit]]:
         """The name under which the file imports something from a module, and the edit that adds a missing import."""
         for each, alias in self.imports:
             if isinstance(each, ast.ImportFrom) and (each.module, alias.name) == (module, name):
@@ -196,11 +196,11 @@ def is_static(function: Function) -> bool:
     return any(ast.unparse(each) == "staticmethod" for each in function.decorator_list)
 
 
-def rewrite_function(function: Function, code: str, *, given: str = "") -> Edit:
-    """Replace everything below a function's header; `given` is a parameter that it must take."""
+def rewrite_function(function: Function, code: str, *, parameter: str = "") -> Edit:
+    """Replace everything below a function's header; `parameter` is a parameter that it must take."""
     taken, names = ast.unparse(function.args), [each.arg for each in function.args.args]
-    if given and given not in names:
-        taken = ", ".join([*names[:1], given] if names[:1] in (["self"], ["cls"]) else [given])
+    if parameter and parameter not in names:
+        taken = ", ".join([*names[:1], parameter] if names[:1] in (["self"], ["cls"]) else [parameter])
     head = f"{'async ' if isinstance(function, ast.AsyncFunctionDef) else ''}def {function.name}({taken})"
     returns = f" -> {ast.unparse(function.returns)}" if function.returns is not None else ""
     lines = [f"{head}{returns}:", *(f"    {line}" for line in code.splitlines())]

@@ -29,7 +29,7 @@ _READ_CALLS = {"get_parameter", "get_parameter_or", "declare_parameter"}
 def refuse_bad_rates(file: NodeFile, rate: str) -> list[Edit]:
     """Let an on-set callback refuse rates of 0 or less, before it does anything else."""
     checker = registered_callback(file, ON_SET)
-    result, imported = file.own("SetParametersResult", "rcl_interfaces.msg")
+    result, imported = file.import_name("SetParametersResult", "rcl_interfaces.msg")
     if checker is None:
         return _add_callback(file, "check_parameters", [_check("params", rate, result), _accept(result)], imported)
     params = _params_name(checker)
@@ -40,12 +40,12 @@ def follow_parameters(file: NodeFile, rate: str, *others: str) -> list[Edit]:
     """Rewrite the parameter callbacks as a whole: refuse bad rates, and let every other value take effect."""
     checker, applier = registered_callback(file, ON_SET), registered_callback(file, POST_SET)
     applier = None if applier is checker else applier
-    result, edits = file.own("SetParametersResult", "rcl_interfaces.msg")
+    result, edits = file.import_name("SetParametersResult", "rcl_interfaces.msg")
     params = (_params_name(checker) if checker is not None else "") or "params"
     body = [_check(params, rate, result)]
     if applier is not None:
         applied = _params_name(applier) or "params"
-        edits += [rewrite_function(applier, _apply_values(file, applied, rate, others), given=applied)]
+        edits += [rewrite_function(applier, _apply_values(file, applied, rate, others), parameter=applied)]
     else:
         body.append(_apply_values(file, params, rate, others))
     body.append(_accept(result))
@@ -55,13 +55,13 @@ def follow_parameters(file: NodeFile, rate: str, *others: str) -> list[Edit]:
     first = file.calls(ON_SET)[0]
     extra = [each for each in file.calls(ON_SET, PRE_SET) if each is not first]
     edits += [_remove_call(file, each) for each in extra]
-    return [*edits, *keep_timer, rewrite_function(checker, "\n".join(body), given=params)]
+    return [*edits, *keep_timer, rewrite_function(checker, "\n".join(body), parameter=params)]
 
 
 def cancel_old_timer(file: NodeFile) -> list[Edit]:
     """Cancel the timer that a parameter callback replaces, if nothing else is missing there."""
     callbacks = [found for kind in (ON_SET, POST_SET) if (found := registered_callback(file, kind)) is not None]
-    inside = [each for callback in callbacks for each in file.reached(callback)]
+    inside = [each for callback in callbacks for each in file.reachable_from(callback)]
     made = [each for each in file.timers if file.function_around(each) in inside]
     ended = [each for each in file.calls("cancel", "destroy_timer", "destroy") if file.function_around(each) in inside]
     timer = _timer_target(file)
@@ -276,7 +276,7 @@ def _update_attributes(file: NodeFile, name: str, value: str) -> list[str]:
             found.setdefault(ast.unparse(target), _with_value(expression, reading, value))
         elif _is_under_name_test(file, node, name) and ast.unparse(expression).endswith(".value"):
             found.setdefault(ast.unparse(target), value)
-    own = f"{file.holder}."
+    own = f"{file.owner}."
     timer = _timer_target(file)
     return [f"{at} = {code}" for at, code in found.items() if at.startswith(own) and not at.startswith(timer)]
 
@@ -328,7 +328,7 @@ def _is_under_name_test(file: NodeFile, node: ast.AST, name: str) -> bool:
 
 def _timer_target(file: NodeFile) -> str:
     """Where the timer is kept, or where to keep it: an attribute such as "self.timer", or an item."""
-    return target if _is_lasting(target := _current_timer_target(file)) else f"{file.holder}.timer"
+    return target if _is_lasting(target := _current_timer_target(file)) else f"{file.owner}.timer"
 
 
 def _current_timer_target(file: NodeFile) -> str:
@@ -364,8 +364,8 @@ def _keep_timer(file: NodeFile, without: Sequence[Function]) -> list[Edit]:
 def is_followed(file: NodeFile, name: str) -> bool:
     """Whether the timer's callback reads a parameter from the node, or a parameter callback compares its name."""
     callbacks = [found for kind in (ON_SET, POST_SET) if (found := registered_callback(file, kind)) is not None]
-    inside = [each for callback in callbacks for each in file.reached(callback)]
-    timer_functions = file.reached(file.tick) if file.tick is not None else []
+    inside = [each for callback in callbacks for each in file.reachable_from(callback)]
+    timer_functions = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
     comparisons = [each for function in inside for each in ast.walk(function) if isinstance(each, ast.Compare)]
     return any(file.function_around(each) in timer_functions for each in readings(file, name)) or any(
         _is_text(each, name) for test in comparisons for each in (test.left, *test.comparators)

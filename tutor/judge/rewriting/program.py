@@ -206,7 +206,7 @@ def _has_no_setup(file: NodeFile, statement: ast.stmt) -> bool:
     if not isinstance(statement, ast.Expr) or not isinstance(call := statement.value, ast.Call):
         return False
     callee = file.function(call.func)
-    inside = [call, *(each for one in (file.reached(callee) if callee else []) for each in ast.walk(one))]
+    inside = [call, *(each for one in (file.reachable_from(callee) if callee else []) for each in ast.walk(one))]
     names = [called_name(each) for each in inside if isinstance(each, ast.Call)]
     return not any(name.startswith(("create_", "declare_", "init", "add_on")) for name in names)
 
@@ -250,7 +250,7 @@ def _spin_lines(file: NodeFile, nodes: Sequence[str], threads: bool) -> tuple[li
     made = next(iter(file.calls("MultiThreadedExecutor")), None)
     if not threads and made is None and len(nodes) == 1:
         return [f"rclpy.spin({nodes[0]})"], []
-    name, edits = file.own("MultiThreadedExecutor", "rclpy.executors")
+    name, edits = file.import_name("MultiThreadedExecutor", "rclpy.executors")
     executor = (file.assigned_to(made) if made is not None else "") or "executor"
     code = f"{name}(num_threads={_THREADS})" if threads or made is None else ast.unparse(made)
     return [f"{executor} = {code}", *(f"{executor}.add_node({each})" for each in nodes), f"{executor}.spin()"], edits
@@ -258,7 +258,7 @@ def _spin_lines(file: NodeFile, nodes: Sequence[str], threads: bool) -> tuple[li
 
 def _except_interrupt(file: NodeFile) -> tuple[str, list[Edit]]:
     """The `except` clause, without its colon, for both exceptions that end a spin, and the imports that it needs."""
-    name, edits = file.own("ExternalShutdownException", "rclpy.executors")
+    name, edits = file.import_name("ExternalShutdownException", "rclpy.executors")
     return f"except (KeyboardInterrupt, {name})", edits
 
 

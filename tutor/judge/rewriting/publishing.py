@@ -12,9 +12,9 @@ from tutor.judge.source import Function, called_name, calls_in
 
 def send_data(file: NodeFile, code: str) -> list[Edit]:
     """Set the `data` of the message that the timer's callback publishes to this code."""
-    if file.tick is None:
+    if file.timer_callback is None:
         return []
-    within = file.reached(file.tick)
+    within = file.reachable_from(file.timer_callback)
     found = list(_data_expressions(file, within))
     if found:
         return [_replace_data(file, expression, code) for expression in found]
@@ -26,7 +26,8 @@ def send_data(file: NodeFile, code: str) -> list[Edit]:
 
 def published_data(file: NodeFile) -> ast.expr | None:
     """The expression that the timer's callback puts into the message's `data`."""
-    return next(_data_expressions(file, file.reached(file.tick)), None) if file.tick is not None else None
+    within = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
+    return next(_data_expressions(file, within), None)
 
 
 def _data_expressions(file: NodeFile, within: list[Function]) -> Iterator[ast.expr]:
@@ -49,10 +50,10 @@ def _replace_data(file: NodeFile, expression: ast.expr, code: str) -> Edit:
     return replace_node(file.text, expression, code)
 
 
-def waiting_while_off(file: NodeFile, enabled: str) -> list[Edit]:
+def pause_while_off(file: NodeFile, enabled: str) -> list[Edit]:
     """Let the timer's callback return at once while a parameter is false; without a timer, only skip publishing."""
-    if file.first_timer is not None and file.tick is not None and file.tick is not file.setup:
-        return file.prepend_to(file.tick, f"if not {file.value(enabled)}:\n    return")
+    if file.first_timer is not None and file.timer_callback is not None and file.timer_callback is not file.setup:
+        return file.prepend_to(file.timer_callback, f"if not {file.value(enabled)}:\n    return")
     return [
         replace_statement(each, f"if {file.value(enabled)}:\n    {ast.unparse(each)}")
         for each in _publish_statements(file)
@@ -67,12 +68,12 @@ def log_value(file: NodeFile, parameter: str) -> list[Edit]:
 
 def _publish_statements(file: NodeFile) -> list[ast.stmt]:
     """The statements that publish: those reached from the timer's callback, if there is one, else all."""
-    within = file.reached(file.tick) if file.tick is not None else []
+    within = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
     sent = [each for each in file.calls("publish") if not within or file.function_around(each) in within]
     return [file.statement(each) for each in sent]
 
 
-def text_with(file: NodeFile, prefix: str) -> str:
+def prefixed_text(file: NodeFile, prefix: str) -> str:
     """The code of a text that starts with a parameter's value, followed by the callback's counter, if any."""
     counter = _counter(file)
     return f"f'{{{_double_quoted(file.value(prefix))}}} {{{counter}}}'" if counter else file.value(prefix)
@@ -82,7 +83,7 @@ def _counter(file: NodeFile) -> str:
     """The counter that the timer's callback increments, such as "self.count"; empty if there is none."""
     counted = [
         ast.unparse(node.target)
-        for function in (file.reached(file.tick) if file.tick is not None else [])
+        for function in (file.reachable_from(file.timer_callback) if file.timer_callback is not None else [])
         for node in ast.walk(function)
         if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add) and isinstance(node.value, ast.Constant)
     ]
@@ -95,14 +96,15 @@ def whole_timer_callback(file: NodeFile, data: str, *, enabled: str = "", log: s
     `data`: the code of the message's data. `enabled`, `log`: the parameters that switch publishing off, and that are
     logged with each message.
     """
-    if file.tick is None or not file.publisher or not file.message_class or file.tick is file.setup:
+    if file.timer_callback is None or not file.publisher or not file.message_class or file.timer_callback is file.setup:
         return []
-    return [rewrite_function(file.tick, _callback_body(file, file.publisher, file.message_class, data, enabled, log))]
+    body = _callback_body(file, file.publisher, file.message_class, data, enabled, log)
+    return [rewrite_function(file.timer_callback, body)]
 
 
 def _callback_body(file: NodeFile, publisher: str, message_class: str, data: str, enabled: str, log: str) -> str:
     """The code of a timer callback's body (see `whole_timer_callback`)."""
-    counter, body = _counter(file), file.tick.body if file.tick is not None else []
+    counter, body = _counter(file), file.timer_callback.body if file.timer_callback is not None else []
     lines = [
         *(ast.unparse(each) for each in body if isinstance(each, ast.Global | ast.Nonlocal)),
         *([f"if not {file.value(enabled)}:", "    return"] if enabled else []),
@@ -131,10 +133,10 @@ def whole_publishing(
     enabled, log = enabled if enabled in constants else "", log if log in constants else ""
     period = f"1.0 / {file.value(rate)}" if rate in constants else "1.0"
     package, _, name = type_name.partition("/msg/")
-    own, edits = file.own(name, f"{package}.msg")
+    own, edits = file.import_name(name, f"{package}.msg")
     made = file.calls("create_publisher", "create_lifecycle_publisher")
     existing = next((each for each in made if file.assigned_to(each)), None)
-    publisher = file.assigned_to(existing) if existing is not None else f"{file.holder}.publisher"
+    publisher = file.assigned_to(existing) if existing is not None else f"{file.owner}.publisher"
     create = f"{file.name}.create_publisher({own}, {topic!r}, 10)"
     topic_arg = argument(existing, 1, "topic") if existing is not None else None
     present_topic = str(topic_arg.value) if isinstance(topic_arg, ast.Constant) else ""
@@ -142,7 +144,7 @@ def whole_publishing(
         edits.append(replace_node(file.text, existing, create))
     missing = [f"{publisher} = {create}"] if existing is None else []
     body = _callback_body(file, publisher, own, data, enabled, log)
-    tick = file.tick if file.tick is not file.setup and file.tick is not None else None
+    tick = file.timer_callback if file.timer_callback is not file.setup and file.timer_callback is not None else None
     in_class = file.setup is not None and file.class_of(file.setup) is not None
     method = tick.name if tick is not None else "timer_callback"
     indented = "\n".join(f"    {line}" for line in body.splitlines())
@@ -154,7 +156,7 @@ def whole_publishing(
         missing.append(f"def {method}():\n{indented}\n")
     if not file.timers or tick is None:
         callback = f"{'self.' if in_class else ''}{method}"
-        missing.append(f"{file.holder}.timer = {file.name}.create_timer({period}, {callback})")
+        missing.append(f"{file.owner}.timer = {file.name}.create_timer({period}, {callback})")
     if not in_class and not any(called_name(each).startswith("spin") for each in calls_in(file.tree)):
         missing.append(f"rclpy.spin({file.name})")
     return [*edits, *(file.append_to_setup("\n".join(missing)) if missing else [])]
@@ -162,7 +164,7 @@ def whole_publishing(
 
 def use_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
     """Move publishers of any other type on a topic to a topic of their own."""
-    own, _ = file.own(type_name.rpartition("/")[2], type_name.partition("/")[0] + ".msg")
+    own, _ = file.import_name(type_name.rpartition("/")[2], type_name.partition("/")[0] + ".msg")
     edits = []
     for call in file.calls("create_publisher"):
         kind, name = argument(call, 0, "msg_type"), argument(call, 1, "topic")

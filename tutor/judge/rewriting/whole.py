@@ -84,7 +84,7 @@ def names_of(file: NodeFile, node: str) -> Names:
         for each in ast.walk(file.tree)
         if isinstance(each, ast.AugAssign) and isinstance(each.op, ast.Add) and isinstance(each.value, ast.Constant)
     )
-    tick = file.tick if file.tick is not file.setup else None
+    tick = file.timer_callback if file.timer_callback is not file.setup else None
     usual_class = "".join(part.capitalize() for part in node_name.split("_"))
     return Names(
         node_class=owner.name if owner is not None and owner.name not in ("Node", "String", "Float64") else usual_class,
@@ -130,7 +130,7 @@ def is_usual(file: NodeFile) -> bool:
 
     Only for such a node is it certain that rewriting its callbacks makes them do what is required.
     """
-    setup, timer, tick = file.setup, file.first_timer, file.tick
+    setup, timer, tick = file.setup, file.first_timer, file.timer_callback
     owner = file.class_of(setup) if setup is not None else None
     if owner is None or timer is None or tick is None or tick is setup or file.class_of(tick) is not owner:
         return False

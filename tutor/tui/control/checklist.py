@@ -64,7 +64,7 @@ class ChecklistController:
 
     def _tick(self, item: str, ticked: bool) -> None:
         self._pending_ticks += 1
-        self._host.work(self._save_tick, item, ticked, group="progress")
+        self._host.start_worker(self._save_tick, item, ticked, group="progress")
 
     async def _save_tick(self, item: str, ticked: bool) -> None:
         try:
@@ -83,7 +83,7 @@ class ChecklistController:
 
         def answered(answer: tuple[str, Path] | None) -> None:
             if answer is not None:
-                self._host.work(self._write, *answer, group="progress")
+                self._host.start_worker(self._write, *answer, group="progress")
 
         self._host.app.push_screen(ExportScreen(self._host.model.session.workspace.root, format, file), answered)
 
@@ -102,7 +102,7 @@ class ChecklistController:
 
         def answered(yes: bool | None) -> None:
             if yes:
-                self._host.work(self._write, format, path, True, group="progress")
+                self._host.start_worker(self._write, format, path, True, group="progress")
             else:
                 self._ask(format, path)
 

@@ -95,9 +95,9 @@ class Checks:
         model = self._host.model
         command = model.session.check_command(lesson, first=model.state.first_failure)
         self.running = CheckProcess(lesson.id, command, model.session.workspace.root, self._post_event)
-        self._update(model.findings[lesson.id].begun())
+        self._update(model.findings[lesson.id].with_check_started())
         self._host.refresh_bindings()
-        self._host.work(self._run, lesson, self.running, group="check")
+        self._host.start_worker(self._run, lesson, self.running, group="check")
 
     def _post_event(self, event: Event | CheckEnded) -> None:
         if isinstance(event, CheckEnded):
@@ -119,9 +119,9 @@ class Checks:
         """Apply an event of the running check to the findings."""
         if self.running is None or self.running.cancelled:
             return
-        self._update(self._host.model.findings[self.running.exercise].after(event))
+        self._update(self._host.model.findings[self.running.exercise].with_event(event))
         if isinstance(event, ExerciseJudged):
-            self._records.add(event.result)
+            self._records.record_attempt(event.result)
 
     def over(self, ended: CheckEnded) -> None:
         """Handle the end of the check's process."""
@@ -131,7 +131,7 @@ class Checks:
         if ended.cancelled:
             found = found.stopped("cancelled")
         elif ended.fault:
-            found = found.broken(ended.fault, CRASHED, ended.evidence)
+            found = found.with_fault(ended.fault, CRASHED, ended.evidence)
         elif found.checking:
             found = found.stopped()
         self._update(found)

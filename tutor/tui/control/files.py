@@ -51,7 +51,7 @@ class Files:
         self._pane.show_names(model.paths, index)
         path = model.path
         on_change = partial(self._host.post_message, messages.FileTouched(path))
-        self._host.work(watch_file, path, on_change, group="file", exclusive=True)
+        self._host.start_worker(watch_file, path, on_change, group="file", exclusive=True)
 
     def next_file(self) -> None:
         """Show the lesson's other file."""
@@ -65,19 +65,19 @@ class Files:
         if message.path in paths:
             self.show(paths.index(message.path))
             self._host.show_page("code")
-            self._host.work(self._go_to, message, group="show-line", exclusive=True)
+            self._host.start_worker(self._go_to, message, group="show-line", exclusive=True)
 
     async def _go_to(self, message: messages.GoToLine) -> None:
-        await self.look(message.path)
+        await self.refresh(message.path)
         self._pane.go_to(message.path, message.line)
 
     # --- the disk has changed ---
 
     def touched(self, message: messages.FileTouched) -> None:
         """Handle a change on disk: read the file again."""
-        self._host.work(self.look, message.path, group="look")
+        self._host.start_worker(self.refresh, message.path, group="refresh")
 
-    async def look(self, path: Path) -> None:
+    async def refresh(self, path: Path) -> None:
         """Read a file, and reconcile the editor with it."""
         async with self._lock:
             try:
@@ -93,17 +93,17 @@ class Files:
         """Reconcile the editor with `text`, the file on disk (None: there is no file). The lock must be held."""
         known = self._disk.get(path)
         if text is None:
-            if known is not None and self._pane.is_changed(path):
+            if known is not None and self._pane.is_unsaved(path):
                 await self._write(path, None)  # removed while being edited: the editor's text wins
                 return
             self._disk.pop(path, None)
             if path == self._host.model.path:
                 self._pane.show_missing(path)
             return
-        if text == known and self._pane.knows(path):
-            self._pane.show_found(path)  # usually our own save: anything typed since is newer than the disk
+        if text == known and self._pane.has_editor(path):
+            self._pane.show_existing(path)  # usually our own save: anything typed since is newer than the disk
             return
-        if known is not None and self._pane.is_changed(path):
+        if known is not None and self._pane.is_unsaved(path):
             if text != self._pane.text(path):
                 await self._resolve_conflict(path, text)
                 return
@@ -156,17 +156,17 @@ class Files:
     def texts(self, lesson: Lesson) -> dict[Path, str]:
         """Return the current text of a lesson's files, as far as they have been read."""
         paths = map(self._host.model.session.path, lesson.files)
-        return {path: self._pane.text(path) for path in paths if self._pane.knows(path)}
+        return {path: self._pane.text(path) for path in paths if self._pane.has_editor(path)}
 
     def typed(self) -> None:
         """Handle an edit: schedule an autosave."""
-        self._pane.show_saved()
-        if self._autosave is None and self._pane.changed():
+        self._pane.refresh_head()
+        if self._autosave is None and self._pane.unsaved_files():
             self._autosave = self._host.set_timer(AUTOSAVE_DELAY_S, self._autosave_due)
 
     def _autosave_due(self) -> None:
         self._autosave = None
-        self._host.work(self.save_all, group="save")
+        self._host.start_worker(self.save_all, group="save")
 
     async def save(self) -> None:
         """Save on request, which also triggers what is set to happen on each save."""
@@ -181,12 +181,12 @@ class Files:
         async with self._lock:
             await self._write_changed()
         if not self._closed:
-            self._pane.show_saved()
-        return not self._pane.changed()
+            self._pane.refresh_head()
+        return not self._pane.unsaved_files()
 
     async def _write_changed(self) -> None:
         """Write every changed file; the lock must be held."""
-        for path in self._pane.changed():
+        for path in self._pane.unsaved_files():
             await self._write(path, self._disk.get(path))
 
     async def _write(self, path: Path, expected: str | None) -> None:
@@ -225,7 +225,7 @@ class Files:
 
     def start(self) -> None:
         """Put the lesson's skeletons into the workspace."""
-        self._host.work(self._start, self._host.model.lesson, group="start", exclusive=True)
+        self._host.start_worker(self._start, self._host.model.lesson, group="start", exclusive=True)
 
     async def _start(self, lesson: Lesson) -> None:
         try:
@@ -252,10 +252,10 @@ class Files:
         if self.offer_start_if_missing("edit"):
             return
         path = self._host.model.path
-        if self._pane.knows(path):
+        if self._pane.has_editor(path):
             self._focus_editor()
         else:  # requested before the file has been read
-            self._host.work(self._focus_editor_when_read, path, group="show-line", exclusive=True)
+            self._host.start_worker(self._focus_editor_when_read, path, group="show-line", exclusive=True)
 
     def find(self, *, again: bool = False) -> None:
         """Open the search in the file shown, or (`again`) find the next match."""
@@ -264,7 +264,7 @@ class Files:
         self._pane.find(again=again)
 
     async def _focus_editor_when_read(self, path: Path) -> None:
-        await self.look(path)
+        await self.refresh(path)
         if path == self._host.model.path:
             self._focus_editor()
 
@@ -301,14 +301,14 @@ class Files:
         self._host.ask(f"Reset {name}", text, "Reset", self._reset)
 
     def _reset(self) -> None:
-        self._host.work(self._reset_now, group="start", exclusive=True)
+        self._host.start_worker(self._reset_now, group="start", exclusive=True)
 
     async def _reset_now(self) -> None:
         model = self._host.model
         file, path = model.file, model.path
         async with self._lock:  # no read may see the state in between
             await self._write_changed()
-            if self._pane.is_changed(path):
+            if self._pane.is_unsaved(path):
                 return  # saving failed, which was reported: the editor holds the only copy
             try:
                 placed = await asyncio.to_thread(model.session.reset, file)

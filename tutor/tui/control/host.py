@@ -96,7 +96,7 @@ class HostScreen(Screen[None]):
 
     # --- workers, notes and questions ---
 
-    def work(
+    def start_worker(
         self, work: Callable[..., Coroutine[Any, Any, object]], *args: Any, group: str, exclusive: bool = False
     ) -> None:
         """Run `work(*args)` in a worker of this screen."""

@@ -24,8 +24,8 @@ class Logs:
 
     def go_to_error(self) -> None:
         """Put the cursor on the line of the learner's code that the last traceback names."""
-        place = self._pane.error_place
-        if place is None:
+        location = self._pane.error_location
+        if location is None:
             self._host.say("No error in the log points into your code.")
         else:
-            self._host.post_message(messages.GoToLine(*place))
+            self._host.post_message(messages.GoToLine(*location))

@@ -23,7 +23,7 @@ class Nodes:
 
     def __init__(self, host: HostScreen, files: Files, preferences: Preferences) -> None:
         self._host, self._files, self._preferences = host, files, preferences
-        self.known: dict[Path, Node] = {}
+        self.by_path: dict[Path, Node] = {}
         """The latest node of each file, running or not; partner nodes by their `partner_key`."""
         self._chosen: tuple[Path, Path] | None = None
         """The node whose log the learner chose, and the file shown at that time."""
@@ -44,7 +44,7 @@ class Nodes:
     @property
     def running(self) -> list[Node]:
         """The nodes whose process is alive."""
-        return [node for node in self.known.values() if node.state.alive]
+        return [node for node in self.by_path.values() if node.state.alive]
 
     @property
     def shown(self) -> Path | None:
@@ -52,13 +52,13 @@ class Nodes:
         path = self._host.model.path
         if self._chosen is not None and self._chosen[1] == path and self._chosen[0] in self.listed:
             return self._chosen[0]
-        return path if path in self.known else self.latest
+        return path if path in self.by_path else self.latest
 
     @property
     def listed(self) -> list[Path]:
         """The nodes whose logs can be chosen: those of the lesson, and any others that are running."""
         own = self._paths_of(self._host.model.lesson)
-        return [path for path, node in self.known.items() if path in own or node.state.alive]
+        return [path for path, node in self.by_path.items() if path in own or node.state.alive]
 
     def choose(self, path: Path) -> None:
         """Show the log of this node."""
@@ -73,11 +73,11 @@ class Nodes:
         return commands.OTHER_FILE.keys[0] if path in model.paths else commands.PARTNER.keys[0]
 
     def _post_changed(self, path: Path, *, started: bool = False, automatic: bool = False) -> None:
-        state = self.known[path].state
+        state = self.by_path[path].state
         self._host.post_message(messages.NodeChanged(path, state, started=started, automatic=automatic))
 
     def _paths_of(self, lesson: Lesson) -> set[Path]:
-        """Return the keys in `known` of a lesson's nodes, its partners included."""
+        """Return the keys in `by_path` of a lesson's nodes, its partners included."""
         files = {self._host.model.session.path(file) for file in lesson.files}
         return files | {partner_key(partner) for partner in lesson.live.partners}
 
@@ -87,18 +87,18 @@ class Nodes:
         return model.lesson.live.partner_of(model.file.name)
 
     def _is_alive(self, path: Path) -> bool:
-        return path in self.known and self.known[path].state.alive
+        return path in self.by_path and self.by_path[path].state.alive
 
     @property
     def _nodes_to_stop(self) -> list[Node]:
         """What Stop acts on: the node of the file shown or, if this lesson has run none, those of another lesson."""
         model = self._host.model
         if self._is_alive(model.path):
-            return [self.known[model.path]]
-        if any(path in self.known for path in model.paths):
+            return [self.by_path[model.path]]
+        if any(path in self.by_path for path in model.paths):
             return []
         own = self._paths_of(model.lesson)
-        return [node for path, node in self.known.items() if node.state.alive and path not in own]
+        return [node for path, node in self.by_path.items() if node.state.alive and path not in own]
 
     # --- run and stop ---
 
@@ -124,7 +124,7 @@ class Nodes:
         file = files[(model.file_index + 1) % len(files)]
         path = model.session.path(file)
         if self._is_alive(path):
-            self.known[path].stop()
+            self.by_path[path].stop()
         elif not path.exists():
             self._host.show_error(f"{file.name} is not in your workspace yet.")
         else:
@@ -137,7 +137,7 @@ class Nodes:
             return
         key = partner_key(partner)
         if self._is_alive(key):
-            self.known[key].stop()
+            self.by_path[key].stop()
             return
         own = [path for path in model.paths if partner.file and path.name == partner.file.name and self._is_alive(path)]
         if own:
@@ -178,17 +178,17 @@ class Nodes:
         self, lesson: Lesson, path: Path, command: Callable[[], NodeCommand], *, automatic: bool = False
     ) -> None:
         self._requests[path] = self._requests.get(path, 0) + 1
-        self._host.work(self._run, lesson, path, command, self._requests[path], automatic, group="node")
+        self._host.start_worker(self._run, lesson, path, command, self._requests[path], automatic, group="node")
 
     async def _run(
         self, lesson: Lesson, path: Path, make_command: Callable[[], NodeCommand], request: int, automatic: bool
     ) -> None:
         own = self._paths_of(lesson)
-        others = [node for other, node in self.known.items() if node.state.alive and other not in own]
+        others = [node for other, node in self.by_path.items() if node.state.alive and other not in own]
         for node in others:
             node.stop()
         if self._is_alive(path):
-            self.known[path].stop()
+            self.by_path[path].stop()
         await self._files.save_all()
         async with self._locks.setdefault(path, asyncio.Lock()):
             for node in others:
@@ -206,7 +206,7 @@ class Nodes:
                 self._host.show_error(f"The node cannot be started: {error.strerror or error}")
                 return
             node = Node(command, lambda state: self._host.post_message(messages.NodeChanged(path, state)))
-            self.known[path], self.latest = node, path
+            self.by_path[path], self.latest = node, path
             if not automatic:
                 self._chosen = (path, self._host.model.path)
             self._post_changed(path, started=True, automatic=automatic)
@@ -238,10 +238,10 @@ class Nodes:
         """Stop all nodes, and drop the requests that are still waiting."""
         for path in self._requests:
             self._requests[path] += 1
-        for node in self.known.values():
+        for node in self.by_path.values():
             node.stop()
 
 
 def partner_key(partner: Partner) -> Path:
-    """Return the key of a partner node in `Nodes.known`, where learners' nodes are keyed by file."""
+    """Return the key of a partner node in `Nodes.by_path`, where learners' nodes are keyed by file."""
     return partner.file or Path(*partner.run)

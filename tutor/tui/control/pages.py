@@ -87,7 +87,7 @@ class Pages:
             self._open_live()
         elif name == "terminal":
             self.open_terminal()
-        self._host.query_one(CriteriaPanel).show_reading(name == "lesson")
+        self._host.query_one(CriteriaPanel).set_reading(name == "lesson")
         if name != "criteria":
             self._host.query_one(ContentSwitcher).current = name
         self.arrange_side_by_side()
@@ -110,8 +110,8 @@ class Pages:
         if not (pane := self.live):
             self.live = pane = LivePane(id="live-pane")
             self._host.query_one("#live", Container).mount(pane)
-            pane.show_for(self._host.model.lesson)
-            pane.nodes_run(self._node_is_running())
+            pane.set_lesson(self._host.model.lesson)
+            pane.set_own_nodes_running(self._node_is_running())
             session = self._host.model.session
             pane.call_after_refresh(pane.start_watching, lambda: watcher_command(session.domain))
         return pane

@@ -40,7 +40,7 @@ class Preferences:
 
     def _write_due(self) -> None:
         self._timer = None
-        self._host.work(self.flush, group="state")
+        self._host.start_worker(self.flush, group="state")
 
     async def flush(self) -> None:
         """Write the state now, if it has changed."""
@@ -50,7 +50,7 @@ class Preferences:
             if state == self._saved:
                 return
             try:
-                await asyncio.to_thread(model.session.keep, state)
+                await asyncio.to_thread(model.session.save_app_state, state)
                 self._saved = state
             except StorageError as error:
                 self._saved = state  # report the error once, not on every change

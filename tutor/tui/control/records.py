@@ -29,7 +29,7 @@ class Records:
         """Read the progress from disk."""
         self._start_change(self._host.model.session.progress)
 
-    def add(self, result: ExerciseResult) -> None:
+    def record_attempt(self, result: ExerciseResult) -> None:
         """Record one attempt."""
         self._start_change(self._host.model.session.record, result)
 
@@ -70,7 +70,7 @@ class Records:
         self._host.app.push_screen(AttemptsScreen(model.lesson, model.progress.of(model.lesson.id)))
 
     def _start_change(self, change: Callable[..., Progress], *args: Any) -> None:
-        self._host.work(self.change, change, *args, group="progress")
+        self._host.start_worker(self.change, change, *args, group="progress")
 
     async def change(self, change: Callable[..., Progress], *args: Any) -> None:
         """Change the progress on disk, and post the result or, if that fails, the progress as it was."""

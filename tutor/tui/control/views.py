@@ -12,9 +12,8 @@ from tutor.tui.widgets.code_pane import CodePane
 
 
 class View(StrEnum):
-    """What the code page shows."""
+    """The read-only views of the code page."""
 
-    MINE = "mine"
     SKELETON = "skeleton"
     CHANGES = "changes"
     SOLUTION = "solution"
@@ -52,10 +51,10 @@ class Views:
         self._host.ask(f"Solution of {wording.label(lesson)}", text, "Show it", reveal)
 
     def _show(self, view: View) -> None:
-        self._host.work(self._load_and_show, view, group="view", exclusive=True)
+        self._host.start_worker(self._load_and_show, view, group="view", exclusive=True)
 
     async def _load_and_show(self, view: View) -> None:
-        from tutor.tui.widgets.diffing import count, difference
+        from tutor.tui.widgets.diffing import count_changes, diff_rows
 
         file = self._host.model.file
         path = self._host.model.path
@@ -64,20 +63,20 @@ class Views:
         except OSError as error:
             self._host.show_error(f"The file cannot be read: {error.strerror}")
             return
-        await self._files.look(path)
+        await self._files.refresh(path)
         self._host.show_page("code")
         if view in (View.SKELETON, View.SOLUTION):
-            self._pane.show_other(
+            self._pane.show_read_only(
                 view, f"{'Our solution' if view is View.SOLUTION else 'The skeleton'}, read-only", other
             )
             return
-        if not self._pane.knows(path):
+        if not self._pane.has_editor(path):
             self._host.show_error(f"{file.name} is not in your workspace yet: there is nothing to compare.")
             return
         mine = self._pane.text(path)
         against = view is View.AGAINST
-        rows, margins = difference(mine, other) if against else difference(other, mine)
-        added, removed = count(rows)
+        rows, margins = diff_rows(mine, other) if against else diff_rows(other, mine)
+        added, removed = count_changes(rows)
         title = (
             f"From yours to our solution: {removed} lines of yours (-), {added} of ours (+)"
             if against

@@ -13,7 +13,7 @@ from textual.widgets import Static
 from tutor.content import Lesson
 from tutor.tui import wording
 from tutor.tui.dialogs.dialog import Dialog
-from tutor.tui.widgets.attempts import history
+from tutor.tui.widgets.attempts import format_attempts
 from tutor.workspace import ExerciseProgress
 
 
@@ -33,4 +33,4 @@ class AttemptsScreen(Dialog[None]):
         with VerticalScroll(classes="window") as window:
             window.border_title = Content(f"{wording.label(self._lesson)}: your attempts")
             window.border_subtitle = "Esc closes"
-            yield Static(history(self._lesson, self._progress, most=200), classes="dialog-text")
+            yield Static(format_attempts(self._lesson, self._progress, max_count=200), classes="dialog-text")

@@ -13,7 +13,7 @@ from textual.widgets import Button, Static
 
 from tutor.tui.dialogs.dialog import Dialog
 from tutor.tui.widgets.code_view import CodeView
-from tutor.tui.widgets.diffing import difference
+from tutor.tui.widgets.diffing import diff_rows
 
 
 class ConflictScreen(Dialog[bool]):
@@ -47,7 +47,7 @@ class ConflictScreen(Dialog[bool]):
     def action_difference(self) -> None:
         """Show or hide the diff from the file's version (-) to the learner's (+)."""
         view = self.query_one(CodeView)
-        view.show_rows(*difference(self._theirs, self._ours))
+        view.show_rows(*diff_rows(self._theirs, self._ours))
         view.display = not view.display
 
     @on(Button.Pressed, "#mine")

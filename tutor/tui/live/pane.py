@@ -68,10 +68,10 @@ class LivePane(Vertical):
       nothing if it is watching already. `command` is called in a worker thread.
     - `stop_watching()` to stop; returns at once, and the child is certain to end. `await close_down()` does the same
       and waits (well under two seconds). The child also ends when the pane is unmounted or the app is killed.
-    - `show_for(lesson)` when another lesson is shown: its topic, node and service are chosen as soon as they appear,
+    - `set_lesson(lesson)` when another lesson is shown: its topic, node and service are chosen as soon as they appear,
       unless the learner has chosen others; topics of the previous lesson go once they have no publisher.
-    - `nodes_run(running)` when the first of the learner's nodes starts, and when the last one ends: while any runs,
-      newly published topics are followed, and shown if the shown topic has no publisher.
+    - `set_own_nodes_running(running)` when the first of the learner's nodes starts, and when the last one ends: while
+      any runs, newly published topics are followed, and shown if the shown topic has no publisher.
     - `open_tab(tab)` to show one of `TABS`.
     - `focus_content()` to focus the widget that the arrow keys are useful in.
 
@@ -324,7 +324,7 @@ class LivePane(Vertical):
 
     # --- selection ---
 
-    def show_for(self, lesson: Lesson) -> None:
+    def set_lesson(self, lesson: Lesson) -> None:
         """Choose this lesson's topics and service as soon as they appear."""
         if lesson.live is self.state.lesson_view:
             return
@@ -338,7 +338,7 @@ class LivePane(Vertical):
             self._choose_lesson_topics()
             self._show_status()
 
-    def nodes_run(self, running: bool) -> None:
+    def set_own_nodes_running(self, running: bool) -> None:
         """Note whether any of the learner's own nodes is running."""
         self._own_nodes_running = running
         if self._composed:

@@ -10,7 +10,7 @@ from textual.widget import Widget
 
 from tutor.tui.live.plot import Point, draw
 
-_INKS = {" ": "$busy", "m": "bold $accent", "o": "bold $bad", "b": "$good"}
+_COLOURS = {" ": "$busy", "m": "bold $accent", "o": "bold $bad", "b": "$good"}
 
 _SPANS_S = (5.0, 10.0, 30.0, 60.0, 120.0)
 
@@ -63,5 +63,5 @@ def _coloured_runs(cells: str, kinds: str) -> Iterator[tuple[str, str]]:
     index = 0
     for kind, run in itertools.groupby(kinds):
         length = sum(1 for _ in run)
-        yield cells[index : index + length], _INKS[kind]
+        yield cells[index : index + length], _COLOURS[kind]
         index += length

@@ -24,7 +24,7 @@ from tutor.tui.live.state import LiveState
 from tutor.tui.live.topics_panel import WatcherRequested
 from tutor.tui.widgets.strip import Action, ActionBar
 
-LIMIT_S = 30.0
+CALL_TIMEOUT_S = 30.0
 """How long to wait for the answer to a call, in seconds."""
 
 _COLUMNS = ("Service", "Type", "Node")
@@ -169,7 +169,7 @@ class ServicesPanel(Vertical):
             return
         id = next(_request_ids)
         self.state.waiting[id] = (self.chosen.name, time.time())
-        self.post_message(WatcherRequested(Call(id, self.chosen.name, self.chosen.types[0], request, LIMIT_S)))
+        self.post_message(WatcherRequested(Call(id, self.chosen.name, self.chosen.types[0], request, CALL_TIMEOUT_S)))
         self.show_history()
         self._show_actions()
 

@@ -184,8 +184,8 @@ class TopicsPanel(Vertical):
         if view.snapshot is not None and view.update is not None:
             more = view.update.count - update.count
             return Content.assemble(first, (f"\n▮▮ paused (+{more:,}) ", "bold $warn"), numbers)
-        mark, ink = ("■", "$quiet") if wording.is_silent(update, since) else ("●", "$good")
-        return Content.assemble(first, "\n", (f"{mark} ", ink), numbers)
+        mark, colour = ("■", "$quiet") if wording.is_silent(update, since) else ("●", "$good")
+        return Content.assemble(first, "\n", (f"{mark} ", colour), numbers)
 
     def _actions(self, view: TopicView | None) -> tuple[Action, ...]:
         if not self.chosen:

@@ -128,7 +128,7 @@ class MainScreen(HostScreen):
             return
         if self.pages.folded and self.page != "criteria":
             self.show_page("criteria")
-        diagnosis.fold()
+        diagnosis.toggle_evidence()
 
     # --- lessons ---
 
@@ -143,7 +143,7 @@ class MainScreen(HostScreen):
         self.files.show(0)
         self.show_page(page)
         if (live := self.pages.live) is not None:
-            live.show_for(lesson)
+            live.set_lesson(lesson)
         place = lessons.index(lesson) + 1
         criteria = self.query_one(CriteriaPanel)
         self._count_passed()
@@ -208,7 +208,7 @@ class MainScreen(HostScreen):
         if self._framed_panels:
             criteria = self.query_one(CriteriaPanel)
             criteria.show_typing(isinstance(focused, CodeEditor))
-            criteria.show_entered(criteria in around)
+            criteria.set_focus_inside(criteria in around)
         for panel in self._framed_panels:
             if panel.has_class("-focused") != (panel in around):
                 panel.set_class(panel in around, "-focused", update=False)
@@ -262,7 +262,7 @@ class MainScreen(HostScreen):
     @on(messages.EditorLeft)
     def _editor_left(self) -> None:
         self._code.leave_editor()
-        self.work(self.files.save_all, group="save")
+        self.start_worker(self.files.save_all, group="save")
 
     @on(messages.NodeChanged)
     def _node_changed(self, message: messages.NodeChanged) -> None:
@@ -273,11 +273,11 @@ class MainScreen(HostScreen):
             key = self.nodes.stop_key(message.path)
             self._log.show(message.state, self.model.session.domain, self.model.paths, key)
         self.pages.arrange_side_by_side()
-        self._log.show_nodes({path: self.nodes.known[path].state for path in self.nodes.listed}, self.nodes.shown)
-        states = [node.state for node in self.nodes.known.values()]
+        self._log.show_nodes({path: self.nodes.by_path[path].state for path in self.nodes.listed}, self.nodes.shown)
+        states = [node.state for node in self.nodes.by_path.values()]
         self.query_one(StatusBar).show_nodes(states, self.model.session.domain)
         if (live := self.pages.live) is not None:
-            live.nodes_run(bool(self.nodes.running))
+            live.set_own_nodes_running(bool(self.nodes.running))
         if (phases := [(state.file, state.phase) for state in states]) != self._phases:
             # Only on a new phase: refreshing recomposes the footer, which would flicker with each log line.
             self._phases = phases

@@ -28,7 +28,7 @@ def bar(ticked: int, total: int, width: int = _BAR_CELLS) -> Content:
 
 def _evidence_line(item: AssessedItem) -> str:
     """Return the evidence that checks have given for an item; else the exercises that would give it."""
-    if shown := describe_evidence(item.evidence, near_day, most=_MAX_EXERCISES):
+    if shown := describe_evidence(item.evidence, near_day, max_items=_MAX_EXERCISES):
         return f"✓ {' · '.join(shown)}"
     if sources := describe_sources(item.sources[:_MAX_EXERCISES]):
         more = ["others"] if len(item.sources) > _MAX_EXERCISES else []

@@ -108,11 +108,11 @@ class CodePane(Vertical):
 
     def on_descendant_focus(self) -> None:
         """Name other keys while the editor has the focus."""
-        self.show_saved()
+        self.refresh_head()
 
     def on_descendant_blur(self) -> None:
         """Name the command keys, which work again."""
-        self.show_saved()
+        self.refresh_head()
 
     # --- find ---
 
@@ -133,7 +133,7 @@ class CodePane(Vertical):
         """The editor of the chosen file, or None while that file does not exist."""
         return self._editors.get(self._paths[self._chosen]) if self._paths else None
 
-    def knows(self, path: Path) -> bool:
+    def has_editor(self, path: Path) -> bool:
         """Return whether this file has an editor."""
         return path in self._editors
 
@@ -141,18 +141,18 @@ class CodePane(Vertical):
         """Return the text in the editor of a file that has one."""
         return self._editors[path].text
 
-    def changed(self) -> list[Path]:
+    def unsaved_files(self) -> list[Path]:
         """Return the files with unsaved edits."""
         return [path for path, editor in self._editors.items() if editor.changed]
 
-    def is_changed(self, path: Path) -> bool:
+    def is_unsaved(self, path: Path) -> bool:
         """Return whether this file has unsaved edits."""
         return path in self._editors and self._editors[path].changed
 
     def mark_saved(self, path: Path, text: str) -> None:
         """Note that this text is now on disk."""
         self._editors[path].saved_text = text
-        self.show_saved()
+        self.refresh_head()
 
     def go_to(self, path: Path, line: int) -> None:
         """Move the cursor to a line (from 1) and focus the editor."""
@@ -181,14 +181,14 @@ class CodePane(Vertical):
             editor.display = visible
             await self.query_one("#code-body").mount(editor)
         if visible:
-            self.show_found(path)
+            self.show_existing(path)
 
-    def show_found(self, path: Path) -> None:
+    def show_existing(self, path: Path) -> None:
         """Show the editor of a file that exists, in place of the notice that it is missing."""
         if self._paths and path == self._paths[self._chosen]:
             self.remove_class("-missing")
             self._editors[path].display = True
-        self.show_saved()
+        self.refresh_head()
 
     def show_missing(self, path: Path, problem: str = "") -> None:
         """Say that the file does not exist yet, and how to get it; or with which `problem` it cannot be read."""
@@ -207,9 +207,9 @@ class CodePane(Vertical):
                 " to put the skeleton there and begin.",
             )
         self.query_one("#code-missing", Static).update(text)
-        self.show_saved()
+        self.refresh_head()
 
-    def show_other(self, view: str, title: str, source: str) -> None:
+    def show_read_only(self, view: str, title: str, source: str) -> None:
         """Show Python source read-only in place of the editor."""
         self._switch_view(view, title)
         self.query_one(CodeView).show_source(source)
@@ -237,7 +237,7 @@ class CodePane(Vertical):
     def _switch_view(self, view: str, title: str) -> None:
         self.view, self._title = view, title
         self.set_class(view != OWN_FILE_VIEW, "-other")
-        self.show_saved()
+        self.refresh_head()
 
     def focus_content(self, *, typing: bool = False) -> None:
         """Focus the widget that the arrow keys scroll; the editor itself only if the learner is typing."""
@@ -260,14 +260,14 @@ class CodePane(Vertical):
         """Enable `back` only in a read-only view."""
         return self.view != OWN_FILE_VIEW if action == "back" else True
 
-    def show_saved(self) -> None:
+    def refresh_head(self) -> None:
         """Update the two head lines: file names, whether all is saved, and the view that is shown."""
         if not self._paths:
             return
         path = self._paths[self._chosen]
         parts: list[Content | str | tuple[str, str]] = []
         for index, each in enumerate(self._paths):
-            mark = "● " if self.is_changed(each) else ""
+            mark = "● " if self.is_unsaved(each) else ""
             if index == self._chosen:
                 parts += [Content.styled(mark + each.name, "bold $primary"), "  "]
             else:

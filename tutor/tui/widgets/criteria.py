@@ -14,7 +14,7 @@ from tutor.judge.verdict import Status
 from tutor.report.plain import describe_waiting
 from tutor.session.findings import Finding, Findings
 from tutor.tui import wording
-from tutor.tui.widgets.attempts import history
+from tutor.tui.widgets.attempts import format_attempts
 from tutor.tui.widgets.diagnosis import Diagnosis
 from tutor.tui.widgets.row_list import RowList
 from tutor.workspace import ExerciseProgress
@@ -40,12 +40,12 @@ class CriterionRow(ListItem):
         found, width = self.finding, self.content_size.width
         name = Content.assemble(found.id, (" bonus", "$quiet") if found.bonus else "")
         name = name.pad_right(max(0, self._name_width - name.cell_length))
-        progress, text, ink = Content(""), found.text, "$quiet"
+        progress, text, colour = Content(""), found.text, "$quiet"
         if found.verdict is not None:
-            mark, status_ink = wording.MARKS[found.verdict.status], wording.INKS[found.verdict.status]
+            mark, status_colour = wording.MARKS[found.verdict.status], wording.STATUS_COLOURS[found.verdict.status]
             if self._outdated:
-                status_ink, name = "$quiet", name.stylize("$quiet")
-            head = Content.assemble((f"{mark} ", f"bold {status_ink}"), name, " ")
+                status_colour, name = "$quiet", name.stylize("$quiet")
+            head = Content.assemble((f"{mark} ", f"bold {status_colour}"), name, " ")
         elif found.checking:
             head = Content.assemble(("◐ ", "$busy"), name, " ")
             bar_cells = 14 if width > 50 else 8
@@ -53,15 +53,15 @@ class CriterionRow(ListItem):
             progress = _bar(found.fraction, 0 if narrow else bar_cells)
             room = width - head.cell_length - progress.cell_length - 2
             text = describe_waiting(found.doing, found.so_far, room) or "waiting"
-            ink = "$busy" if found.doing or found.so_far else "$quiet"
+            colour = "$busy" if found.doing or found.so_far else "$quiet"
         else:
             head = Content.assemble((f"{wording.MARKS[Status.PASSED] if found.before else '○'} ", "$quiet"), name, " ")
         gap = "  " if progress else ""
         room = width - head.cell_length - progress.cell_length - len(gap)
         if room < 12:  # too short a piece of a sentence says nothing
             gap, text = "", ""
-        text = text if found.so_far else wording.fitted(text, room)
-        return Content.assemble(head, progress, gap, (text, ink)).truncate(width, ellipsis=True)
+        text = text if found.so_far else wording.shorten_to(text, room)
+        return Content.assemble(head, progress, gap, (text, colour)).truncate(width, ellipsis=True)
 
 
 _PERCENT = len(" 100%")
@@ -132,7 +132,7 @@ class CriteriaPanel(Container):
         self._findings: Findings | None = None
         self._following: Lesson | None = None
         self._typing = False
-        self._reading = self._entered = False
+        self._reading = self._focus_inside = False
         self._shown_finding: Finding | None = None
         self.others_open = 0
         """How many other exercises are not passed yet."""
@@ -182,22 +182,22 @@ class CriteriaPanel(Container):
 
     def show_attempts(self, lesson: Lesson, progress: ExerciseProgress) -> None:
         """Update the latest attempts, which only a large enough terminal displays."""
-        self.query_one("#attempts", Static).update(history(lesson, progress, most=6))
+        self.query_one("#attempts", Static).update(format_attempts(lesson, progress, max_count=6))
 
-    def show_reading(self, reading: bool) -> None:
+    def set_reading(self, reading: bool) -> None:
         """Fold to one line while the lesson is being read and there is no verdict to show."""
         self._reading = reading
         self._show_brief()
 
-    def show_entered(self, entered: bool) -> None:
+    def set_focus_inside(self, focus_inside: bool) -> None:
         """Stay unfolded while the focus is inside."""
-        self._entered = entered
+        self._focus_inside = focus_inside
         self._show_brief()
 
     def _show_brief(self) -> None:
         found = self._findings
         known = found is None or found.judged or found.checking or bool(found.note)
-        self.set_class(self._reading and not known and not self._entered, "-brief")
+        self.set_class(self._reading and not known and not self._focus_inside, "-brief")
 
     @on(events.DescendantFocus)
     def _open(self, event: events.DescendantFocus) -> None:
@@ -206,7 +206,7 @@ class CriteriaPanel(Container):
 
     def open(self) -> None:
         """Unfold, and focus the list."""
-        self.show_entered(True)
+        self.set_focus_inside(True)
         self.screen.set_focus(self.query_one("#criteria-list"), scroll_visible=False)
 
     def show_typing(self, typing: bool) -> None:
@@ -289,5 +289,5 @@ def _headline(findings: Findings, *, typing: bool) -> str:
     if findings.before:
         required = [finding for finding in findings.criteria if not finding.bonus]
         met = sum(bool(finding.before) for finding in required)
-        return f"last check {wording.when(findings.before)}: {met} of {len(required)} met"
+        return f"last check {wording.format_time(findings.before)}: {met} of {len(required)} met"
     return "not checked yet"

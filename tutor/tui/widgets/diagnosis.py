@@ -96,7 +96,7 @@ class Diagnosis(VerticalScroll):
         """Whether the shown criterion has evidence."""
         return bool(self._evidence)
 
-    def fold(self) -> None:
+    def toggle_evidence(self) -> None:
         """Show or hide the evidence."""
         self._unfolded = not self._unfolded
         self._show_evidence()
@@ -125,15 +125,15 @@ class Diagnosis(VerticalScroll):
     def _finding_head(self, finding: Finding, findings: Findings) -> Content:
         verdict = finding.verdict
         if verdict is not None:
-            mark, ink = wording.MARKS[verdict.status], wording.INKS[verdict.status]
+            mark, colour = wording.MARKS[verdict.status], wording.STATUS_COLOURS[verdict.status]
             # An error is the tutor's own, and learners know no mark for that: add the word.
             status = " error" if verdict.status is Status.ERROR else ""
         else:
-            mark, ink, status = "○", "$quiet", " being checked" if finding.checking else ""
+            mark, colour, status = "○", "$quiet", " being checked" if finding.checking else ""
             if finding.before is not None and not finding.checking:
                 mark = wording.MARKS[Status.PASSED] if finding.before else "○"
         name = Content.assemble(
-            (f"{mark}{status} ", f"bold {ink}"), (finding.id, "bold"), "  ", (finding.text, "$quiet")
+            (f"{mark}{status} ", f"bold {colour}"), (finding.id, "bold"), "  ", (finding.text, "$quiet")
         )
         details = "  bonus: never changes the verdict" if finding.bonus else ""
         if verdict is None and finding.so_far:
@@ -141,7 +141,9 @@ class Diagnosis(VerticalScroll):
         if verdict is None and not finding.checking:
             met = "Met" if finding.before else "Not met"
             last_result = (
-                f"{met} at the last check, {wording.when(findings.before)}" if findings.before else "Not checked yet"
+                f"{met} at the last check, {wording.format_time(findings.before)}"
+                if findings.before
+                else "Not checked yet"
             )
             details += f"\n\n{last_result}. Press {'F9' if self._typing else 'c'} to check."
         return Content.assemble(name, (details, "$quiet"))
@@ -169,7 +171,7 @@ class Diagnosis(VerticalScroll):
             "Every exercise is passed now.\n" if all_passed else "",
             bonus,
             "\nNext: press ",
-            (wording.key(key, typing=self._typing), "bold $accent"),
+            (wording.key_hint(key, typing=self._typing), "bold $accent"),
             " for ",
             Content.from_markup(f"[@click=screen.do('{command}')]$where[/]", where=where),
             ".\n",
@@ -191,7 +193,7 @@ class Diagnosis(VerticalScroll):
     def _show_evidence(self) -> None:
         count = len(self._evidence)
         lines = f"{count} line{'' if count == 1 else 's'}"
-        key = wording.key("i", typing=self._typing)
+        key = wording.key_hint("i", typing=self._typing)
         link = Content.from_markup(
             "[@click=screen.do('evidence')]$text[/]",
             text=f"▾ {lines}, {key} hides" if self._unfolded else f"▸ {lines}, {key} shows",

@@ -10,7 +10,7 @@ _CONTEXT_LINES = 3
 """Lines of context around each change."""
 
 
-def difference(before: str, after: str) -> tuple[list[Row], list[Piece]]:
+def diff_rows(before: str, after: str) -> tuple[list[Row], list[Piece]]:
     """Return the rows of the diff and their margins (line numbers in both texts); both empty for equal texts."""
     old, new = before.expandtabs(4).splitlines(), after.expandtabs(4).splitlines()
     rows: list[Row] = []
@@ -48,7 +48,7 @@ def same_line(before: str, after: str, row: int) -> int:
     return row
 
 
-def count(rows: list[Row]) -> tuple[int, int]:
+def count_changes(rows: list[Row]) -> tuple[int, int]:
     """Return the number of added and of removed lines in a diff."""
     kinds = [row[0][1] for row in rows if row]
     return kinds.count("added"), kinds.count("removed")

@@ -14,7 +14,7 @@ from tutor.tui import wording
 from tutor.tui.widgets.row_list import RowList
 from tutor.workspace import ExerciseProgress, ExerciseState, exercise_state
 
-_INK = {"✓": "$good", "◐": "$warn", "○": "$quiet"}
+_COLOURS = {"✓": "$good", "◐": "$warn", "○": "$quiet"}
 
 
 class UnitRow(ListItem):
@@ -51,8 +51,8 @@ class LessonRow(ListItem):
         title = "\n  ".join(self._title(width))
         level = wording.LEVELS[self.lesson.difficulty]
         gap = " " * max(1, width - 2 - len(level) - len(words))
-        ink = _INK[mark]
-        return Content.assemble((f"{mark} ", ink), title, "\n  ", (level, "$quiet"), gap, (words, ink))
+        colour = _COLOURS[mark]
+        return Content.assemble((f"{mark} ", colour), title, "\n  ", (level, "$quiet"), gap, (words, colour))
 
 
 class LessonList(RowList):

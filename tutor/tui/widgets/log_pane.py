@@ -174,10 +174,10 @@ class LogPane(Vertical):
         return self.has_class("-filtering") if action == "end_filter" else True
 
     @property
-    def error_place(self) -> tuple[Path, int] | None:
+    def error_location(self) -> tuple[Path, int] | None:
         """File and line in the learner's own code where the last traceback points; None without one."""
         lines = [loglines.parse_line(line) for line in self._state.lines] if self._state else []
-        return loglines.last_place(lines, self.query_one(LogView).own)
+        return loglines.last_own_location(lines, self.query_one(LogView).own)
 
     def _show(self) -> None:
         state = self._state
@@ -234,10 +234,10 @@ def _head(state: NodeState) -> list[tuple[str, str]]:
     if state.phase is Phase.RUNNING:
         return [("● running  ", "bold $good"), (state.file, "bold")]
     if state.phase is Phase.ENDED:
-        ink = "$bad" if state.failed else "$quiet"
+        colour = "$bad" if state.failed else "$quiet"
         return [
-            ("! ended  " if state.failed else "■ ended  ", f"bold {ink}"),
+            ("! ended  " if state.failed else "■ ended  ", f"bold {colour}"),
             (state.file, "bold"),
-            (f"  {state.note}", ink),
+            (f"  {state.note}", colour),
         ]
     return [(f"◐ {state.phase.value}  ", "bold $warn"), (state.file, "bold")]

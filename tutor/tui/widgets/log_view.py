@@ -57,7 +57,7 @@ class LogView(LineView):
         self._lines: Sequence[LogLine] = ()
         self._head: Sequence[Row] = ()
         self._tail: Row = ()
-        self._places: list[tuple[Path, int] | None] = []
+        self._locations: list[tuple[Path, int] | None] = []
 
     def show_log(self, lines: Sequence[LogLine], head: Sequence[Row] = (), tail: Row = ()) -> None:
         """Show these lines; `head` and `tail` are rows of the tutor's own before and after them."""
@@ -78,30 +78,30 @@ class LogView(LineView):
     def on_click(self, event: events.Click) -> None:
         """Go from a line of a traceback to its place in the code."""
         row = event.y + self.scroll_offset.y
-        if 0 <= row < len(self._places) and (place := self._places[row]) is not None:
+        if 0 <= row < len(self._locations) and (location := self._locations[row]) is not None:
             event.stop()
-            self.post_message(GoToLine(*place))
+            self.post_message(GoToLine(*location))
 
     def _lay_out(self) -> None:
         width = max(20, self.scrollable_content_region.width)
         rows: list[Row] = []
-        places: list[tuple[Path, int] | None] = []
+        locations: list[tuple[Path, int] | None] = []
 
-        def add(pieces: Row, place: tuple[Path, int] | None = None) -> None:
+        def add(pieces: Row, location: tuple[Path, int] | None = None) -> None:
             for folded in _wrapped(pieces, width):
                 rows.append(folded)
-                places.append(place)
+                locations.append(location)
 
         for row in self._head:
             add(row)
         # In a narrow view, a name that all lines share is the first thing to drop.
         named = width >= _NAMES_MIN_WIDTH or len({line.name for line in self._lines if line.level is not None}) > 1
         for line in self._lines:
-            place = line.place if line.place is not None and line.place[0] in self.own else None
-            add(_coloured(line, linked=place is not None, named=named), place)
+            location = line.location if line.location is not None and line.location[0] in self.own else None
+            add(_coloured(line, linked=location is not None, named=named), location)
         if self._tail:
             add(self._tail)
-        self._places = places
+        self._locations = locations
         self.show_rows(rows)
         if self.following:
             # Forced: without a scrollbar laid out, Textual would not scroll at all.

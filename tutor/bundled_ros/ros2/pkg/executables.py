@@ -23,5 +23,5 @@ def main(arguments: argparse.Namespace) -> None:
     if wanted is not None and wanted not in known:
         raise CommandError(f"Package '{wanted}' not found")
     for package in known if wanted is None else [wanted]:
-        for name, path in sorted(packages.programs(package).items()):
+        for name, path in sorted(packages.executables_of(package).items()):
             print(path if arguments.full_path else f"{package} {name}")

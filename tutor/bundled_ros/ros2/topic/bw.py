@@ -9,7 +9,7 @@ from collections import deque
 from tutor.bundled_ros.ros2.domain import add_direct_arguments, join_domain
 from tutor.bundled_ros.ros2.topic.measuring import add_topic, add_window, arrival_clock, receive_measured
 from tutor.bundled_ros.ros2.topic.names import wait_for_class
-from tutor.bundled_ros.ros2.topic.statistics import size
+from tutor.bundled_ros.ros2.topic.statistics import format_size
 
 _PRINT_PERIOD_S = 1.0
 
@@ -42,7 +42,8 @@ def _print(arrivals: deque[tuple[int, int]], now_ns: int) -> None:
         return
     sizes = [each for _, each in arrivals]
     rate = sum(sizes) / ((now_ns - arrivals[0][0]) * 1e-9)
-    mean, smallest, largest = (size(each, rate) for each in (sum(sizes) / len(sizes), min(sizes), max(sizes)))
+    mean, smallest, largest = (format_size(each, rate) for each in (sum(sizes) / len(sizes), min(sizes), max(sizes)))
     print(
-        f"{size(rate, rate)}/s from {len(sizes)} messages\n\tMessage size mean: {mean} min: {smallest} max: {largest}"
+        f"{format_size(rate, rate)}/s from {len(sizes)} messages\n"
+        f"\tMessage size mean: {mean} min: {smallest} max: {largest}"
     )

@@ -61,7 +61,7 @@ def spread(values_ns: deque[int]) -> str:
     )
 
 
-def size(count: float, unit_of: float) -> str:
+def format_size(count: float, unit_of: float) -> str:
     """Format a number of bytes in the unit that suits `unit_of` bytes."""
     if unit_of < 1000:
         return f"{count:.0f} B"

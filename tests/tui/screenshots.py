@@ -1,4 +1,4 @@
-"""Takes screenshots of the app in its states: `python -m tests.tui.pictures DIR [ONLY]` writes one SVG for each.
+"""Takes screenshots of the app in its states: `python -m tests.tui.screenshots DIR [ONLY]` writes one SVG for each.
 
 They are for looking at, not for comparing: do not commit DIR, except for the few that README shows. The lessons are
 real, the verdicts fake, and the node runs without ROS; the live page watches a real node. ONLY is part of a size or of
@@ -21,8 +21,8 @@ from pathlib import Path
 
 from textual.pilot import Pilot
 
-from tests.live.world import world
-from tests.tui import made
+from tests.live.private_domain import private_domain
+from tests.tui import fakes
 from tutor.content import load_course
 from tutor.judge.events import CheckStarted, CriterionJudged, Event
 from tutor.judge.verdict import Status
@@ -54,9 +54,9 @@ async def until(pilot: Pilot[int], condition: Callable[[], bool]) -> None:
 @contextmanager
 def session_with_solutions(count: int) -> Iterator[Session]:
     """A real session on a domain of its own. The first `count` lessons are started, their first files solved."""
-    with world() as around, tempfile.TemporaryDirectory() as scratch:
+    with private_domain() as ros_world, tempfile.TemporaryDirectory() as scratch:
         for name in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
-            os.environ[name] = around.environ[name]
+            os.environ[name] = ros_world.environ[name]
         session = Session(load_course(), Workspace(Path(scratch) / "ros_tutor_ws"))
         for lesson in session.lessons[:count]:
             session.start(lesson)
@@ -71,11 +71,11 @@ class Album:
         self.folder, self.size = folder, size
 
     @asynccontextmanager
-    async def fake_app(self, *, started: bool = True) -> AsyncIterator[tuple[Pilot[int], made.FakeSession]]:
+    async def fake_app(self, *, started: bool = True) -> AsyncIterator[tuple[Pilot[int], fakes.FakeSession]]:
         with tempfile.TemporaryDirectory() as scratch:
-            session = made.FakeSession(Path(scratch) / "learner", started=started, lessons=load_course())
+            session = fakes.FakeSession(Path(scratch) / "learner", started=started, lessons=load_course())
             if started:
-                session.path(session.lessons[0].files[0]).write_text(made.NODE)
+                session.path(session.lessons[0].files[0]).write_text(fakes.NODE)
             async with self.open_app(session) as pilot:
                 yield pilot, session
                 session.engine.close()
@@ -86,7 +86,7 @@ class Album:
         app.animation_level = "none"
         async with app.run_test(size=self.size) as pilot:
             if session.workspace.exists:
-                await made.wait_until_ready(app, pilot)
+                await fakes.wait_until_ready(app, pilot)
             else:
                 await until(pilot, lambda: isinstance(app.screen, WelcomeScreen))
             yield pilot
@@ -230,19 +230,19 @@ class Album:
             names = [c.id for c in lesson.criteria]
             events: list[Event] = [CheckStarted(lesson.id, tuple(names))]
             events += [
-                made.progress_event(names[n], f, t, lesson.id, so_far) for n, f, t, so_far in STEPS if n < len(names)
+                fakes.progress_event(names[n], f, t, lesson.id, so_far) for n, f, t, so_far in STEPS if n < len(names)
             ]
-            events += [CriterionJudged(lesson.id, made.result(names[0], made.GOOD))]
+            events += [CriterionJudged(lesson.id, fakes.result(names[0], fakes.GOOD))]
             await asyncio.to_thread(session.engine.emit, *events)
             await until(pilot, lambda: main.model.findings[lesson.id].criteria[0].verdict is not None)
             if not passing:
                 await self.take(pilot, "checking")
-                failed = CriterionJudged(lesson.id, made.result("rate", made.BAD))
+                failed = CriterionJudged(lesson.id, fakes.result("rate", fakes.BAD))
                 await asyncio.to_thread(session.engine.emit, failed)
                 await until(pilot, lambda: main.chosen_criterion == "rate")
                 await self.take(pilot, "checking-failed")
             await asyncio.to_thread(
-                session.engine.emit, *made.lesson_final_events(lesson, made.GOOD if passing else made.BAD)
+                session.engine.emit, *fakes.lesson_final_events(lesson, fakes.GOOD if passing else fakes.BAD)
             )
             session.engine.close()
             await until(pilot, lambda: main.checks.running is None)

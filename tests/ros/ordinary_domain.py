@@ -11,7 +11,7 @@ from tutor.ros.domain import domains_in_use
 
 
 @contextmanager
-def users_domain() -> Iterator[int]:
+def ordinary_domain() -> Iterator[int]:
     """Reserve a domain id (1 to 100) that neither a node on this machine nor another test uses."""
     for domain in random.sample(range(1, 101), 100):
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as lock:

@@ -66,7 +66,7 @@ def graph(
     )
 
 
-UP = graph()
+NODE_UP = graph()
 """A node is up and offers nothing."""
 
 
@@ -76,7 +76,7 @@ def exited(code: int | None = 0, *, signal: int | None = None, after_s: float = 
 
 def trace(
     *messages: Sample,
-    graph: Graph = UP,
+    graph: Graph = NODE_UP,
     err: str = "",
     out: str = "",
     logs: Iterable[LogRecord] = (),

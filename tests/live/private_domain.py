@@ -13,7 +13,7 @@ from typing import ClassVar
 
 from textual.app import ComposeResult
 
-from tests.ros.users_domain import users_domain
+from tests.ros.ordinary_domain import ordinary_domain
 from tutor import private_folders
 from tutor.ros.environment import detect, learner_env
 from tutor.tui import messages
@@ -26,7 +26,7 @@ METRONOME = Path(__file__).with_name("metronome.py")
 THERMOMETER = Path(__file__).with_name("thermometer.py")
 
 
-class World:
+class PrivateDomain:
     """A ROS domain that nothing else uses, limited to this host."""
 
     def __init__(self, domain: int) -> None:
@@ -88,9 +88,9 @@ class World:
 
 
 @contextmanager
-def world() -> Iterator[World]:
-    with users_domain() as domain:
-        private = World(domain)
+def private_domain() -> Iterator[PrivateDomain]:
+    with ordinary_domain() as domain:
+        private = PrivateDomain(domain)
         try:
             yield private
         finally:
@@ -102,10 +102,10 @@ class LiveApp(TextApp[int]):
 
     CSS: ClassVar[str] = "LivePane { height: 1fr; }"
 
-    def __init__(self, ros_world: World) -> None:
+    def __init__(self, ros_world: PrivateDomain) -> None:
         super().__init__()
         self.ros_world = ros_world
-        self.told: list[str] = []
+        self.errors: list[str] = []
         for theme in (DARK, LIGHT):
             self.register_theme(theme)
         self.theme = DARK.name
@@ -123,10 +123,10 @@ class LiveApp(TextApp[int]):
         return self.query_one(LivePane)
 
     def on_error_occurred(self, message: messages.ErrorOccurred) -> None:
-        self.told.append(message.text)
+        self.errors.append(message.text)
 
 
-if __name__ == "__main__":  # to look around by hand: python -m tests.live.world
-    with world() as ros_world:
+if __name__ == "__main__":  # to look around by hand: python -m tests.live.private_domain
+    with private_domain() as ros_world:
         ros_world.run(THERMOMETER, *sys.argv[1:])
         LiveApp(ros_world).run()

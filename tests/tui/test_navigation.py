@@ -13,10 +13,10 @@ from textual.events import Paste
 from textual.widgets._footer import FooterKey
 from textual.widgets.markdown import MarkdownBlock
 
-from tests.tui import made
+from tests.tui import fakes
 from tutor.tui.control.layout import Criteria, Layout, layout_for
 from tutor.tui.dialogs.help import KeyTable
-from tutor.tui.themes import DARK, GROUNDS, INKS, LIGHT
+from tutor.tui.themes import BACKGROUNDS, DARK, LIGHT, TEXT_COLOURS
 from tutor.tui.widgets.criteria import CriteriaPanel
 
 SIZES = [(120, 36), (80, 24)]
@@ -187,15 +187,15 @@ def test_every_text_colour_has_enough_contrast_on_every_background(theme: Any) -
         parts = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color.normalized]
         return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
 
-    texts = {name: theme.variables[name] for name in INKS} | {
+    texts = {name: theme.variables[name] for name in TEXT_COLOURS} | {
         name: getattr(theme, name) for name in ("foreground", "primary", "secondary", "accent")
     }
-    for ground in GROUNDS:
-        below = luminance(Color.parse(getattr(theme, ground)))
-        for name, ink in texts.items():
-            above = luminance(Color.parse(ink))
+    for background in BACKGROUNDS:
+        below = luminance(Color.parse(getattr(theme, background)))
+        for name, colour in texts.items():
+            above = luminance(Color.parse(colour))
             ratio = (max(above, below) + 0.05) / (min(above, below) + 0.05)
-            assert ratio >= 4.5, f"{name} on {ground}: {ratio:.2f}"
+            assert ratio >= 4.5, f"{name} on {background}: {ratio:.2f}"
 
 
 async def test_the_code_is_shown_with_line_numbers_and_follows_the_file_on_disk(learner: Any) -> None:
@@ -219,7 +219,7 @@ async def test_f_shows_the_other_file_of_a_lesson_with_two(learner: Any) -> None
         await me.press("f")
         await me.until(lambda: me.main.model.file_index == 1)
         await me.pilot.click("#code-head", offset=(2, 0))
-        assert (await asyncio.to_thread(me.session.path(me.session.lessons[1].files[1]).read_text)) == made.NODE
+        assert (await asyncio.to_thread(me.session.path(me.session.lessons[1].files[1]).read_text)) == fakes.NODE
 
 
 async def test_home_and_end_work_in_the_lists_and_keys_from_the_help_work_everywhere(

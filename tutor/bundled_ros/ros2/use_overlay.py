@@ -28,7 +28,7 @@ def overlay_workspace(near: Path) -> None:
     if Path(os.environ.get(_OVERLAY_VARIABLE, "/nowhere")).is_dir():
         return  # made by the `ros2` that started us
     try:
-        folder = private_folders.until_exit("ros2-overlay")
+        folder = private_folders.create_until_exit("ros2-overlay")
         overlay.make_overlay(folder / "prefix", near, os.environ)
     except OSError as error:
         raise CommandError(f"the packages cannot be read: {error}") from error
