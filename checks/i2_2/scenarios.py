@@ -30,6 +30,12 @@ from tutor.ros_model import Graph
 NODE_DELAY_S = 12.0
 """Time limit for the second node after the first, for example one that is started by a timer."""
 
+HANDLER_DELAY_S = 4.0
+"""Time limit for a node that is started by an event handler, for example because of what the first one has logged."""
+
+HANDLING_S = 0.3
+"""A launch that handles the output of its nodes is done with it within this time. One that waits for a timer is not."""
+
 CONNECT_S = 6.0
 """Time limit for a connecting endpoint once there are two nodes that share no topic yet."""
 
@@ -53,9 +59,7 @@ async def plain(bench: Bench) -> LaunchRun:
     """Launch without arguments, watch the nodes and their messages, then press Ctrl+C."""
     async with bench.launch(FILE) as run:
         bench.report_progress(0.1, "launching without arguments")
-        if await run.until(lambda: bool(run.graph.nodes), START_S) and await run.until(
-            lambda: find_pair(run.graph) is not None, NODE_DELAY_S
-        ):
+        if await run.until(lambda: bool(run.graph.nodes), START_S) and await _wait_for_second_node(run):
             await run.until(lambda: bool(pairs(run.graph)), CONNECT_S)
         bench.report_progress(0.4, "listening to the nodes")
         met = run.graph
@@ -64,13 +68,30 @@ async def plain(bench: Bench) -> LaunchRun:
         answering = await _find_answering(run)
         if pairs(met):  # DDS reports with some delay that a node is gone
             await run.until(lambda: bool(pairs(run.graph)) or bool(ended_processes(run.output)), EXIT_REPORT_S)
-        trace, command_lines = run.trace(), await run.command_lines()
+        trace, command_lines = run.trace(), run.command_lines()
         disconnected = bool(pairs(met)) and not pairs(trace.graph)
         bench.report_progress(0.8, "pressing Ctrl+C")
         ending = await run.interrupt() if run.exit is None else None
         return LaunchRun(
             _with_best_graph(trace, met, pairs), {}, command_lines, hidden, answering, ending, disconnected
         )
+
+
+async def _wait_for_second_node(run: Run) -> bool:
+    """Wait until the nodes may be a pair; give up early if the launch has nothing more to start by itself."""
+    waiting_since = busy_since = run.now()
+
+    def has_settled() -> bool:
+        nonlocal waiting_since, busy_since
+        now = run.now()
+        if run.has_launched_all():
+            busy_since = now
+        elif now - busy_since > HANDLING_S:
+            waiting_since = now
+        return now - waiting_since >= HANDLER_DELAY_S
+
+    await run.until(lambda: find_pair(run.graph) is not None or has_settled(), NODE_DELAY_S)
+    return find_pair(run.graph) is not None
 
 
 async def other_topic(bench: Bench) -> LaunchRun:
@@ -128,9 +149,7 @@ async def _launch_with(
             # Give all other endpoints time to appear, too: some may be where they should not be.
             expected = count_entities((await default_run).trace.graph)
             await run.until(lambda: _has_at_least(run.graph, expected), ENDPOINTS_S)
-            return LaunchRun(
-                _with_best_graph(run.trace(), met, find_wanted), arguments, await run.command_lines(), hidden
-            )
+            return LaunchRun(_with_best_graph(run.trace(), met, find_wanted), arguments, run.command_lines(), hidden)
     finally:
         default_run.cancel()
 

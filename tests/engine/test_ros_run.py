@@ -68,6 +68,15 @@ print("up", flush=True)
 while not over.wait(0.05):
     pass
 """
+LAUNCHES_LATER = """
+from launch import LaunchDescription
+from launch.actions import TimerAction
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    talker, listener = (Node(package="demo_nodes_py", executable=name) for name in ("talker", "listener"))
+    return LaunchDescription([talker, TimerAction(period=4.0, actions=[listener])])
+"""
 LAUNCHES = """
 import sys
 from launch import LaunchDescription
@@ -426,6 +435,21 @@ async def test_ctrl_c_reaches_a_launched_process_exactly_once(scene: Scene) -> N
         ending = await run.interrupt()
         assert ending.exit is not None, run.output
         assert sum(line.text.endswith("] interrupted") for line in run.output) == 1, run.output
+
+
+async def test_a_launch_has_launched_all_once_no_timer_is_pending(scene: Scene) -> None:
+    seen: list[bool] = []
+
+    def record(nodes: int) -> bool:
+        if len(run.graph.nodes) == nodes:
+            seen.append(run.has_launched_all())
+        return len(seen) > 20
+
+    async with scene.bench(LAUNCHES_LATER).launch(FILE) as run:
+        assert await run.until(lambda: record(1), STARTUP_S), run.output
+        assert not any(seen)
+        assert await run.until(lambda: len(run.graph.nodes) == 2, STARTUP_S), run.output
+        assert await run.until(run.has_launched_all, STARTUP_S), run.output
 
 
 async def test_of_waiting_runs_the_longest_one_starts_first(scene: Scene) -> None:

@@ -85,7 +85,7 @@ async def test_end_leaves_no_process(bench: Any, source: str) -> None:
     learner = await bench.start(source)
     main, child = await bench.noted_pid("main"), await bench.noted_pid("child")
     assert main == learner.pid
-    assert {main, child} <= {s.pid for s in await learner.survivors()}
+    assert {main, child} <= {s.pid for s in learner.survivors()}
     start = time.monotonic()
     await learner.end()
     assert bench.leftovers() == []
@@ -93,7 +93,7 @@ async def test_end_leaves_no_process(bench: Any, source: str) -> None:
     assert learner.exit is not None
     assert learner.exit.signal == signal.SIGKILL
     await learner.end()
-    assert await learner.survivors() == []
+    assert learner.survivors() == []
 
 
 @each_case
@@ -158,7 +158,7 @@ note('main')
     found = await learner.wait(20)
     assert found is not None
     assert found.code == 0
-    (survivor,) = await learner.survivors()
+    (survivor,) = learner.survivors()
     assert survivor.pid == child
     assert "learner_" in survivor.command
     assert child in bench.leftovers()
@@ -175,7 +175,7 @@ os.waitid(os.P_PID, child, os.WEXITED | os.WNOWAIT)
 note('main'); forever()
 """)
     main = await bench.noted_pid("main")
-    assert [s.pid for s in await learner.survivors()] == [main]
+    assert [s.pid for s in learner.survivors()] == [main]
 
 
 async def test_end_kills_every_process_of_a_fork_storm(bench: Any) -> None:
@@ -192,7 +192,7 @@ note('main'); forever()
 """)
     for n in range(50):
         await bench.noted_pid(f"child{n}")
-    assert len(await learner.survivors()) == 51
+    assert len(learner.survivors()) == 51
     await learner.end()
     assert bench.leftovers() == []
 
@@ -322,7 +322,7 @@ async def test_a_killed_supervisor_takes_the_program_with_it(bench: Any, source:
     assert "was killed, and the program with it" in learner.fault
     await learner.end()
     assert bench.leftovers() == []
-    assert await learner.survivors() == []
+    assert learner.survivors() == []
 
 
 async def test_killing_us_and_the_supervisor_ends_the_main_process(bench: Any) -> None:
@@ -459,7 +459,7 @@ async def test_ending_one_program_leaves_others_alone(bench: Any) -> None:
     await bench.noted_pid("other")
     os.kill(await find_supervisor(one), signal.SIGKILL)
     await one.end()
-    assert [s.pid for s in await other.survivors()] == [other.pid]
+    assert [s.pid for s in other.survivors()] == [other.pid]
     assert bench.leftovers() == [other.pid]
 
 

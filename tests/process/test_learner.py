@@ -190,10 +190,10 @@ while not os.path.exists('left'): time.sleep(0.001)
 """)
     left = await bench.noted_pid("left")
     await wait_for_exit(learner)
-    assert [s.pid for s in await learner.survivors()] == [left]
+    assert [s.pid for s in learner.survivors()] == [left]
     learner.interrupt()
     await wait_until(lambda: left not in bench.leftovers())
-    assert await learner.survivors() == []
+    assert learner.survivors() == []
 
 
 async def test_an_ignored_sigint_is_not_inherited(bench: Any) -> None:
@@ -339,7 +339,7 @@ print('mine', file=sys.stderr)
     assert texts(learner, "stderr") == ["mine"]
     dropped = learner.dropped_lines
     await wait_until(lambda: learner.dropped_lines > dropped + 10_000)  # reading continues
-    assert [s.pid for s in await learner.survivors()] == [flood]
+    assert [s.pid for s in learner.survivors()] == [flood]
 
 
 async def wait_until(condition: Callable[[], object]) -> None:

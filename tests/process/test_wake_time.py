@@ -45,8 +45,9 @@ def wait_until_asleep(pid: int) -> NextWake:
         "threading.Event().wait()",
         "threading.Thread(target=threading.Event().wait).start()",
         "lock = threading.Lock()\nlock.acquire()\nlock.acquire()",
+        "import asyncio; asyncio.run(asyncio.Event().wait())",
     ],
-    ids=["event", "thread", "deadlock"],
+    ids=["event", "thread", "deadlock", "asyncio"],
 )
 def test_an_endless_wait_has_no_wake_up(code: str) -> None:
     with running(code) as pid:
@@ -67,8 +68,13 @@ def test_a_sleep_wakes_up_at_its_end(code: str) -> None:
 
 @pytest.mark.parametrize(
     "code",
-    ["while True: pass", "import select; select.select([], [], [], 60)", "import sys; sys.stdin.read()"],
-    ids=["busy", "select", "input"],
+    [
+        "while True: pass",
+        "import select; select.select([], [], [], 60)",
+        "import sys; sys.stdin.read()",
+        "import asyncio; asyncio.run(asyncio.sleep(60))",
+    ],
+    ids=["busy", "select", "input", "asyncio sleep"],
 )
 def test_the_wake_up_of_other_states_is_unknown(code: str) -> None:
     with running(code) as pid:

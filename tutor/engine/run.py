@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import math
 import os
 import signal
 import time
@@ -34,7 +35,7 @@ from tutor.judge.trace import (
 )
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import RESENT_S
-from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
+from tutor.process import CpuMeter, CpuTime, LearnerProcess, next_wake, own_cpu_time
 from tutor.process.cpu_wait import estimate_unblocked_s
 from tutor.ros import echo, graph, parameters
 from tutor.ros.intake import MAX_SAMPLES
@@ -44,6 +45,9 @@ from tutor.ros.talker import Talker
 from tutor.ros_model import Graph, Parameter, echo_qos
 
 T = TypeVar("T")
+
+ROS_ARGUMENTS = "--ros-args"
+"""The launch system passes this to every node, whether it has any such arguments or not."""
 
 POLL_S = 0.05
 """Poll interval for what raises no events of its own, such as the graph; also the maximum age of cached readings."""
@@ -340,12 +344,18 @@ class RosRun:
     async def _survivors(self) -> tuple[str, ...]:
         """The command lines of surviving processes, after a grace period if the first process has ended."""
         deadline = time.monotonic() + (CHILD_EXIT_S if self.exit is not None else 0.0)
-        while (left := await self._process.survivors()) and time.monotonic() < deadline:
+        while (left := self._process.survivors()) and time.monotonic() < deadline:
             await asyncio.sleep(POLL_S)
         return tuple(survivor.command for survivor in left)
 
-    async def command_lines(self) -> tuple[str, ...]:
-        return tuple(survivor.command for survivor in await self._process.survivors())
+    def command_lines(self) -> tuple[str, ...]:
+        return tuple(survivor.command for survivor in self._process.survivors())
+
+    def has_launched_all(self) -> bool:
+        children = [each.command for each in self._process.survivors() if each.pid != self._process.pid]
+        if not all(ROS_ARGUMENTS in command.split() for command in children):
+            return False
+        return len(children) <= len(self.graph.nodes) and next_wake([self._process.pid]).at == math.inf
 
     async def dump_stacks(self) -> tuple[Frame, ...]:
         if self.exit is not None:

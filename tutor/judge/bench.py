@@ -143,8 +143,15 @@ class Run(Protocol):
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
         """Press Ctrl+C (SIGINT to the process group), wait for the process to end, and record what it leaves behind."""
 
-    async def command_lines(self) -> tuple[str, ...]:
+    def command_lines(self) -> tuple[str, ...]:
         """The command lines of the learner's process and of all its living descendants."""
+
+    def has_launched_all(self) -> bool:
+        """Whether a launch has, at this moment, nothing more to start by itself.
+
+        No timer is pending in it, and all its processes are nodes that are in the graph. Only what a node says or does
+        may still make it start something.
+        """
 
     async def dump_stacks(self) -> tuple[Frame, ...]:
         """Stop the process, if it is still running, and return the frames of all its threads, innermost first."""

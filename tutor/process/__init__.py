@@ -2,7 +2,7 @@
 
 from tutor.process.cpu_wait import CpuMeter, CpuTime, own_cpu_time
 from tutor.process.learner import LearnerProcess, Survivor
-from tutor.process.wake_time import NextWake
+from tutor.process.wake_time import NextWake, next_wake
 
 __all__ = [
     "CpuMeter",
@@ -10,5 +10,6 @@ __all__ = [
     "LearnerProcess",
     "NextWake",
     "Survivor",
+    "next_wake",
     "own_cpu_time",
 ]

@@ -153,7 +153,7 @@ class LearnerProcess:
         """Return when a thread of the learner's processes next wakes up by itself, as far as the kernel reports it."""
         return self._link.next_wake()
 
-    async def survivors(self) -> list[Survivor]:
+    def survivors(self) -> list[Survivor]:
         """Return the learner's live processes, including the program itself. Zombies do not count."""
         known = [Survivor(p.pid, orphans.command_line(p.pid)) for p in self._link.living_processes()]
         return [survivor for survivor in known if survivor.command]  # one without a command has ended meanwhile

@@ -1,7 +1,8 @@
 """When a process will next wake up by itself, judged by the system call in which each of its threads waits.
 
 A ROS node without a timer waits for messages in a futex without a timeout; one with a timer waits until that is due,
-and `time.sleep` until it is over (`/proc/PID/task/TID/syscall`, see proc(5)).
+and `time.sleep` until it is over (`/proc/PID/task/TID/syscall`, see proc(5)). The event loop of asyncio, and so of a
+launch, waits in epoll without a timeout if it has no timer; if it has one, it is not known when that is due.
 """
 
 from __future__ import annotations
@@ -14,11 +15,12 @@ import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-_SYSCALLS = {"x86_64": (202, 230), "aarch64": (98, 115)}
-_FUTEX, _CLOCK_NANOSLEEP = _SYSCALLS.get(platform.machine(), (-1, -1))
+_SYSCALLS = {"x86_64": (202, 230, (232, 281)), "aarch64": (98, 115, (22,))}
+_FUTEX, _CLOCK_NANOSLEEP, _EPOLL_WAITS = _SYSCALLS.get(platform.machine(), (-1, -1, ()))
 _FUTEX_WAIT, _FUTEX_WAIT_BITSET = 0, 9
 _FUTEX_COMMAND, _FUTEX_CLOCK_REALTIME = 0x7F, 0x100
 _TIMER_ABSTIME = 1
+_INT_MASK, _MINUS_ONE = 0xFFFFFFFF, 0xFFFFFFFF
 _TIMESPEC = struct.Struct("=qq")
 
 _FAST_DDS_PREFIX = b"dds."
@@ -74,6 +76,8 @@ def _thread_wake(pid: int, syscall: bytes) -> float:
             return math.inf
         if arguments[1] & _FUTEX_COMMAND == _FUTEX_WAIT_BITSET:
             return _read_timeout(pid, arguments[3], realtime=bool(arguments[1] & _FUTEX_CLOCK_REALTIME))
+    if number in _EPOLL_WAITS and arguments[3] & _INT_MASK == _MINUS_ONE:  # asyncio's event loop without a timer
+        return math.inf
     if number == _CLOCK_NANOSLEEP and arguments[1] & _TIMER_ABSTIME and arguments[0] in (0, 1):
         return _read_timeout(pid, arguments[2], realtime=arguments[0] == 0)
     return 0.0
