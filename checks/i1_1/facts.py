@@ -106,9 +106,8 @@ class RateProbe:
         )
 
     def __str__(self) -> str:
-        return (
-            f"{self.name}:={self.value:g} asks for {self.asked_hz:g} Hz, measured {describe(self.rate, self.messages)}"
-        )
+        measured = describe(self.rate, self.messages)
+        return f"{self.name}:={self.value:g} asks for {self.asked_hz:.3g} Hz, measured {measured}"
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,7 @@ from tutor.judge.rewriting.whole import with_applicable_steps
 from tutor.judge.trace import Level, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed
-from tutor.judge.wording import shape
+from tutor.judge.wording import counted, shape
 from tutor.ros_model import Parameter
 
 
@@ -119,7 +119,7 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
     if loud:
         return failed(
             expected,
-            f"{off}: {len(loud)} messages",
+            f"{off}: {counted(len(loud), 'message')}",
             _diagnose_ignored(ENABLED, seen.disabled),
             [text_of(s) for s in loud[:3]],
         )
@@ -204,7 +204,7 @@ def judge_changes(seen: RuntimeChanges) -> Verdict:
     if seen.sent_while_off:
         return failed(
             expected,
-            f"{ENABLED} set to false, but {len(seen.sent_while_off)} messages more than a period later",
+            f"{ENABLED} set to false, but {counted(len(seen.sent_while_off), 'message')} more than a period later",
             _diagnose_ignored_change(ENABLED, seen.trace),
             [text_of(s) for s in seen.sent_while_off[:3]],
         )

@@ -33,13 +33,14 @@ from checks.i2_2.processes import by_stream, ended_processes, writers, written_b
 from tutor.judge import causes, ending
 from tutor.judge.trace import OutputLine
 from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.judge.wording import counted
 
 
 def judge_starts(seen: LaunchRun) -> Verdict:
     expected = "one command, without arguments, starts two nodes: one that publishes and one that subscribes"
     found = find_pair(seen.trace.graph)
     nodes = seen.trace.graph.nodes
-    observed = f"{len(nodes)} node{'s' if len(nodes) != 1 else ''}" + (f": {', '.join(nodes)}" if nodes else "")
+    observed = counted(len(nodes), "node") + (f": {', '.join(nodes)}" if nodes else "")
     if found is None:
         return failed(expected, observed, diagnose_missing(seen), causes.output_tail(seen.trace))
     return passed(expected, observed, _describe_pair(found))
@@ -109,7 +110,7 @@ def judge_communicates(seen: LaunchRun) -> Verdict:
             topic = pair[0].topic
             count = len(seen.trace.samples_on(topic))
             logs = logs_of_messages(pair, seen.trace.logs, seen.trace.samples_on(topic))
-            observed = f"{count} message{'s' if count != 1 else ''} on {topic}" if count else f"connected on {topic}"
+            observed = f"{counted(count, 'message')} on {topic}" if count else f"connected on {topic}"
             return passed(expected, observed, [*_describe_pair(pair), *(str(log) for log in logs[:2])])
         reasons.append((pair, diagnose_program(seen, reason)))
     pair, reason = reasons[0]

@@ -36,6 +36,7 @@ from tutor.judge.rewriting.node import started_node
 from tutor.judge.step_parsing import NotAnEdit, apply_step
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.verdict import Cause, Status, Undecided, Verdict, failed, passed, skipped, undecided
+from tutor.judge.wording import counted
 
 
 def judge_blocks(seen: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
@@ -177,8 +178,8 @@ def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
 def _describe_pace(pace: TimerPace, series: Series) -> str:
     rate = f", {pace.hz:.1f} ticks/s" if pace.hz is not None and pace.fault is not Fault.GAP else ""
     return (
-        f"during the call of {pace.for_s:.1f} s: {pace.count} messages{rate}, the longest pause {pace.longest_s:.2f} s "
-        f"(outside {series.longest_s:.2f} s)"
+        f"during the call of {pace.for_s:.1f} s: {counted(pace.count, 'message')}{rate}, "
+        f"the longest pause {pace.longest_s:.2f} s (outside {series.longest_s:.2f} s)"
     )
 
 

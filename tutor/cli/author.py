@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from tutor.cli import context, grammar, terminal
 from tutor.cli.errors import FAULT, INTERRUPTED, NOT_PASSED, PASSED
 from tutor.errors import UsageError
+from tutor.judge.wording import counted
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson, Problem
@@ -164,7 +165,7 @@ def _print_findings(findings: Sequence[Problem]) -> None:
 
 
 def _print_summary(lessons: int, run_count: int, findings: int, unjudged: int) -> None:
-    counted = f"{findings} finding{'s' if findings != 1 else ''}" if findings else "nothing is wrong"
+    found = counted(findings, "finding") if findings else "nothing is wrong"
     not_judged = f", {unjudged} could not be judged" if unjudged else ""
     runs = f", {run_count} runs" if run_count else ", nothing was run"
-    terminal.out(f"{counted}{not_judged}: {lessons} exercise{'s' if lessons != 1 else ''}{runs}\n")
+    terminal.out(f"{found}{not_judged}: {counted(lessons, 'exercise')}{runs}\n")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from tutor.judge.trace import Sample
+from tutor.judge.wording import counted
 
 TOLERANCE = 0.2
 """A rate is right within this fraction of the requested rate."""
@@ -72,4 +73,4 @@ def describe(rate: Rate | None, samples: int) -> str:
     """A rate in words, also when there were too few messages to measure one."""
     if rate is not None:
         return str(rate)
-    return "no message" if samples == 0 else f"only {samples} message{'s' if samples > 1 else ''}"
+    return f"only {counted(samples, 'message')}" if samples else "no message"

@@ -1,8 +1,13 @@
-"""Comparison of log messages by their wording."""
+"""Wording of numbers in messages, and comparison of log messages by their wording."""
 
 from __future__ import annotations
 
 import re
+
+
+def counted(number: int, noun: str) -> str:
+    """A number of things in words: "1 line", "3 lines"."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
 def shape(text: str) -> str:

@@ -8,6 +8,7 @@ from tutor.errors import CommandRefused, EngineError, StorageError
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
+from tutor.judge.wording import counted
 from tutor.plain import speech
 from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.report.plain import one_line
@@ -57,7 +58,7 @@ class Checks:
     def _on_event(self, event: Event) -> None:
         match event:
             case CheckStarted():
-                count = speech.counted(len(event.criteria), "criterion").replace("criterions", "criteria")
+                count = counted(len(event.criteria), "criterion").replace("criterions", "criteria")
                 self._conversation.say(f"Checking {event.exercise}, {count}. This takes a few seconds.")
             case Progress() if event.doing and event.doing not in self._announced:  # one run can serve many criteria
                 self._announced.add(event.doing)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from difflib import get_close_matches
 
 from tutor.errors import CommandRefused, StorageError, WorkspaceError
+from tutor.judge.wording import counted
 from tutor.plain.checklist_commands import ChecklistCommands
 from tutor.plain.checks import Checks
 from tutor.plain.conversation import Conversation, DialogCommand
@@ -14,7 +15,6 @@ from tutor.plain.lessons import Lessons
 from tutor.plain.lines import LineReader
 from tutor.plain.nodes import Nodes
 from tutor.plain.ros2_commands import Ros2Commands
-from tutor.plain.speech import counted
 from tutor.ros import stale_segments
 from tutor.session import Session
 from tutor.session.paths import short_path

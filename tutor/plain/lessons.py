@@ -5,6 +5,7 @@ from __future__ import annotations
 from tutor.content import Lesson
 from tutor.errors import CommandRefused
 from tutor.invocation import with_program_name
+from tutor.judge.wording import counted
 from tutor.plain import speech
 from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.session.paths import short_path
@@ -67,7 +68,7 @@ class Lessons:
             return
         self._conversation.say(f"{lesson.id} {lesson.title}, {lesson.difficulty.value}. {lesson.objective.strip()}")
         self._conversation.say(
-            f"{speech.counted(len(sections), 'section')}: {speech.listed(section.title for section in sections)}. "
+            f"{counted(len(sections), 'section')}: {speech.listed(section.title for section in sections)}. "
             "read 2 reads the second only."
         )
         for number in range(1, len(sections) + 1):
@@ -121,7 +122,7 @@ class Lessons:
                 return
         for file in lesson.files:
             lines = speech.code(file.solution.read_text(encoding="utf-8"))
-            self._conversation.say(f"{file.name}, {speech.counted(len(lines), 'line')} of code:")
+            self._conversation.say(f"{file.name}, {counted(len(lines), 'line')} of code:")
             for line in lines:
                 self._conversation.say(line)
             self._conversation.say(f"End of {file.name}.")

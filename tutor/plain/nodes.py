@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tutor.errors import CommandError, CommandRefused
+from tutor.judge.wording import counted
 from tutor.plain.conversation import Conversation, DialogCommand
-from tutor.plain.speech import counted
 from tutor.report.plain import one_line
 from tutor.session.node import Node, NodeState, Phase
 

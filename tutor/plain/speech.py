@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
+from tutor.judge.wording import counted
 from tutor.report.plain import details, evidence_lines, one_line, seconds, tally
 from tutor.terminal_text import printable
 
@@ -108,11 +109,6 @@ def evidence(criterion: CriterionResult) -> list[str]:
 def code(text: str) -> list[str]:
     """Return a file's lines without the empty ones."""
     return [line for line in printable(text).splitlines() if line.strip()]
-
-
-def counted(number: int, thing: str) -> str:
-    """Return a number of things: "1 line", "3 lines"."""
-    return f"{number} {thing}{'' if number == 1 else 's'}"
 
 
 def listed(words: Iterable[str]) -> str:
