@@ -234,6 +234,10 @@ async def _probe_declared(
             return RateProbes(declared, tuple(tried))
     if not any(p.name == SUGGESTED_RATE for p in numeric) and (await bench.facts(plain_start)).trace.samples_on(TOPIC):
         # The node may answer no parameter call, or accept parameters that it does not declare.
+        if declared is not None:
+            fast = await bench.facts(probe_fast)
+            if not fast.agrees and not _refused_a_double(fast.trace):
+                return RateProbes(declared, (*tried, fast))  # it does not, or not for this name
         suggested = [(SUGGESTED_RATE, "Hz", value, False) for value in PROBE_VALUES["Hz"]]
         if not await attempt(suggested) and any(_refused_a_double(probe.trace) for probe in tried):
             tried = [probe for probe in tried if probe.name != SUGGESTED_RATE]
