@@ -41,6 +41,14 @@ A summary is due soon after each jump. Between the jumps, one summary covers ten
 restarts its count at the first jump reaches ten again before the end.
 """
 
+FIRST_NUMBERS = (94, 97)
+"""Range of the first N. It passes 100 before the jump, where nodes that compare texts or two last digits go wrong."""
+LEFT_OUT = (11, 16)
+"""Range of how many numbers the first jump leaves out.
+
+With these, what N is ahead of the number expected at the jump is no count of messages, from 0 or from 1, at any time.
+"""
+
 FAST_HZ, FAST_MESSAGES = 25.0, 60
 """A stretch at a rate that is common on robots: a node that handles only ten messages per second loses a third."""
 FAST_ENOUGH_HZ = 20.0

@@ -11,8 +11,10 @@ from checks.i1_2.facts import (
     FAST_HZ,
     FAST_MESSAGES,
     FILE,
+    FIRST_NUMBERS,
     JUMP_AFTER,
     JUMP_MESSAGES,
+    LEFT_OUT,
     MATCH_S,
     QUIET_S,
     RESTART_AFTER,
@@ -76,9 +78,8 @@ async def jump(bench: Bench) -> Trial:
             return Trial(run.trace(), spins=spins)
         waited_before_s = run.node_cpu_wait_s()
         sent: list[Sent] = []
-        # N exceeds 100 before the jump: a node that compares strings, or the last two digits, fails there.
-        first = random.randint(94, 97)
-        skipped = first + JUMP_AFTER + random.randint(4, 8)
+        first = random.randint(*FIRST_NUMBERS)
+        skipped = first + JUMP_AFTER + random.randint(*LEFT_OUT)
         await _send(bench, run, talker, sent, range(first, first + JUMP_AFTER), UNTIMED_HZ)
         until = skipped + SECOND_JUMP_AFTER - JUMP_AFTER
         await _send(bench, run, talker, sent, range(skipped, until), UNTIMED_HZ)

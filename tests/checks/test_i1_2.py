@@ -15,8 +15,10 @@ from checks.i1_2 import CHECK, continuity, judges
 from checks.i1_2.facts import (
     FAST_HZ,
     FAST_MESSAGES,
+    FIRST_NUMBERS,
     JUMP_AFTER,
     JUMP_MESSAGES,
+    LEFT_OUT,
     RESTART_AFTER,
     RESTART_MESSAGES,
     SECOND_JUMP_AFTER,
@@ -133,7 +135,7 @@ def steady(node: FakeStats, hz: float = 4.95, **more: object) -> Trial:
     return feed(node, range(20), hz, **more)  # type: ignore[arg-type]
 
 
-def jump(node: FakeStats, missed: int = 5, *, first: int = 95, **more: object) -> Trial:
+def jump(node: FakeStats, missed: int = LEFT_OUT[0], *, first: int = 95, **more: object) -> Trial:
     numbers = list(range(first, first + JUMP_MESSAGES))
     numbers = [n + missed * (n >= numbers[JUMP_AFTER]) + (n >= numbers[SECOND_JUMP_AFTER]) for n in numbers]
     return feed(node, numbers, 8.0, before_break=JUMP_AFTER, before_second_jump=SECOND_JUMP_AFTER, **more)  # type: ignore[arg-type]
@@ -523,8 +525,22 @@ class CsvRow(GapCount):
         return f"{self.total},{self.rate():.2f},{self.missed},{self.first},{self.last}"
 
 
+class LostSoFarWithEachMessage(GapCount):
+    """Logs the count and the number of lost messages with each message."""
+
+    start = 1
+
+    def take(self, now: float, data: str) -> Iterator[Log]:
+        yield from super().take(now, data)
+        yield 20, f"[{self.total - 1 + self.start}] {data} (lost so far: {self.missed})"
+
+
+class LostSoFarCountedFromZero(LostSoFarWithEachMessage):
+    start = 0
+
+
 RIGHT = (
-    MisleadingLabels, CsvRow,
+    MisleadingLabels, CsvRow, LostSoFarWithEachMessage, LostSoFarCountedFromZero,
     QuotesEveryMessage, Delivered, CountOfExpected, LostSoFar, NumbersItsRuns, FakeStats, Restarting,
     RestartsInTheSummary, GapCount, MissedCount, LossPercent, LossShare, LargestStep, GapInWords, GapBeforeTheFirst,
     Noisy, OneLinePerValue, MixedLevels, NoisyAndLong, LastSecond, LastTwoSeconds, LastTen, LastInterval,
@@ -538,6 +554,17 @@ RIGHT = (
 @pytest.mark.parametrize("late_s", [0.0005, 0.03, 0.15, 0.3])
 def test_correct_nodes_pass(node: type[FakeStats], late_s: float) -> None:
     assert_all_passed(judge_trials(node, late_s=late_s))
+
+
+@pytest.mark.parametrize("node", RIGHT)
+@pytest.mark.parametrize("first", FIRST_NUMBERS)
+@pytest.mark.parametrize("missed", range(LEFT_OUT[0], LEFT_OUT[1] + 1))
+def test_correct_nodes_pass_whatever_numbers_are_chosen(node: type[FakeStats], first: int, missed: int) -> None:
+    steady_trial, jump_trial = steady(node()), jump(node(), missed, first=first)
+    assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
+    assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
+    assert_passed(judges.judge_rate(steady_trial, jump_trial))
+    assert_passed(continuity.judge_gaps(jump_trial, steady_trial))
 
 
 @pytest.mark.parametrize("node", RIGHT)
@@ -1180,7 +1207,7 @@ def test_a_warning_about_one_gap_does_not_cover_the_other(cpu_wait_s: float) -> 
     assert_failed(continuity.judge_gaps(jump_trial, steady(SkipsTheFirstGap())), "gap not noticed")
 
 
-@pytest.mark.parametrize(("text", "passes"), [("2 gaps", True), ("6 numbers are missing", True), ("a gap", False)])
+@pytest.mark.parametrize(("text", "passes"), [("2 gaps", True), (f"{LEFT_OUT[0] + 1} numbers are missing", True), ("a gap", False)])
 def test_one_message_may_cover_both_gaps_if_the_node_was_starved(text: str, passes: bool) -> None:
     jump_trial, steady_trial = jump(FakeStats()), steady(FakeStats())
     logs = [log for log in jump_trial.trace.logs if "missing" not in log.text]
