@@ -68,6 +68,18 @@ print("up", flush=True)
 while not over.wait(0.05):
     pass
 """
+BUSY_FOR_A_MOMENT = """
+import threading, time
+try:
+    print("busy", flush=True)
+    until = time.monotonic() + 0.2
+    while time.monotonic() < until:
+        pass
+    print("done", flush=True)
+    threading.Event().wait()
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
 LAUNCHES_LATER = """
 from launch import LaunchDescription
 from launch.actions import TimerAction
@@ -426,6 +438,13 @@ async def test_big_messages_are_truncated_and_their_number_is_bounded(
     assert len(trace.samples_on("/chatter")) <= 10
     assert len(trace.logs) <= 10
     assert [len(p.value) for p in declared or () if p.name == "name"] == [messages.MAX_CHARACTERS]
+
+
+async def test_ctrl_c_is_pressed_once_the_node_has_finished_what_it_is_doing(scene: Scene) -> None:
+    async with scene.bench(BUSY_FOR_A_MOMENT).start(FILE) as run:
+        assert await run.until(lambda: any(line.text == "busy" for line in run.output), STARTUP_S), run.output
+        await run.interrupt()
+    assert [line.text for line in run.output] == ["busy", "done", "interrupted"]
 
 
 async def test_ctrl_c_reaches_a_launched_process_exactly_once(scene: Scene) -> None:

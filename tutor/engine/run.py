@@ -63,6 +63,11 @@ LITTLE_CPU_S = 0.5
 ENOUGH_CPU_S = 2.0
 """Nothing that is waited for takes a node more CPU time than this: its start, for example, takes 0.3 s."""
 
+BLOCKED_S = 0.5
+"""Maximum delay of Ctrl+C until the node has finished what it is doing; one that is always busy never has."""
+
+BLOCKED_POLL_S = 0.01
+
 CHILD_EXIT_S = 1.0
 """Grace period for child processes that are about to exit after the first process has."""
 
@@ -332,6 +337,7 @@ class RosRun:
         return replace(shown, types=tuple(sorted(settled.union(shown.types))))
 
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
+        await self._wait_until_blocked()
         pressed = time.time()
         self.interrupted_at = pressed
         self._process.interrupt()
@@ -340,6 +346,15 @@ class RosRun:
         took = (self.started_at + ended.after_s if ended is not None else time.time()) - pressed
         survivors = await self._survivors()
         return Ending(ended, took, limit_s, tuple(line for line in self.output if line.at >= pressed), survivors)
+
+    async def _wait_until_blocked(self) -> None:
+        """Wait until all threads of the process are blocked, as they usually are when someone presses Ctrl+C.
+
+        A node that is still handling our last request may end in another way than one that waits.
+        """
+        deadline = time.monotonic() + BLOCKED_S
+        while self.exit is None and self._process.next_wake().at == 0.0 and time.monotonic() < deadline:
+            await asyncio.sleep(BLOCKED_POLL_S)
 
     async def _survivors(self) -> tuple[str, ...]:
         """The command lines of surviving processes, after a grace period if the first process has ended."""
