@@ -530,9 +530,10 @@ class LostSoFarWithEachMessage(GapCount):
 
     start = 1
 
-    def take(self, now: float, data: str) -> Iterator[Log]:
-        yield from super().take(now, data)
+    def receive(self, now: float, data: str) -> Iterator[Log]:
+        summary = list(super().receive(now, data))
         yield 20, f"[{self.total - 1 + self.start}] {data} (lost so far: {self.missed})"
+        yield from summary
 
 
 class LostSoFarCountedFromZero(LostSoFarWithEachMessage):
@@ -1207,7 +1208,9 @@ def test_a_warning_about_one_gap_does_not_cover_the_other(cpu_wait_s: float) -> 
     assert_failed(continuity.judge_gaps(jump_trial, steady(SkipsTheFirstGap())), "gap not noticed")
 
 
-@pytest.mark.parametrize(("text", "passes"), [("2 gaps", True), (f"{LEFT_OUT[0] + 1} numbers are missing", True), ("a gap", False)])
+@pytest.mark.parametrize(
+    ("text", "passes"), [("2 gaps", True), (f"{LEFT_OUT[0] + 1} numbers are missing", True), ("a gap", False)]
+)
 def test_one_message_may_cover_both_gaps_if_the_node_was_starved(text: str, passes: bool) -> None:
     jump_trial, steady_trial = jump(FakeStats()), steady(FakeStats())
     logs = [log for log in jump_trial.trace.logs if "missing" not in log.text]
