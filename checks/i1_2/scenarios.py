@@ -211,8 +211,9 @@ async def _collect_last_logs(run: Run, trial: Trial) -> Trial:
 
 
 def _logs_something_new(jumped_at: float, trial: Trial) -> bool:
-    """Whether a kind of line was logged since `jumped_at` that was never logged before the first jump."""
+    """Whether a line was logged since `jumped_at` of a kind that is no summary's, nor logged before the first jump."""
     usual_kinds = {line.kind for line in trial.lines if line.messages <= trial.before_break}
+    usual_kinds |= {line.kind for summary in find_summaries(trial) for line in summary.lines}
     return any(line.at >= jumped_at and line.kind not in usual_kinds for line in trial.lines)
 
 

@@ -26,6 +26,7 @@ from checks.i1_2.facts import (
     Trial,
 )
 from checks.i1_2.reading import parse_log, values
+from checks.i1_2.scenarios import _logs_something_new
 from checks.i1_2.summaries import find_summaries
 from tests.checks.builders import (
     CRASH,
@@ -749,6 +750,23 @@ def test_a_later_summary_may_wait_for_a_slow_timer() -> None:
     assert [summary.messages for summary in find_summaries(jump_trial)] == [11, 25, 31]
     assert_passed(judges.judge_slow_summary(steady(FakeStats()), jump_trial))
     assert_passed(judges.judge_slow_count(steady(FakeStats()), jump_trial))
+
+
+@pytest.mark.parametrize("between", [None, "3 lost in the last second"])
+def test_a_summary_after_the_last_jump_is_no_reason_to_stop_listening(between: str | None) -> None:
+    """A timer may still report the jump, as it has reported the first one."""
+    trial = jump(GapBlind())
+    jumped_at = trial.sent[SECOND_JUMP_AFTER].at
+    if between:
+        at = trial.sent[JUMP_AFTER + 3].at
+        trial = replace(
+            trial, trace=replace(trial.trace, logs=(*trial.trace.logs, LogRecord(40, "node", between, at, at)))
+        )
+    assert find_summaries(trial)[-1].at > jumped_at
+    assert not _logs_something_new(jumped_at, trial)
+    at = jumped_at + 0.9
+    later = LogRecord(40, "node", "1 lost in the last second", at, at)
+    assert _logs_something_new(jumped_at, replace(trial, trace=replace(trial.trace, logs=(*trial.trace.logs, later))))
 
 
 class PerMinuteLater(FakeStats):
