@@ -37,9 +37,9 @@ UNTIMED_HZ = 8.0
 JUMP_AFTER, SECOND_JUMP_AFTER, JUMP_MESSAGES = 17, 37, 43
 """N jumps twice: first far, then by leaving out one number.
 
-A summary before the first jump shows what is usual at this rate: without it, a rate of 8.00 passed for a report, as it had
-been 5.00 in another run. One is due soon after each jump, and between the jumps, one covers ten consecutive messages. A
-node that restarts its count at the first jump reaches ten again before the end.
+A summary before the first jump shows what is usual at this rate: without it, a rate of 8.00 passed for a report, as it
+had been 5.00 in another run. One is due soon after each jump, and between the jumps, one covers ten consecutive
+messages. A node that restarts its count at the first jump reaches ten again before the end.
 """
 
 FIRST_NUMBERS = (90, 97)
