@@ -367,10 +367,10 @@ class RosRun:
         return tuple(survivor.command for survivor in self._process.survivors())
 
     def has_launched_all(self) -> bool:
-        children = [each.command for each in self._process.survivors() if each.pid != self._process.pid]
-        if not all(ROS_ARGUMENTS in command.split() for command in children):
+        if next_wake([self._process.pid]).at != math.inf:  # first, as it does not read the whole process table
             return False
-        return len(children) <= len(self.graph.nodes) and next_wake([self._process.pid]).at == math.inf
+        children = [each.command for each in self._process.survivors() if each.pid != self._process.pid]
+        return len(children) <= len(self.graph.nodes) and all(ROS_ARGUMENTS in each.split() for each in children)
 
     async def dump_stacks(self) -> tuple[Frame, ...]:
         if self.exit is not None:

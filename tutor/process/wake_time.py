@@ -20,7 +20,7 @@ _FUTEX, _CLOCK_NANOSLEEP, _EPOLL_WAITS = _SYSCALLS.get(platform.machine(), (-1, 
 _FUTEX_WAIT, _FUTEX_WAIT_BITSET = 0, 9
 _FUTEX_COMMAND, _FUTEX_CLOCK_REALTIME = 0x7F, 0x100
 _TIMER_ABSTIME = 1
-_INT_MASK, _MINUS_ONE = 0xFFFFFFFF, 0xFFFFFFFF
+_NO_EPOLL_TIMEOUT = 0xFFFFFFFF  # -1, in the 32 bits that an int has
 _TIMESPEC = struct.Struct("=qq")
 
 _FAST_DDS_PREFIX = b"dds."
@@ -76,7 +76,9 @@ def _thread_wake(pid: int, syscall: bytes) -> float:
             return math.inf
         if arguments[1] & _FUTEX_COMMAND == _FUTEX_WAIT_BITSET:
             return _read_timeout(pid, arguments[3], realtime=bool(arguments[1] & _FUTEX_CLOCK_REALTIME))
-    if number in _EPOLL_WAITS and arguments[3] & _INT_MASK == _MINUS_ONE:  # asyncio's event loop without a timer
+    if (
+        number in _EPOLL_WAITS and arguments[3] & _NO_EPOLL_TIMEOUT == _NO_EPOLL_TIMEOUT
+    ):  # asyncio's event loop without a timer
         return math.inf
     if number == _CLOCK_NANOSLEEP and arguments[1] & _TIMER_ABSTIME and arguments[0] in (0, 1):
         return _read_timeout(pid, arguments[2], realtime=arguments[0] == 0)
