@@ -24,7 +24,7 @@ from checks.i2_2.facts import (
 from checks.i2_2.processes import ended_processes
 from tutor.judge.bench import Bench, Run
 from tutor.judge.trace import Trace
-from tutor.judge.waiting import MESSAGE_GAP_S, START_S
+from tutor.judge.waiting import MESSAGE_GAP_S, OTHER_NAME_S, START_S
 from tutor.ros_model import Graph
 
 NODE_DELAY_S = 12.0
@@ -32,6 +32,9 @@ NODE_DELAY_S = 12.0
 
 HANDLER_DELAY_S = 4.0
 """Time limit for a node that is started by an event handler, for example because of what the first one has logged."""
+
+ARGUMENTS_S = 0.7
+"""Time limit for a pair that an argument asks for, once all that the launch starts is up."""
 
 HANDLING_S = 0.3
 """A launch that handles the output of its nodes is done with it within this time. One that waits for a timer is not."""
@@ -45,7 +48,7 @@ ENDPOINTS_S = 2.0
 EXIT_REPORT_S = 3.0
 """Time limit for the launch to report that a process has ended."""
 
-ANSWERS_S = 12.0
+ANSWERS_S = 8.0
 """Timeout of a service request: most nodes answer at once, one with slow callbacks takes some seconds."""
 
 LIST_PARAMETERS = "rcl_interfaces/srv/ListParameters"
@@ -59,8 +62,10 @@ async def plain(bench: Bench) -> LaunchRun:
     """Launch without arguments, watch the nodes and their messages, then press Ctrl+C."""
     async with bench.launch(FILE) as run:
         bench.report_progress(0.1, "launching without arguments")
-        if await run.until(lambda: bool(run.graph.nodes), START_S) and await _wait_for_second_node(run):
-            await run.until(lambda: bool(pairs(run.graph)), CONNECT_S)
+        if await run.until(lambda: bool(run.graph.nodes), START_S) and await _wait_for_launch(
+            run, lambda: find_pair(run.graph) is not None, settle_s=HANDLER_DELAY_S, limit_s=NODE_DELAY_S
+        ):
+            await _wait_for_launch(run, lambda: bool(pairs(run.graph)), settle_s=OTHER_NAME_S, limit_s=CONNECT_S)
         bench.report_progress(0.4, "listening to the nodes")
         met = run.graph
         hidden = _listen(run, shared_topics(met))
@@ -77,21 +82,21 @@ async def plain(bench: Bench) -> LaunchRun:
         )
 
 
-async def _wait_for_second_node(run: Run) -> bool:
-    """Wait until the nodes may be a pair; give up early if the launch has nothing more to start by itself."""
-    waiting_since = busy_since = run.now()
+async def _wait_for_launch(run: Run, seen: Callable[[], bool], *, settle_s: float, limit_s: float) -> bool:
+    """Wait until `seen()`; give up after `limit_s`, or once the launch has had nothing more to start for `settle_s`."""
+    settled_since = settled_at = run.now()
 
     def has_settled() -> bool:
-        nonlocal waiting_since, busy_since
+        nonlocal settled_since, settled_at
         now = run.now()
         if run.has_launched_all():
-            busy_since = now
-        elif now - busy_since > HANDLING_S:
-            waiting_since = now
-        return now - waiting_since >= HANDLER_DELAY_S
+            settled_at = now
+        elif now - settled_at > HANDLING_S:
+            settled_since = now
+        return now - settled_since >= settle_s
 
-    await run.until(lambda: find_pair(run.graph) is not None or has_settled(), NODE_DELAY_S)
-    return find_pair(run.graph) is not None
+    await run.until(lambda: seen() or has_settled(), limit_s)
+    return seen()
 
 
 async def other_topic(bench: Bench) -> LaunchRun:
@@ -140,7 +145,9 @@ async def _launch_with(
                 await run.until(
                     lambda: bool(find_wanted(run.graph)) or _has_at_least(run.graph, expected), NODE_DELAY_S
                 )
-                await run.until(lambda: bool(find_wanted(run.graph)), ENDPOINTS_S)
+                await _wait_for_launch(
+                    run, lambda: bool(find_wanted(run.graph)), settle_s=ARGUMENTS_S, limit_s=ENDPOINTS_S
+                )
             met = run.graph
             topics = {publisher.topic for publisher, _ in find_wanted(met)}
             hidden = _listen(run, topics)
