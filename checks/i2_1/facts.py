@@ -24,7 +24,7 @@ DEFAULTS: Mapping[str, tuple[str, Any]] = {
 }
 DEFAULT_HZ = 1.0
 LAUNCH_HZ, SLOW_LAUNCH_HZ = 5.0, 1.5
-UP_HZ, DOWN_HZ = 10.0, 0.7
+UP_HZ, DOWN_HZ = 10.0, 0.75
 """The slower ones of each pair expose rounding: 1 and 2 Hz are both out of tolerance."""
 
 VALIDATION_HZ = 3.0

@@ -170,7 +170,7 @@ def _diagnose_other_rate(trace: Trace) -> Cause:
 
 
 def _diagnose_rounded_rate(rate: Rate | None, asked: float, step: str) -> Cause | None:
-    """Diagnose a rounded rate: 1.5 Hz that becomes 1 or 2 Hz, or 0.7 Hz that becomes 1 Hz."""
+    """Diagnose a rounded rate: 1.5 Hz that becomes 1 or 2 Hz, or 0.75 Hz that becomes 1 Hz."""
     rounded = {math.floor(asked), math.ceil(asked)} - {asked}
     if rate is None or not any(abs(rate.hz - hz) < 0.1 for hz in rounded):
         return None

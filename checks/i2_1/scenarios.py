@@ -41,6 +41,7 @@ from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import (
     IDLE_S,
+    IN_FLIGHT_S,
     RESENT_S,
     START_S,
     find_stuck_frames,
@@ -48,8 +49,16 @@ from tutor.judge.waiting import (
     wait_for_message,
     wait_for_publisher,
     wait_until_seen,
+    window_s,
 )
 from tutor.ros_model import Parameter
+
+
+QUIET_PERIODS = 1.3
+"""A node that still publishes sends a message within this many periods, even with some jitter."""
+
+SECOND_TIMER_PERIODS = 0.25
+"""How much longer than the messages themselves to listen for those of a second timer, in periods."""
 
 
 @repeat_if_doubtful
@@ -188,7 +197,7 @@ async def _switch(bench: Bench, *, at_once: bool) -> RuntimeChanges:
         def unwanted() -> list[Sample]:
             return [s for s in run.samples_on(TOPIC) if s.source_time > quiet_from]
 
-        quiet_until = quiet_from + 1.5 * seen.period_s
+        quiet_until = quiet_from + QUIET_PERIODS * seen.period_s
         await run.until(lambda: bool(unwanted()) or run.now() >= quiet_until, 3 * seen.period_s + 2)
         sent, off_for_s = tuple(unwanted()), run.now() - set_off.answered_at
         bench.report_progress(0.6, f"setting {PREFIX} to {seen.later}, then {ENABLED} to true")
@@ -214,8 +223,9 @@ async def _switch(bench: Bench, *, at_once: bool) -> RuntimeChanges:
 async def _measure_resumed(run: Run, seen: RuntimeChanges, *, since: float) -> tuple[tuple[Sample, ...], Rate | None]:
     """Return the messages after `enabled` was switched on again, and their rate.
 
-    Just over two periods from the first message are enough if all is well with them. Otherwise only the messages from
-    `since` on count, because the node may take that long to settle; if needed, the rate is then measured for longer.
+    If all is well with the first two messages, just over one period is enough: a second timer would send a third one.
+    Otherwise only the messages from `since` on count, because the node may take that long to settle; if needed, the rate
+    is then measured for longer.
     """
     assert seen.resumed is not None
     hz, first = seen.base_hz, seen.resumed.source_time
@@ -223,12 +233,14 @@ async def _measure_resumed(run: Run, seen: RuntimeChanges, *, since: float) -> t
     def received(since: float = since) -> tuple[Sample, ...]:
         return tuple(sample for sample in run.samples_on(TOPIC) if sample.source_time >= since)
 
-    await run.until(lambda: run.now() >= first + 2.2 / hz, 2.2 / hz + 2)
-    early = received(first)
-    rate = measure(early)
-    texts_are_right = all(seen.later in text and seen.prefix not in text for text in map(text_of, early))
-    if texts_are_right and len(early) > 2 and rate is not None and rate.agrees_with(hz):
-        return early, rate
+    for messages in (2, 3):
+        limit_s = (messages - 1 + SECOND_TIMER_PERIODS) / hz
+        await run.until(lambda until=first + limit_s: run.now() >= until, limit_s + 2)  # type: ignore[misc]
+        early = received(first)
+        rate = measure(early)
+        texts_are_right = all(seen.later in text and seen.prefix not in text for text in map(text_of, early))
+        if texts_are_right and len(early) == messages and rate is not None and rate.agrees_with(hz):
+            return early, rate
     await run.until(lambda: run.now() >= since + 2.2 / hz, 3.5 / hz + 2)
     rate = measure(received())
     if rate is None or not rate.agrees_with(hz):
@@ -334,8 +346,20 @@ async def _change_rate(bench: Bench, *, at_once: bool) -> RateChanges:
 
 
 async def _measure_new_rate(run: Run, answer: SetAnswer, new_hz: float, old_hz: float) -> tuple[Rate | None, int]:
-    """Wait for one period of the old rate, then return the new rate and the number of messages it is measured from."""
+    """Return the new rate, and the number of messages it is measured from.
+
+    It may take one period of the old rate to take effect. Most nodes change at once: if the messages until then are
+    enough to measure a higher rate, and it agrees, they decide.
+    """
     settled = answer.answered_at + 1 / old_hz + 0.05
+    window = window_s(new_hz)
+    if new_hz > old_hz:
+        measurable = max(settled, answer.answered_at + window) + IN_FLIGHT_S
+        await run.until(lambda: run.now() >= measurable, window + 1 / old_hz + 1)
+        samples = [sample for sample in run.samples_on(TOPIC) if sample.source_time >= answer.answered_at]
+        rate = measure(samples)
+        if rate is not None and rate.agrees_with(new_hz) and rate.covers(window):
+            return rate, len(samples)
     await run.until(lambda: run.now() >= settled, 1 / old_hz + 1)
     return await measure_steady_rate(run, TOPIC, new_hz, since=settled)
 

@@ -465,7 +465,7 @@ def test_a_timer_off_by_more_than_20_percent_fails(first: bool, factor: float) -
         (rate_changes(0.1), "rate used as a period", "1.0 / "),
         (rate_changes(None), "rate used as a period", ""),
         (rate_changes(down=1.0), "rate made a whole number", "1.0 / rate"),
-        (rate_changes(down=1.0), "rate made a whole number", "0.7 is treated as 1"),
+        (rate_changes(down=1.0), "rate made a whole number", "0.75 is treated as 1"),
         (rate_changes(down=2.5), "old timer kept", "2.5 Hz"),
         (rate_changes(5.0), "wrong rate", "5.0 Hz instead of 10 Hz"),
         (rate_changes(0.3), "wrong rate", "0.3 Hz"),
