@@ -41,5 +41,5 @@ CHECK = Check(
             bonus=True,
         ),
     ),
-    expected_s=4.8,  # a call of 3 s, and half of a second one
+    expected_s=6.3,  # two single calls of 3 s
 )

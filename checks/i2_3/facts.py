@@ -92,8 +92,7 @@ class Call:
 class SingleCalls:
     """Single calls with large numbers: one, or more if the first was disturbed; none if there was no service.
 
-    `later`: the second call and its repetitions; only made if nothing was wrong with the first, and left out if it was
-    given up because its answer no longer mattered.
+    `later`: the second call and its repetitions; only made if nothing was wrong with the first.
     `stuck`: the stack dump of the node's threads during a call (innermost frames first), taken if the call was not
     answered or the timer paused; `spins`: whether the node answered any request then. `idle`: the run without calls,
     if the first call is reported before the scenario has ended.

@@ -115,7 +115,7 @@ async def _call_singly(bench: Bench, suspect: Callable[[bool], None]) -> tuple[S
             bench.report_facts(SingleCalls(run.trace(), tuple(calls), idle=idle))
             if fine and run.exit is None:
                 bench.report_progress(0.6, f"calling {SERVICE} once more")
-                later = await _call_second(bench, run, idle.series, calls[0].answer.answered_at, *second)
+                later = await _call_second(run, idle.series, *second)
         finally:
             for task in second:
                 task.cancel()
@@ -179,20 +179,13 @@ async def _call_first(
 
 
 async def _call_second(
-    bench: Bench,
-    run: Run,
-    series: Sequence[Series],
-    answered_at: float,
-    started: asyncio.Task[_TimedAnswer] | None = None,
+    run: Run, series: Sequence[Series], started: asyncio.Task[_TimedAnswer] | None = None
 ) -> list[Call]:
     """Make a second call, or await the `started` one; repeat it while a busy machine leaves it in doubt.
 
-    At most `TRIES` times, since an inconclusive second call does not change the verdict on the first. The `started`
-    call (at `answered_at`, when the first was answered) is given up once its answer no longer matters.
+    At most `TRIES` times, since an inconclusive second call does not change the verdict on the first.
     """
     calls: list[Call] = []
-    if started and not await _is_still_needed(bench, run, started, answered_at + INTO_CALL_S):
-        return calls
     while not calls or (run.exit is None and needs_repeat(run.logs, calls, series, TRIES)):
         answer, waited_s = await (
             started if started and not calls else _make_call(run, _random_operands(), ANSWER_TIMEOUT_S)
@@ -203,22 +196,6 @@ async def _call_second(
             call = replace(call, until=run.now())
         calls.append(call)
     return calls
-
-
-async def _is_still_needed(bench: Bench, run: Run, second: asyncio.Task[_TimedAnswer], into_call_at: float) -> bool:
-    """Wait for the answer to the second call until it no longer matters; return whether it came, or still matters.
-
-    If three concurrent calls are answered, so is one after another, unless the node answers that too soon, or ends. So
-    it does not matter any more at `into_call_at`, halfway through the call.
-    """
-    concurrent = asyncio.ensure_future(bench.facts(call_concurrently))
-    try:
-        await run.until(lambda: second.done() or (concurrent.done() and run.now() >= into_call_at), ANSWER_TIMEOUT_S)
-        if second.done() or run.exit is not None or not concurrent.done() or concurrent.exception() is not None:
-            return True
-        return not any(batch.correct_count == CALLS for batch in concurrent.result().batches[:1])
-    finally:
-        concurrent.cancel()
 
 
 def _is_fine(run: Run, call: Call, series: Sequence[Series]) -> bool:
