@@ -53,7 +53,6 @@ from tutor.judge.waiting import (
 )
 from tutor.ros_model import Parameter
 
-
 QUIET_PERIODS = 1.3
 """A node that still publishes sends a message within this many periods, even with some jitter."""
 
@@ -224,8 +223,8 @@ async def _measure_resumed(run: Run, seen: RuntimeChanges, *, since: float) -> t
     """Return the messages after `enabled` was switched on again, and their rate.
 
     If all is well with the first two messages, just over one period is enough: a second timer would send a third one.
-    Otherwise only the messages from `since` on count, because the node may take that long to settle; if needed, the rate
-    is then measured for longer.
+    Otherwise only the messages from `since` on count, because the node may take that long to settle; if needed, the
+    rate is then measured for longer.
     """
     assert seen.resumed is not None
     hz, first = seen.base_hz, seen.resumed.source_time
