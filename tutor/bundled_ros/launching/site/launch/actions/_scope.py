@@ -85,29 +85,8 @@ def _describe(description: str | None, choices: Sequence[str] | None) -> str:
     return f"{description}{'' if description.endswith('.') else '.'} Valid choices are: {choices}"
 
 
-class SetLaunchConfiguration(Action):
-    """Sets a launch configuration for the rest of the current scope."""
-
-    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self._name = normalize_to_list_of_substitutions(name)
-        self._value = normalize_to_list_of_substitutions(value)
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self._name
-
-    @property
-    def value(self) -> list[Substitution]:
-        return self._value
-
-    def execute(self, context: LaunchContext) -> None:
-        name = perform_substitutions(context, self._name)
-        context.launch_configurations[name] = perform_substitutions(context, self._value)
-
-
-class UnsetLaunchConfiguration(Action):
-    """Removes a launch configuration."""
+class _OfName(Action):
+    """An action on the launch configuration or environment variable of this name."""
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -116,6 +95,30 @@ class UnsetLaunchConfiguration(Action):
     @property
     def name(self) -> list[Substitution]:
         return self._name
+
+
+class _Assignment(_OfName):
+    """An action that gives a value to a launch configuration or environment variable."""
+
+    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(name, **kwargs)
+        self._value = normalize_to_list_of_substitutions(value)
+
+    @property
+    def value(self) -> list[Substitution]:
+        return self._value
+
+
+class SetLaunchConfiguration(_Assignment):
+    """Sets a launch configuration for the rest of the current scope."""
+
+    def execute(self, context: LaunchContext) -> None:
+        name = perform_substitutions(context, self._name)
+        context.launch_configurations[name] = perform_substitutions(context, self._value)
+
+
+class UnsetLaunchConfiguration(_OfName):
+    """Removes a launch configuration."""
 
     def execute(self, context: LaunchContext) -> None:
         context.launch_configurations.pop(perform_substitutions(context, self._name), None)
@@ -162,28 +165,15 @@ def _expand(context: LaunchContext, value: Any) -> Any:
     return perform_substitutions(context, normalize_to_list_of_substitutions(value))
 
 
-class SetEnvironmentVariable(Action):
+class SetEnvironmentVariable(_Assignment):
     """Sets an environment variable for processes started later in the current scope."""
-
-    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self._name = normalize_to_list_of_substitutions(name)
-        self._value = normalize_to_list_of_substitutions(value)
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self._name
-
-    @property
-    def value(self) -> list[Substitution]:
-        return self._value
 
     def execute(self, context: LaunchContext) -> None:
         name = perform_substitutions(context, self._name)
         context.environment[name] = perform_substitutions(context, self._value)
 
 
-class AppendEnvironmentVariable(Action):
+class AppendEnvironmentVariable(_Assignment):
     """Appends (with `prepend`: prepends) a value to an environment variable, or sets the variable if it is unset."""
 
     def __init__(
@@ -194,19 +184,9 @@ class AppendEnvironmentVariable(Action):
         separator: SomeSubstitutionsType = os.pathsep,
         **kwargs: Any,
     ) -> None:
-        super().__init__(**kwargs)
-        self._name = normalize_to_list_of_substitutions(name)
-        self._value = normalize_to_list_of_substitutions(value)
+        super().__init__(name, value, **kwargs)
         self._prepend = normalize_typed_substitution(prepend, bool)
         self._separator = normalize_to_list_of_substitutions(separator)
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self._name
-
-    @property
-    def value(self) -> list[Substitution]:
-        return self._value
 
     def execute(self, context: LaunchContext) -> None:
         name = perform_substitutions(context, self._name)
@@ -217,16 +197,8 @@ class AppendEnvironmentVariable(Action):
         context.environment[name] = perform_substitutions(context, self._separator).join(parts)
 
 
-class UnsetEnvironmentVariable(Action):
+class UnsetEnvironmentVariable(_OfName):
     """Removes an environment variable for processes started later."""
-
-    def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self._name = normalize_to_list_of_substitutions(name)
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self._name
 
     def execute(self, context: LaunchContext) -> None:
         context.environment.pop(perform_substitutions(context, self._name), None)
