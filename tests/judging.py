@@ -61,11 +61,14 @@ class NoVerdict(Exception):
     """A check ended without a verdict; the message says why."""
 
 
-async def judge(case: Case) -> Outcome:
-    """Check the submission as the terminal app does, in a separate process, and compare with what is expected."""
+async def judge(case: Case, only: Sequence[str] = ()) -> Outcome:
+    """Check the submission as the terminal app does, in a separate process, and compare with what is expected.
+
+    `only`: the criteria to judge (default: all).
+    """
     started = time.monotonic()
     try:
-        result, stderr = await _run_engine(case.exercise, case.folder)
+        result, stderr = await _run_engine(case.exercise, case.folder, only)
     except NoVerdict as error:
         return Outcome(case, [str(error)], took_s=time.monotonic() - started)
     took = time.monotonic() - started
@@ -82,10 +85,11 @@ async def check_folder(exercise: str, folder: Path) -> ExerciseResult:
     return (await _run_engine(exercise, folder))[0]
 
 
-async def _run_engine(exercise: str, folder: Path) -> tuple[ExerciseResult, str]:
+async def _run_engine(exercise: str, folder: Path, only: Sequence[str] = ()) -> tuple[ExerciseResult, str]:
     """Return the result, and what was written to stderr. Raises NoVerdict if there is no result."""
     process = await asyncio.create_subprocess_exec(
         *(sys.executable, "-m", "tutor.engine", exercise, str(folder)),
+        *(f"--criterion={criterion}" for criterion in only),
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.PIPE,
         stdin=asyncio.subprocess.DEVNULL,

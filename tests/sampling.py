@@ -55,6 +55,13 @@ def changed(cases: Sequence[Case], paths: Iterable[str]) -> list[Case]:
     return [case for case in cases if case in chosen or is_affected(case)]
 
 
+def broken_criteria(case: Case) -> tuple[str, ...]:
+    """Return the criteria that a wrong submission breaks, in alphabetical order; () for any other one."""
+    expected = case.expected
+    broken = {*expected.fails, *expected.fails_any, *expected.bonus_failed}
+    return tuple(sorted(broken)) if case.kind == WRONG else ()
+
+
 def shows(case: Case) -> frozenset[tuple[str, str]]:
     """Return what a wrong submission shows: (exercise, criterion) for what it breaks, ("cause", name) for why.
 

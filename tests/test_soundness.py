@@ -1,7 +1,8 @@
 """Judge a sample of tests/submissions against their expect.yaml files, small enough to end in minutes.
 
-`tests.sampling` chooses the sample; `python -m tests.soundness` judges all. The hostile submissions are judged with it
-(`python -m tests.hostile` shows what they cost), except those in `EXCLUDED`.
+`tests.sampling` chooses the sample; a wrong submission is judged by the criteria that it breaks only. `python -m
+tests.soundness` judges all submissions by all criteria. The hostile ones are judged with the sample (`python -m
+tests.hostile` shows what they cost), except those in `EXCLUDED`.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ import pytest
 from tests import soundness
 from tests.hostile import find_hostile
 from tests.judging import ROOT, Outcome, compare, find_cases, holds_here, judge
-from tests.sampling import changed, sample, shows
+from tests.sampling import broken_criteria, changed, sample, shows
 from tutor.content.submissions import Case, Expected
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
@@ -56,7 +57,8 @@ def outcomes(request: pytest.FixtureRequest) -> Iterator[dict[str, Future[Outcom
         try:
             with tempfile.TemporaryDirectory() as folder:  # a copy: some submissions change or remove their own files
                 copy = shutil.copytree(case.folder, Path(folder) / case.folder.name)
-                futures[str(case)].set_result(await judge(replace(case, folder=copy)))
+                outcome = await judge(replace(case, folder=copy), broken_criteria(case))
+                futures[str(case)].set_result(outcome)
         except Exception as error:
             futures[str(case)].set_exception(error)  # raised in that case's test; the others continue
 
@@ -152,6 +154,12 @@ def test_the_sample_has_right_submissions_and_each_criterion_and_cause() -> None
     names = [case.folder.name for case in sample(cases)]
     assert names == ["r1", "two", "three", "four", "five"]  # "one" adds nothing to "two"
     assert sample(cases[::-1]) == sample(cases)[::-1]
+
+
+def test_a_wrong_submission_of_the_sample_is_judged_by_what_it_breaks() -> None:
+    assert broken_criteria(_case("r1", "right")) == broken_criteria(_case("h1", "hostile", fails=("a",))) == ()
+    assert broken_criteria(_case("one", fails=("b",), fails_any=("a",), bonus_failed=("c",))) == ("a", "b", "c")
+    assert all(broken_criteria(case) for case in sample(ALL_CASES) if case.kind == "wrong")
 
 
 def test_the_real_sample_covers_every_criterion_and_cause() -> None:
