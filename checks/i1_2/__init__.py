@@ -30,9 +30,13 @@ CHECK = Check(
             with_deeper_cause(continuity.judge_restart),
             (scenarios.restart, scenarios.steady, scenarios.jump),
         ),
-        Criterion("gaps", with_deeper_cause(continuity.judge_gaps), (scenarios.jump, scenarios.steady)),
+        Criterion(
+            "gaps",
+            with_deeper_cause(continuity.judge_gaps),
+            (scenarios.jump, scenarios.jump_twice, scenarios.steady),
+        ),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.steady,), bonus=True),
     ),
-    expected_s=5.7,  # jump: 0.4 s until it is discovered, then 43 messages at 8 a second
+    expected_s=5.5,  # steady: up for 1 s, then 20 messages at 5 a second
     exceptions=load(Path(__file__).with_name("exceptions.toml")),
 )

@@ -126,11 +126,21 @@ def _quotes_new_publisher(summary: Summary, restart: Trial) -> bool:
     return any(each.number in quoted for each in recent)
 
 
-def judge_gaps(jump: Trial, steady: Trial) -> Verdict:
+def judge_gaps(jump: Trial, jump_twice: Trial, steady: Trial) -> Verdict:
     """Judge `gaps`."""
-    expected = "when N jumps, a log message or a gap count in the next summary says so; while N rises by one, none does"
-    if not jump.sent or (not find_summaries(steady) and not steady.lines):
+    if not jump.sent or not jump_twice.sent or (not find_summaries(steady) and not steady.lines):
         return skipped("not judged, because the node logs nothing about the messages: see `summary`")
+    verdict = judge_jumps(jump, steady, jump_twice)
+    return judge_jumps(jump_twice, steady) if verdict.passed else verdict
+
+
+def judge_jumps(jump: Trial, steady: Trial, jump_twice: Trial | None = None) -> Verdict:
+    """Judge `gaps` by one run in which N jumps.
+
+    `jump_twice`: another one, in which it jumps again where it rises by one in the first: with it, a count of lost
+    messages that keeps rising is told from a count of messages since the last jump.
+    """
+    expected = "when N jumps, a log message or a gap count in the next summary says so; while N rises by one, none does"
     if jump.trace.exit is not None:
         words = causes.output_tail(jump.trace)
         return failed(
@@ -147,7 +157,7 @@ def judge_gaps(jump: Trial, steady: Trial) -> Verdict:
             steps.compare_numbers(jump.trace, texts) or gap_steps.COMPARE,
         )
         return failed(expected, observed, cause, texts[:6])
-    if (rising := _diagnose_rising_count(jump, steady)) is not None:
+    if jump_twice is not None and (rising := _diagnose_rising_count(jump, jump_twice, steady)) is not None:
         return failed(expected, observed, *rising)
     unused = list(reports)
     for index, how in zip(jump.jumps, jumped, strict=True):
@@ -188,36 +198,37 @@ def _find_repeated_alarms(reports: Sequence[Line], jump: Trial) -> list[Line]:
     return []
 
 
-def _diagnose_rising_count(jump: Trial, steady: Trial) -> tuple[Cause, list[str]] | None:
-    """Find a number that rises at the first jump and keeps rising afterwards; also return the lines that show it.
+def _diagnose_rising_count(jump: Trial, jump_twice: Trial, steady: Trial) -> tuple[Cause, list[str]] | None:
+    """Find a number that rises at the jump and keeps rising afterwards; also return the lines that show it.
 
-    It must have been constant before, and not fall at the second jump, unlike a count of messages since the last jump.
-    A timer may report a jump late, so only a number that has already risen is considered.
+    It must have been constant before, and not be lower if N jumps twice, unlike a count of messages since the last
+    jump. A timer may report a jump late, so only a number that has already risen is considered.
     """
-    calm = range(jump.before_break + SETTLING_MESSAGES, jump.before_second_jump + 1)
-    for kind in {line.kind for line in jump.lines if line.messages in calm}:
+    between = jump_twice.before_second_jump - jump_twice.before_break
+    for kind in {line.kind for line in jump.lines if line.messages >= jump.before_break + SETTLING_MESSAGES}:
         lines = [line for line in jump.lines if line.kind == kind]
         starts = [
             [line for line in trial.lines if line.kind == kind and _is_before_jump(line, trial)]
             for trial in (jump, steady)
         ]
         usual = [line for lines in starts for line in lines]
-        amount = {len(line.numbers) for line in (*lines, *usual)}
+        twice = [line for line in jump_twice.lines if line.kind == kind]
+        amount = {len(line.numbers) for line in (*lines, *usual, *twice)}
         if max(map(len, starts)) < 2 or len(amount) > 1:  # a single line does not show what is constant
             continue
-        since = [line for line in lines if line.messages in calm]
-        later = [line for line in lines if line.messages > jump.before_second_jump]
+        since = [line for line in lines if line.messages >= jump.before_break + SETTLING_MESSAGES]
+        again = [line for line in twice if line.messages > jump_twice.before_second_jump]
         for place in range(*amount):
             values_before = {line.numbers[place].value for line in usual}
             rose = [line.numbers[place].value for line in since]
-            ends = [line.numbers[place].value for line in later[-1:]]
+            ends = [line.numbers[place].value for line in again[-1:]]
             whole = all(value.is_integer() for value in rose)
             if (
                 len(values_before) == 1
                 and whole
-                and max(values_before) < rose[0] < rose[-1] <= min(ends, default=rose[-1])
+                and max(values_before) < rose[0] < rose[-1] < min(ends, default=rose[-1]) + between / 2
             ):
-                texts = [line.text for line in (since[0], since[-1], *later[-1:])]
+                texts = [line.text for line in (since[0], since[-1])]
                 return gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
                     "false alarm",
                     f"the loss that it reports keeps rising while N rises by one again: {since[0].numbers[place].text} "

@@ -34,11 +34,11 @@ MATCH_S = 0.4
 
 UNTIMED_HZ = 8.0
 """The rate of messages in scenarios that do not judge rates."""
-JUMP_AFTER, SECOND_JUMP_AFTER, JUMP_MESSAGES = 17, 37, 43
-"""N jumps twice: first far, then by leaving out one number.
+JUMP_AFTER, SECOND_JUMP_AFTER, JUMP_MESSAGES = 17, 27, 33
+"""N jumps far; on another start, it also leaves out one number later.
 
 A summary before the first jump shows what is usual at this rate: without it, a rate of 8.00 passed for a report, as it
-had been 5.00 in another run. One is due soon after each jump, and between the jumps, one covers ten consecutive
+had been 5.00 in another run. One is due soon after each jump, and after a single jump, one covers ten consecutive
 messages. A node that restarts its count at the first jump reaches ten again before the end.
 """
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from checks.i1_2.facts import (
     ABSENT_S,
@@ -71,23 +72,30 @@ async def steady(bench: Bench) -> Trial:
 
 
 async def jump(bench: Bench) -> Trial:
-    """Send messages from a random N on, and skip several numbers; later, skip one more."""
+    """Send messages from a random N on, and skip several numbers."""
+    return await _jump(bench, (JUMP_AFTER,))
+
+
+async def jump_twice(bench: Bench) -> Trial:
+    """Do the same, and ten messages later, skip one more number."""
+    return await _jump(bench, (JUMP_AFTER, SECOND_JUMP_AFTER))
+
+
+async def _jump(bench: Bench, jumps: Sequence[int]) -> Trial:
     async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
         spins = await _wait_for_match(run, talker, MATCH_S)
         if not talker.subscribers:
             return Trial(run.trace(), spins=spins)
         waited_before_s = run.node_cpu_wait_s()
         sent: list[Sent] = []
-        first = random.randint(*FIRST_NUMBERS)
-        skipped = first + JUMP_AFTER + random.randint(*LEFT_OUT)
-        await _send(bench, run, talker, sent, range(first, first + JUMP_AFTER), UNTIMED_HZ)
-        until = skipped + SECOND_JUMP_AFTER - JUMP_AFTER
-        await _send(bench, run, talker, sent, range(skipped, until), UNTIMED_HZ)
-        await _send(
-            bench, run, talker, sent, range(until + 1, until + 1 + JUMP_MESSAGES - SECOND_JUMP_AFTER), UNTIMED_HZ
-        )
+        number = random.randint(*FIRST_NUMBERS)
+        for begin, end in pairwise((0, *jumps, JUMP_MESSAGES)):
+            if begin:
+                number += random.randint(*LEFT_OUT) if begin == JUMP_AFTER else 1
+            await _send(bench, run, talker, sent, range(number, number + end - begin), UNTIMED_HZ)
+            number += end - begin
         before_break, before_second_jump = (
-            after if len(sent) > after else 0 for after in (JUMP_AFTER, SECOND_JUMP_AFTER)
+            after if after in jumps and len(sent) > after else 0 for after in (JUMP_AFTER, SECOND_JUMP_AFTER)
         )
         cpu_wait_s = run.node_cpu_wait_s() - waited_before_s
         trial = Trial(

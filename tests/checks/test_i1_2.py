@@ -136,10 +136,15 @@ def steady(node: FakeStats, hz: float = 4.95, **more: object) -> Trial:
     return feed(node, range(20), hz, **more)  # type: ignore[arg-type]
 
 
-def jump(node: FakeStats, missed: int = LEFT_OUT[0], *, first: int = 95, **more: object) -> Trial:
+def jump(node: FakeStats, missed: int = LEFT_OUT[0], *, first: int = 95, twice: bool = False, **more: object) -> Trial:
     numbers = list(range(first, first + JUMP_MESSAGES))
-    numbers = [n + missed * (n >= numbers[JUMP_AFTER]) + (n >= numbers[SECOND_JUMP_AFTER]) for n in numbers]
-    return feed(node, numbers, 8.0, before_break=JUMP_AFTER, before_second_jump=SECOND_JUMP_AFTER, **more)  # type: ignore[arg-type]
+    second = SECOND_JUMP_AFTER if twice else 0
+    numbers = [n + missed * (n >= numbers[JUMP_AFTER]) + (twice and n >= numbers[second]) for n in numbers]
+    return feed(node, numbers, 8.0, before_break=JUMP_AFTER, before_second_jump=second, **more)  # type: ignore[arg-type]
+
+
+def jump_twice(node: FakeStats, missed: int = LEFT_OUT[0], *, first: int = 95, **more: object) -> Trial:
+    return jump(node, missed, first=first, twice=True, **more)
 
 
 def fast(node: FakeStats, **more: object) -> Trial:
@@ -154,9 +159,11 @@ def restart(node: FakeStats, **more: object) -> Trial:
 def judge_trials(make: Callable[[], FakeStats], **more: object) -> dict[str, Verdict]:
     """The verdicts on such a node, with a fresh one for each trial."""
     steady_trial, jump_trial = steady(make(), **more), jump(make(), **more)  # type: ignore[arg-type]
+    twice_trial = jump_twice(make(), **more)  # type: ignore[arg-type]
     restart_trial, fast_trial = restart(make(), **more), fast(make(), **more)
     count = judges.judge_count(steady_trial, jump_trial, fast_trial)
     summary = judges.judge_summary(steady_trial, jump_trial, fast_trial)
+    gaps = continuity.judge_gaps(jump_trial, twice_trial, steady_trial)
     early_count, early_summary = judges.judge_fast_count(fast_trial), judges.judge_fast_summary(fast_trial)
     for early, verdict in ((early_count, count), (early_summary, summary)):
         assert early is None or verdict.status is early.status is Status.FAILED
@@ -166,7 +173,7 @@ def judge_trials(make: Callable[[], FakeStats], **more: object) -> dict[str, Ver
         "rate": judges.judge_rate(steady_trial, jump_trial),
         "summary": summary,
         "restart": continuity.judge_restart(restart_trial, steady_trial, jump_trial),
-        "gaps": continuity.judge_gaps(jump_trial, steady_trial),
+        "gaps": gaps,
     }
 
 
@@ -566,7 +573,7 @@ def test_correct_nodes_pass_whatever_numbers_are_chosen(node: type[FakeStats], f
     assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
     assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
     assert_passed(judges.judge_rate(steady_trial, jump_trial))
-    assert_passed(continuity.judge_gaps(jump_trial, steady_trial))
+    assert_passed(continuity.judge_gaps(jump_trial, jump_twice(node(), missed, first=first), steady_trial))
 
 
 @pytest.mark.parametrize("node", RIGHT)
@@ -618,7 +625,8 @@ def test_correct_nodes_pass_in_any_format(
     assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
     assert_passed(judges.judge_rate(steady_trial, jump_trial))
     assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
-    assert_passed(continuity.judge_gaps(jump_trial, steady_trial))
+    twice = jump_twice(Formatted(), missed, late_s=late_s)
+    assert_passed(continuity.judge_gaps(jump_trial, twice, steady_trial))
     assert_passed(continuity.judge_restart(restart(Formatted(), late_s=late_s), steady_trial, jump_trial))
 
 
@@ -747,7 +755,7 @@ class SummaryBySlowTimer(FakeStats):
 
 def test_a_later_summary_may_wait_for_a_slow_timer() -> None:
     jump_trial = jump(SummaryBySlowTimer())
-    assert [summary.messages for summary in find_summaries(jump_trial)] == [11, 25, 31, 41]
+    assert [summary.messages for summary in find_summaries(jump_trial)] == [11, 25, 31]
     assert_passed(judges.judge_slow_summary(steady(FakeStats()), jump_trial))
     assert_passed(judges.judge_slow_count(steady(FakeStats()), jump_trial))
 
@@ -755,7 +763,7 @@ def test_a_later_summary_may_wait_for_a_slow_timer() -> None:
 @pytest.mark.parametrize("between", [None, "3 lost in the last second"])
 def test_a_summary_after_the_last_jump_is_no_reason_to_stop_listening(between: str | None) -> None:
     """A timer may still report the jump, as it has reported the first one."""
-    trial = jump(GapBlind())
+    trial = jump_twice(GapBlind())
     jumped_at = trial.sent[SECOND_JUMP_AFTER].at
     if between:
         at = trial.sent[JUMP_AFTER + 3].at
@@ -1222,21 +1230,21 @@ def test_a_late_summary_with_a_newer_last_message_counts_too_few(late_s: float) 
 
 @pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])
 def test_a_warning_about_one_gap_does_not_cover_the_other(cpu_wait_s: float) -> None:
-    jump_trial = jump(SkipsTheFirstGap(), cpu_wait_s=cpu_wait_s)
-    assert_failed(continuity.judge_gaps(jump_trial, steady(SkipsTheFirstGap())), "gap not noticed")
+    jump_trial = jump_twice(SkipsTheFirstGap(), cpu_wait_s=cpu_wait_s)
+    assert_failed(continuity.judge_jumps(jump_trial, steady(SkipsTheFirstGap())), "gap not noticed")
 
 
 @pytest.mark.parametrize(
     ("text", "passes"), [("2 gaps", True), (f"{LEFT_OUT[0] + 1} numbers are missing", True), ("a gap", False)]
 )
 def test_one_message_may_cover_both_gaps_if_the_node_was_starved(text: str, passes: bool) -> None:
-    jump_trial, steady_trial = jump(FakeStats()), steady(FakeStats())
+    jump_trial, steady_trial = jump_twice(FakeStats()), steady(FakeStats())
     logs = [log for log in jump_trial.trace.logs if "missing" not in log.text]
     assert len(logs) == len(jump_trial.trace.logs) - 2
     at = jump_trial.sent[SECOND_JUMP_AFTER].at + 0.1
     both = replace(jump_trial, trace=replace(jump_trial.trace, logs=(*logs, LogRecord(30, "node", text, at, at))))
-    assert_failed(continuity.judge_gaps(both, steady_trial), "gap not noticed")
-    verdict = continuity.judge_gaps(replace(both, cpu_wait_s=0.5), steady_trial)
+    assert_failed(continuity.judge_jumps(both, steady_trial), "gap not noticed")
+    verdict = continuity.judge_jumps(replace(both, cpu_wait_s=0.5), steady_trial)
     assert verdict.passed == passes, verdict
 
 
@@ -1250,7 +1258,7 @@ def test_an_alarm_next_to_a_summary_is_not_one_of_its_lines(first: int, late_s: 
     jump_trial = replace(jump_trial, trace=replace(jump_trial.trace, logs=tuple(logs)), cpu_wait_s=cpu_wait_s)
     assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
     assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
-    assert_failed(continuity.judge_gaps(jump_trial, steady_trial), "false alarm")
+    assert_failed(continuity.judge_jumps(jump_trial, steady_trial), "false alarm")
 
 
 @settings(max_examples=50, deadline=None)
@@ -1280,7 +1288,7 @@ def test_a_gap_that_is_only_printed_fails() -> None:
     printed = replace(jump_trial.trace, output=trace(out="gap: 5 messages lost").output)
     printed = replace(printed, output=tuple(replace(line, at=jump_trial.sent[-1].at) for line in printed.output))
     assert_failed(
-        continuity.judge_gaps(replace(jump_trial, trace=printed), steady(GapBlind())),
+        continuity.judge_jumps(replace(jump_trial, trace=printed), steady(GapBlind())),
         "printed, not logged",
         "5 messages lost",
     )
@@ -1316,7 +1324,7 @@ def test_without_a_summary_the_other_criteria_are_skipped() -> None:
         judges.judge_slow_count(nothing, nothing),
         judges.judge_rate(nothing, nothing),
         continuity.judge_restart(restart(FakeStats()), nothing, nothing),
-        continuity.judge_gaps(nothing, nothing),
+        continuity.judge_gaps(nothing, nothing, nothing),
     ):
         assert verdict.status is Status.SKIPPED
 
@@ -1326,7 +1334,7 @@ def test_a_node_that_exits_on_a_restart_or_a_jump_fails() -> None:
     ended = replace(restart_trial, trace=replace(restart_trial.trace, exit=exited(0, after_s=4)))
     assert_failed(continuity.judge_restart(ended, steady_trial, jump_trial), "exit at once")
     crashed = trace(graph=LISTENING, logs=jump_trial.trace.logs, err=CRASH, exit=exited(1))
-    assert_failed(continuity.judge_gaps(replace(jump_trial, trace=crashed), steady_trial), "unhandled exception")
+    assert_failed(continuity.judge_jumps(replace(jump_trial, trace=crashed), steady_trial), "unhandled exception")
     deaf = replace(restart_trial, sent=restart_trial.sent[:RESTART_AFTER], trace=trace(logs=restart_trial.trace.logs))
     assert_failed(continuity.judge_restart(deaf, steady_trial, jump_trial), "no subscription")
     assert find_summaries(replace(deaf, trace=restart_trial.trace))[0].messages == 10
@@ -1480,7 +1488,7 @@ def judge_like_check(
         "rate": CHECKED["rate"](steady_trial, jump_trial),
         "summary": CHECKED["summary"](steady_trial, jump_trial, fast_trial),
         "restart": CHECKED["restart"](restart_trial, steady_trial, jump_trial),
-        "gaps": CHECKED["gaps"](jump_trial, steady_trial),
+        "gaps": CHECKED["gaps"](jump_trial, with_source(jump_twice(node(), late_s=late_s)), steady_trial),
     }
 
 
@@ -1618,7 +1626,7 @@ def test_a_message_just_before_a_summary_is_due_is_not_part_of_it() -> None:
     early = jump_trial.sent[29].at - 0.01
     logs = (*jump_trial.trace.logs, LogRecord(40, "node", "1 lost in the last second", early, early))
     jump_trial = replace(jump_trial, trace=replace(jump_trial.trace, logs=logs))
-    assert [summary.messages for summary in find_summaries(jump_trial)] == [10, 20, 30, 40]
+    assert [summary.messages for summary in find_summaries(jump_trial)] == [10, 20, 30]
 
 
 def test_the_longest_delay_in_sending() -> None:
