@@ -29,23 +29,27 @@ def logs_since(logs: Sequence[LogRecord], since: float) -> Sequence[LogRecord]:
     return [log for log in logs if log.stamp >= since]
 
 
-async def listen(run: Run, since: float, is_up: Callable[[], bool]) -> None:
-    """Wait until the logs from `since` on show the timer's pace. The timeout starts once the node `is_up`."""
-    up_at, waited_before_s = run.now(), run.node_cpu_wait_s() + run.our_cpu_wait_s()
-    was_up, analysed_at, enough = is_up(), 0.0, False
+async def listen(run: Run, since: float, waited_before_s: float, is_up: Callable[[], bool]) -> None:
+    """Wait until the logs from `since` on show the timer's pace.
+
+    `waited_before_s`: how long the node and our process had waited for the CPU by then. The timeout starts at `since`
+    while there is no log message, and again with the first one, but not before the node `is_up`.
+    """
+    was_silent, was_up = not logs_since(run.logs, since), is_up()
+    began_at = since if was_silent and was_up else run.now()
+    analysed_at, enough = 0.0, False
 
     def seen_enough() -> bool:
-        nonlocal up_at, was_up, analysed_at, enough
+        nonlocal was_silent, was_up, began_at, analysed_at, enough
         if not was_up and is_up():
-            up_at, was_up = run.now(), True
+            began_at, was_up = run.now(), True
         if run.now() - analysed_at >= ANALYSIS_INTERVAL_S:
             analysed_at = run.now()
             logs = logs_since(run.logs, since)
-            enough = (
-                _is_pace_known(logs)
-                or run.now() - up_at
-                > _patience_s(logs) + run.node_cpu_wait_s() + run.our_cpu_wait_s() - waited_before_s
-            )
+            if was_silent and logs:
+                began_at, was_silent = run.now(), False
+            waited_s = run.node_cpu_wait_s() + run.our_cpu_wait_s() - waited_before_s
+            enough = _is_pace_known(logs) or run.now() - began_at > _patience_s(logs) + waited_s
         return enough
 
     await run.until(seen_enough, 2 * MESSAGE_GAP_S, idle_s=IDLE_S)

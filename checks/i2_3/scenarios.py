@@ -60,13 +60,13 @@ async def run_idle(bench: Bench) -> IdleRun:
         up_at = run.now()
         # A timer needs a node that spins.
         may_tick = await _wait_until_spinning(run) or bool(logs_since(run.logs, up_at))
-        since = run.now()
+        since, waited_before_s = run.now(), _cpu_wait_s(run)
         if may_tick:
             await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)), idle_s=IDLE_S)
         listened_at, cpu_wait_s = run.now(), run.node_cpu_wait_s()
         bench.report_progress(0.3, "listening to the timer")
         if may_tick:
-            await listen(run, since, lambda: has_service(run.graph.servers))
+            await listen(run, since, waited_before_s, lambda: has_service(run.graph.servers))
         share = (run.node_cpu_wait_s() - cpu_wait_s) / max(0.1, run.now() - listened_at)
         series = timer_series(all_series(logs_since(run.logs, since)))
         busy = share >= CPU_WAIT_SHARE and any(may_be_10_hz(each, share) for each in series if not each.is_10_hz)
