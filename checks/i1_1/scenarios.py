@@ -41,9 +41,11 @@ from checks.i1_1.facts import (
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
 from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.rates import measure
+from tutor.judge.rates import are_even, measure
 from tutor.judge.trace import Trace
+from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import (
+    HARDLY_WAITED_SHARE,
     IDLE_S,
     RESENT_S,
     START_S,
@@ -56,22 +58,45 @@ from tutor.judge.waiting import (
 )
 from tutor.ros_model import Parameter
 
+SILENT_S = 5.0
+"""A node that has sent nothing for this long may be stuck."""
+
+ANSWER_S = 2.0
+"""Time limit for an answer to a parameter request from a node that is up."""
+
 
 @repeat_if_doubtful
 async def plain_start(bench: Bench) -> PlainStart:
     """Start without parameters: does it publish, does echo show the values, does Ctrl+C end it cleanly?"""
-    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # goes first: it decides a lot on its own
-        bench.report_progress(0.1, f"waiting for the first message on {TOPIC}")
-        echo = None
-        if await wait_for_message(run, TOPIC, TYPE):
-            bench.report_progress(0.5, "watching as `ros2 topic echo` does")
-            echo = await run.echo(TOPIC, samples=1, limit_s=ECHO_LIMIT_S)
-        parameters = await run.parameters(2.0)
-        trace = run.trace()
-        bench.report_progress(0.8, "pressing Ctrl+C")
-        ended = await run.interrupt() if run.exit is None else None
-    silent = not trace.samples_on(TOPIC) and parameters is None and trace.exit is None and bool(trace.graph.nodes)
-    return PlainStart(trace, parameters, echo, ended, await find_stuck_frames(bench, FILE) if silent else ())
+    looks: list[asyncio.Task[tuple[Frame, ...]]] = []
+    try:
+        async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # goes first: it decides a lot alone
+            bench.report_progress(0.1, f"waiting for the first message on {TOPIC}")
+            looks.append(asyncio.ensure_future(_look_at_silent_node(bench, run)))
+            echo = None
+            if await wait_for_message(run, TOPIC, TYPE):
+                bench.report_progress(0.5, "watching as `ros2 topic echo` does")
+                echo = await run.echo(TOPIC, samples=1, limit_s=ECHO_LIMIT_S)
+            parameters = await run.parameters(ANSWER_S)
+            trace = run.trace()
+            bench.report_progress(0.8, "pressing Ctrl+C")
+            ended = await run.interrupt() if run.exit is None else None
+        silent = not trace.samples_on(TOPIC) and parameters is None and trace.exit is None and bool(trace.graph.nodes)
+        frames = (await looks[0] or await find_stuck_frames(bench, FILE)) if silent else ()
+    finally:
+        await _cancel(looks)
+    return PlainStart(trace, parameters, echo, ended, frames)
+
+
+async def _look_at_silent_node(bench: Bench, run: Run) -> tuple[Frame, ...]:
+    """Once the node has sent nothing and answered nothing for a while, return the stack of another start; else ().
+
+    Meanwhile, its first message may still come.
+    """
+    await run.until(lambda: bool(run.samples_on(TOPIC)), SILENT_S)
+    if run.samples_on(TOPIC) or run.exit is not None or await run.parameters(ANSWER_S) is not None:
+        return ()
+    return await find_stuck_frames(bench, FILE)
 
 
 async def collect_values(bench: Bench) -> CollectedValues:
@@ -252,12 +277,12 @@ async def _cancel(tasks: Collection[asyncio.Task[Any]]) -> None:
 
 
 async def probe_names(bench: Bench) -> NameProbes:
-    """Start once for each string parameter, set to a value that nothing else would log."""
-    declared = await bench.facts(parameters)
-    known = {p.name for p in declared or ()}
-    wanted = [p.name for p in declared or () if p.type == "string"]
-    if SUGGESTED_NAME not in wanted:
-        wanted.append(SUGGESTED_NAME)  # the node may answer no call, or accept parameters that it does not declare
+    """Start once for each string parameter, set to a value that nothing else would log.
+
+    The skeleton's parameter name is probed while `parameters` still runs: it is probed in any case, since the node may
+    answer no call, or accept parameters that it does not declare.
+    """
+    known: set[str] = set()
 
     async def probe(number: int, name: str) -> NameProbe:
         value = f"probe_{number}_kx7"
@@ -272,11 +297,20 @@ async def probe_names(bench: Bench) -> NameProbes:
                 return next((str(log) for log in run.logs if contains_value(str(log).casefold())), "")
 
             await wait_until_seen(run, lambda: bool(logged()), promised=lambda: True, idle_s=IDLE_S)
+            await bench.facts(parameters)
             found, trace = logged(), run.trace()
             at_end = (await run.interrupt()).output if not found and run.exit is None else ()
             return NameProbe(name, value, found, trace, at_end)
 
-    return NameProbes(declared, tuple(await asyncio.gather(*(probe(i, name) for i, name in enumerate(wanted)))))
+    suggested = asyncio.ensure_future(probe(0, SUGGESTED_NAME))
+    try:
+        declared = await bench.facts(parameters)
+        known.update(p.name for p in declared or ())
+        others = [p.name for p in declared or () if p.type == "string" and p.name != SUGGESTED_NAME]
+        probes = await asyncio.gather(suggested, *(probe(i, name) for i, name in enumerate(others, start=1)))
+    finally:
+        await _cancel([suggested])
+    return NameProbes(declared, tuple(sorted(probes, key=lambda each: each.name not in known)))  # declared ones first
 
 
 async def _probe_rate(bench: Bench, name: str, unit: str, value: float, as_integer: bool) -> RateProbe:
@@ -312,6 +346,7 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, as_integ
             if (
                 probe.agrees
                 or ended
+                or (are_even(run.samples_on(TOPIC)[1:]) and lost_s < HARDLY_WAITED_SHARE * elapsed_s)
                 or (probe.rate is not None and probe.rate.is_far_above(asked_hz, window))
                 or (
                     stretch > 1

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable, Sequence
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.checks.builders import sample, samples
-from tutor.judge.rates import MIN_FOR_BURSTS, TOLERANCE, Rate, describe, measure
-from tutor.judge.waiting import too_few_by_cpu_wait
+from tutor.judge.rates import MIN_EVEN, MIN_FOR_BURSTS, TOLERANCE, Rate, are_even, describe, measure
+from tutor.judge.trace import Sample
+from tutor.judge.waiting import REMEASURE_S, measure_steady_rate, too_few_by_cpu_wait, window_s
 
 rates = st.floats(0.05, 1000)
 
@@ -82,3 +84,76 @@ def test_jitter_and_a_pause_are_not_bursts(hz: float, count: int, seed: int) -> 
     assert rate is not None
     assert not rate.in_bursts
     assert "bursts" not in str(rate)
+
+
+@pytest.mark.parametrize(
+    ("gaps_s", "even"),
+    [
+        ([1.0, 1.0, 1.0], True),
+        ([1.0, 1.05, 0.98], True),
+        ([1.0, 1.0, 1.0, 1.3], False),
+        ([0.1, 0.1, 0.05, 0.05], False),  # the tick of a second timer
+        ([1.0, 1.0], False),  # too few
+        ([], False),
+    ],
+)
+def test_evenly_sent_messages(gaps_s: list[float], even: bool) -> None:
+    times = [sum(gaps_s[:count]) for count in range(len(gaps_s) + 1)]
+    assert are_even([sample("/t", 1.0, at) for at in times]) == even
+    assert MIN_EVEN == 4
+
+
+class FakeRun:
+    """A node that sends messages at these times, with a clock that advances only during `until`."""
+
+    def __init__(self, times: Sequence[float], cpu_wait_share: float = 0.0) -> None:
+        self._times, self._cpu_wait_share, self._now = times, cpu_wait_share, 0.0
+
+    def now(self) -> float:
+        return self._now
+
+    def node_cpu_wait_s(self) -> float:
+        return self._cpu_wait_share * self._now
+
+    def our_cpu_wait_s(self) -> float:
+        return 0.0
+
+    def samples_on(self, topic: str) -> list[Sample]:
+        return [Sample(topic, {"data": 1.0}, at, at) for at in self._times if at <= self._now]
+
+    async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
+        ends = self._now + limit_s
+        while not seen() and self._now < ends:
+            self._now += 0.01
+        return seen()
+
+
+def _ticks(hz: float, *, from_s: float = 0.0, to_s: float = 20.0) -> list[float]:
+    return [from_s + 0.03 + number / hz for number in range(int((to_s - from_s) * hz))]
+
+
+@pytest.mark.parametrize("asked_hz", [10.0, 5.0, 0.75])
+@pytest.mark.parametrize(
+    ("factor", "cpu_wait_share", "windows"),
+    [
+        (1.0, 0.0, 1),
+        (2.0, 0.0, 1),  # wrong, but even: another window would show the same
+        (2.0, 0.1, 2),  # the node had to wait for the CPU
+    ],
+)
+async def test_a_rate_is_measured_again_unless_messages_are_even(
+    asked_hz: float, factor: float, cpu_wait_share: float, windows: int
+) -> None:
+    run = FakeRun(_ticks(asked_hz * factor), cpu_wait_share)
+    rate, _ = await measure_steady_rate(run, "/t", asked_hz, since=0.0)  # type: ignore[arg-type]
+    assert rate is not None
+    assert rate.hz == pytest.approx(asked_hz * factor, rel=0.01)
+    first_s = window_s(asked_hz) + 0.5 / asked_hz
+    assert run.now() == pytest.approx(first_s + (windows - 1) * max(window_s(asked_hz), REMEASURE_S), abs=0.4)
+
+
+async def test_a_hiccup_in_the_first_window_does_not_count() -> None:
+    stalled = [*_ticks(10, to_s=0.4), *_ticks(10, from_s=0.95)]
+    rate, _ = await measure_steady_rate(FakeRun(stalled), "/t", 10.0, since=0.0)  # type: ignore[arg-type]
+    assert rate is not None
+    assert rate.hz == pytest.approx(10.0, rel=0.01)

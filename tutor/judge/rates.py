@@ -22,6 +22,12 @@ FAR_ABOVE = 1.5
 EVEN_SHARE = 0.5
 """Evenly spaced messages have a median gap of more than this share of the mean period, even with jitter."""
 
+EVEN_RATIO = 1.1
+"""Gaps between evenly sent messages differ by less than this ratio; a machine that delays some makes them uneven."""
+
+MIN_EVEN = 4
+"""Minimum number of messages that can show whether they are sent evenly."""
+
 MIN_FOR_BURSTS = 5
 """Minimum number of messages that can show whether they come in bursts."""
 
@@ -67,6 +73,13 @@ def measure(samples: Sequence[Sample]) -> Rate | None:
         return None
     span = times[-1] - times[0]
     return Rate((len(times) - 1) / span, len(times), span, statistics.median(b - a for a, b in pairwise(times)))
+
+
+def are_even(samples: Sequence[Sample]) -> bool:
+    """Whether there are enough samples to see that they are sent evenly: then no hiccup has changed their rate."""
+    times = sorted(sample.source_time for sample in samples)
+    gaps = [later - earlier for earlier, later in pairwise(times)]
+    return len(times) >= MIN_EVEN and max(gaps) < EVEN_RATIO * min(gaps)
 
 
 def describe(rate: Rate | None, samples: int) -> str:

@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterable
 
 from tutor.errors import MachineTooBusy
 from tutor.judge.bench import Bench, Run
-from tutor.judge.rates import TOLERANCE, Rate, measure
+from tutor.judge.rates import TOLERANCE, Rate, are_even, measure
+from tutor.judge.trace import Sample
 from tutor.judge.tracebacks import Frame
 
 START_S = 15.0
@@ -47,6 +48,9 @@ STUCK_S = 1.5
 TRIES = 3
 CPU_WAIT_SHARE = 0.2
 """Waiting for a CPU for less than this share of the time hardly affects a rate."""
+
+HARDLY_WAITED_SHARE = 0.05
+"""Waiting for a CPU for less than this share of the time does not affect a rate at all."""
 
 IN_FLIGHT_S = 0.1
 """Upper bound on the latency of a message from its source to us."""
@@ -143,23 +147,28 @@ def window_s(hz: float) -> float:
 async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) -> tuple[Rate | None, int]:
     """The rate on `topic` from source time `since` on, and the number of messages that it is based on.
 
-    Measures for as long as `asked_hz` requires. If the rate does not agree, measures once more, for longer, and uses
-    only that second window: a hiccup in the first is the machine's, a rate that stays wrong is the learner's.
-    Raises MachineTooBusy if the machine hardly lets the node run in any window.
+    Measures for as long as `asked_hz` requires. If the rate does not agree and the messages are uneven, measures once
+    more, for longer, and uses only that second window: a hiccup in the first is the machine's, a rate that stays wrong
+    is the learner's. Raises MachineTooBusy if the machine hardly lets the node run in any window.
     """
-    start, for_s = max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz
-    rate, messages = await _measure_window(run, topic, start, for_s)
+    start, for_s, cpu_wait_s = max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz, run.node_cpu_wait_s()
+    samples = await _samples_in_window(run, topic, start, for_s)
+    rate = measure(samples)
+    hardly_waited = run.node_cpu_wait_s() - cpu_wait_s < HARDLY_WAITED_SHARE * for_s
+    if rate is not None and (rate.agrees_with(asked_hz) or (are_even(samples) and hardly_waited)):
+        return rate, len(samples)
     for _ in range(TRIES):
+        for_s, cpu_wait_s = max(window_s(asked_hz), REMEASURE_S), run.node_cpu_wait_s()
+        samples = await _samples_in_window(run, topic, run.now(), for_s)
+        rate = measure(samples)
         if rate is not None and rate.agrees_with(asked_hz):
             break
-        for_s, cpu_wait_s = max(window_s(asked_hz), REMEASURE_S), run.node_cpu_wait_s()
-        rate, messages = await _measure_window(run, topic, run.now(), for_s)
-        if not too_few_by_cpu_wait(messages, asked_hz, cpu_wait_s=run.node_cpu_wait_s() - cpu_wait_s, elapsed_s=for_s):
+        cpu_wait_s = run.node_cpu_wait_s() - cpu_wait_s
+        if not too_few_by_cpu_wait(len(samples), asked_hz, cpu_wait_s=cpu_wait_s, elapsed_s=for_s):
             break
     else:
-        if rate is None or not rate.agrees_with(asked_hz):
-            raise MachineTooBusy("this machine is too busy to measure a rate")
-    return rate, messages
+        raise MachineTooBusy("this machine is too busy to measure a rate")
+    return rate, len(samples)
 
 
 def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, elapsed_s: float) -> bool:
@@ -174,8 +183,7 @@ def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, el
     return mean_hz <= asked_hz and mean_hz / running_share >= (1 - TOLERANCE) * asked_hz
 
 
-async def _measure_window(run: Run, topic: str, start: float, for_s: float) -> tuple[Rate | None, int]:
+async def _samples_in_window(run: Run, topic: str, start: float, for_s: float) -> list[Sample]:
     end, late_s = start + for_s, run.our_cpu_wait_s()
     await run.until(lambda: run.now() >= end + IN_FLIGHT_S + run.our_cpu_wait_s() - late_s, for_s + 2)
-    samples = [sample for sample in run.samples_on(topic) if start <= sample.source_time <= end]
-    return measure(samples), len(samples)
+    return [sample for sample in run.samples_on(topic) if start <= sample.source_time <= end]
