@@ -253,7 +253,7 @@ async def ask_for_bad_rates(bench: Bench) -> BadRates:
 
 
 async def _try_bad_rates(bench: Bench, from_hz: float | None) -> BadRates:
-    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=5.0) as run:
+    async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=4.2) as run:
         bench.report_progress(0.05, "waiting for it to publish")
         node, answering = await _wait_until_publishing(run)
         if node is None:

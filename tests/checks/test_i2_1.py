@@ -29,18 +29,9 @@ from checks.i2_1.facts import (
     RuntimeChanges,
     messages_naming_rate,
 )
-from checks.i2_1.judges import (
-    judge_atomic,
-    judge_bad_launch,
-    judge_changes,
-    judge_defaults,
-    judge_launch,
-    judge_runtime,
-    judge_shutdown,
-    judge_timer,
-    judge_validation,
-    judge_validation_so_far,
-)
+from checks.i2_1.judges import judge_bad_launch, judge_defaults, judge_launch, judge_shutdown
+from checks.i2_1.runtime import judge_changes, judge_runtime, judge_timer
+from checks.i2_1.validation import judge_atomic, judge_validation, judge_validation_so_far
 from tests.checks.builders import (
     CRASH,
     CRASHED,
