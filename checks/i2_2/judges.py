@@ -4,14 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from checks.i2_2.causes import (
-    diagnose_launch,
-    diagnose_missing,
-    diagnose_namespace,
-    diagnose_pair,
-    diagnose_program,
-    diagnose_topic,
-)
+from checks.i2_2.argument_causes import diagnose_namespace, diagnose_topic
+from checks.i2_2.causes import diagnose_launch, diagnose_missing, diagnose_pair, diagnose_program
 from checks.i2_2.facts import (
     NAMESPACE,
     SECOND_NAMESPACE,
