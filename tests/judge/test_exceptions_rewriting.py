@@ -43,6 +43,7 @@ def repair(text: str, raised: str, number: int, function: str = "f") -> str:
 
 LOG = "TypeError: RcutilsLogger.info() takes 2 positional arguments but 4 were given"
 SPLIT = "ImportError: cannot import name 'ExternalShutdownException' from 'rclpy' (/x)"
+SEVERITY = "ValueError: Logger severity cannot be changed between calls."
 NO_TYPE = "AttributeError: type object 'str' has no attribute '_TYPE_SUPPORT'"
 
 
@@ -56,6 +57,34 @@ NO_TYPE = "AttributeError: type object 'str' has no attribute '_TYPE_SUPPORT'"
         ("log.info('rate', a, b)\n", LOG, 1, "log.info(' '.join(map(str, ('rate', a, b))))\n"),
         ("if a: log.info(\n    '%d of %d',\n    a,\n    b,\n)\n", LOG, 1, "if a: log.info('%d of %d' % (a, b))\n"),
         ("log.info('%d', a, once=True)\nlog.warn('%d', b)\n", LOG, 1, None),
+        (
+            "def say(level, text):\n    getattr(log, level)(text)\n\nsay('warning', 'a')\nsay('info', 'b')\n",
+            SEVERITY,
+            2,
+            "def say(level, text):\n    if level == 'warning':\n        log.warning(text)\n    else:\n"
+            "        log.info(text)\n\nsay('warning', 'a')\nsay('info', 'b')\n",
+        ),
+        (
+            "def say(text, level=LoggingSeverity.INFO):\n    log.log(text, level)\n\nsay('a', LoggingSeverity.WARN)\n",
+            SEVERITY,
+            2,
+            "def say(text, level=LoggingSeverity.INFO):\n"
+            "    if level == LoggingSeverity.WARN:\n        log.warn(text)\n"
+            "    else:\n        log.info(text)\n\nsay('a', LoggingSeverity.WARN)\n",
+        ),
+        (
+            "(log.info if fine else log.error)(f'{a}', once=True)\n",
+            SEVERITY,
+            1,
+            "if fine:\n    log.info(f'{a}', once=True)\nelse:\n    log.error(f'{a}', once=True)\n",
+        ),
+        (
+            "def f():\n    write = log.info if fine else log.error\n    write(a)\n",
+            SEVERITY,
+            3,
+            "def f():\n    write = log.info if fine else log.error\n    if fine:\n        log.info(a)\n    else:\n"
+            "        log.error(a)\n",
+        ),
         (
             "from rclpy import (\n    init,\n    ExternalShutdownException as Ended,\n)\n",
             SPLIT,

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from tutor.judge import edits
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.syntax import repair
-from tutor.judge.source import Function, SourceFile, called_name, last_name, syntax_nodes
+from tutor.judge.source import Function, SourceFile, called_name, last_name, syntax_nodes, values_of
 
 Words = Mapping[str, str]
 
@@ -47,6 +47,55 @@ def _format_message(text: str, call: ast.Call) -> str:
         message = f"' '.join(map(str, ({', '.join([first, *rest])})))"
     keywords = "".join(f", {ast.unparse(each)}" for each in call.keywords)
     return f"{ast.unparse(call.func)}({message}{keywords})"
+
+
+def severities(text: str, words: Words) -> Sequence[Edit] | None:
+    """Give each severity a log call of its own, in a statement whose only call logs with several.
+
+    The severity may be given by its name (`getattr(logger, level)(...)`) or its number (`logger.log(..., level)`), or
+    the method is chosen (`(logger.info if fine else logger.warning)(...)`), there or in the variable that is called.
+    """
+    file = SourceFile(text)
+    statement = file.statement_at(int(words["number"]))
+    if not isinstance(statement, ast.Expr) or not isinstance(call := statement.value, ast.Call):
+        return None
+    function, method = file.function_at(statement.lineno), call.func
+    if isinstance(method, ast.Name) and function is not None and len(given := values_of(method.id, function)) == 1:
+        method = given[0]
+    severity: ast.expr | None = None
+    match method:
+        case ast.IfExp(test=test, body=body, orelse=other):
+            choices = [(ast.unparse(test), ast.unparse(body)), ("", ast.unparse(other))]
+        case ast.Call(func=ast.Name(id="getattr"), args=[logger, level, *_]):
+            names = {node.value for node in syntax_nodes(text) if isinstance(node, ast.Constant)}
+            choices = _choose_by({repr(name): name for name in _LEVELS if name in names}, level, logger)
+        case ast.Attribute(attr="log", value=logger) if call.args:
+            severity = next((each.value for each in call.keywords if each.arg == "severity"), call.args[-1])
+            nodes = [node for node in syntax_nodes(text) if isinstance(node, ast.Attribute)]
+            numbers = {ast.unparse(node): node.attr.lower() for node in nodes if node.attr.lower() in _LEVELS}
+            choices = _choose_by({each: numbers[each] for each in numbers if "Severity." in each}, severity, logger)
+        case _:
+            return None
+    arguments = _arguments(call, without=severity)
+    branches = [
+        f"{('elif' if number else 'if') + f' {condition}' if condition else 'else'}:\n    {logs}({arguments})"
+        for number, (condition, logs) in enumerate(choices)
+    ]
+    return [edits.replace_statement(statement, "\n".join(branches))] if len(branches) > 1 else None
+
+
+def _choose_by(levels: Mapping[str, str], severity: ast.expr, logger: ast.expr) -> list[tuple[str, str]]:
+    """Branches as (condition, method), one for each level (as written: its name), the last one for any other level."""
+    log, given = ast.unparse(logger), ast.unparse(severity)
+    others = [(f"{given} == {written}", f"{log}.{name}") for written, name in levels.items() if name != "info"]
+    return [*others, ("", f"{log}.info")]
+
+
+def _arguments(call: ast.Call, without: ast.expr | None) -> str:
+    """The arguments of a call as code, apart from one of them."""
+    positional = [ast.unparse(each) for each in call.args if each is not without]
+    named = [f"{each.arg}={ast.unparse(each.value)}" for each in call.keywords if each.value is not without]
+    return ", ".join([*positional, *named])
 
 
 def imported(text: str, words: Words) -> Sequence[Edit] | None:
@@ -183,6 +232,6 @@ def readable(text: str, words: Words) -> Sequence[Edit] | None:
 
 
 REWRITERS: Mapping[str, Callable[[str, Words], Sequence[Edit] | None]] = {
-    each.__name__: each for each in (log, imported, types_first, readable, without, raised, optional, utf8)
+    each.__name__: each for each in (log, severities, imported, types_first, readable, without, raised, optional, utf8)
 }
 """The edits by their names in the tables; each takes the file's text and the placeholders' values."""
