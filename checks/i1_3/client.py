@@ -88,7 +88,10 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
     if cause.name == "did not end" and own is not None and "sleep(" in own.code:
         fixes: Sequence[_Step] = [partial(_remove_calls, names=("sleep",))]
     elif cause.name == "did not end" and not _missing(seen) and source.calls(trace, "Thread"):
-        fixes = [lambda code, *_: steps.shut_down_rclpy(code)]
+        joined = own if own is not None and ".join(" in own.code else None
+        fixes = [
+            lambda code, *_: steps.shut_down_rclpy(code, joined.line if joined and joined.name == code.file else 0)
+        ]
     else:
         fixes = _STEPS.get(cause.name, [])
     if cause.name == "did not end" and own is not None and ".wait(" in own.code:

@@ -118,9 +118,18 @@ def move_return(code: Code) -> tuple[ast.For, ast.Return, str] | None:
     return None
 
 
-def shut_down_rclpy(code: Code) -> str | None:
-    """Step: shut down rclpy at the end of the program, which also ends a spinning thread."""
+def shut_down_rclpy(code: Code, joined_at: int = 0) -> str | None:
+    """Step: shut down rclpy at the end of the program, which also ends a spinning thread.
+
+    `joined_at`: the line that waits for that thread; then shut down above it, and not again later.
+    """
     shutdown, entry = f"{code.local_name('rclpy')}.shutdown()", _find_entry_point(code)
+    if joined_at and code.statement_at(joined_at) is not None:
+        statements = [each for each in code.nodes if isinstance(each, ast.Expr) and each.lineno > joined_at]
+        again = [each for each in statements if ast.unparse(each).endswith("shutdown()")]
+        return code.as_step(
+            edits.insert_above(joined_at, shutdown), [edits.remove_statement(code.text, each) for each in again]
+        )
     if entry is not None:
         return code.as_step(edits.append_to_function(entry, shutdown))
     return code.as_step(edits.insert_after(code.top[-1], shutdown)) if code.top else None
