@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import wraps
 
 from checks.i1_2 import backlog, slowness
 from checks.i1_2.facts import TOPIC, TYPE, Trial
-from tutor.judge import causes, source
+from tutor.judge import causes, edits, source
+from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Status, Verdict
+
+_CAUSED_BY_RESETS = (
+    "wrong count",
+    "first message overwritten",
+    "starts over silently",
+    "wrong count after a restart",
+)
+"""Causes, by their names, of which a reset where N only rises may be the root."""
 
 
 def with_deeper_cause[V: Verdict | None](judge: Callable[..., V]) -> Callable[..., V]:
@@ -25,6 +35,8 @@ def with_deeper_cause[V: Verdict | None](judge: Callable[..., V]) -> Callable[..
         ):
             return verdict
         cause = _diagnose_double_count(trials) or _diagnose_waiting(trials)
+        if cause is None and verdict.cause.partition(":")[0] in _CAUSED_BY_RESETS:
+            cause = _diagnose_text_comparison(trials)
         return verdict if cause is None else replace(verdict, cause=str(cause), hint=cause.hint)
 
     return judged
@@ -64,6 +76,41 @@ def _diagnose_double_count(trials: Sequence[Trial]) -> Cause | None:
             else "make one node, and one subscription in it",
         )
     return None
+
+
+def _diagnose_text_comparison(trials: Sequence[Trial]) -> Cause | None:
+    """Find a comparison that tells a restart by the texts of two messages, not by their numbers."""
+    trace = next((trial.trace for trial in trials if trial.trace.sources), None)
+    if trace is None:
+        return None
+    kept = {
+        target for target, value in _assignments(trace) if isinstance(value, ast.Attribute) and value.attr == "data"
+    }
+    for function in source.callbacks(trace, "create_subscription"):
+        for node in ast.walk(function):
+            if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE):
+                continue
+            operands = (node.left, *node.comparators)
+            if len(operands) == 2 and all(_is_text(each, kept) for each in operands):
+                numbers = [(each, f"int({ast.unparse(each)}.rpartition(':')[2] or -1)") for each in operands]
+                file = source.file_holding(trace, node)
+                return Cause(
+                    "texts compared",
+                    f"{source.where(node)} compares texts, and as texts, “Hello World: 10” is less than "
+                    "“Hello World: 9”",
+                    edits.describe_edits_of(file, edits.replace_nodes(file.text, *numbers)) or "",
+                )
+    return None
+
+
+def _assignments(trace: Trace) -> list[tuple[str, ast.expr]]:
+    nodes = [node for node in source.all_nodes(trace) if isinstance(node, ast.Assign)]
+    return [(ast.unparse(target), node.value) for node in nodes for target in node.targets]
+
+
+def _is_text(operand: ast.expr, kept: set[str]) -> bool:
+    """Whether an operand is a message's text: `msg.data`, or a variable in `kept` that holds one."""
+    return (isinstance(operand, ast.Attribute) and operand.attr == "data") or ast.unparse(operand) in kept
 
 
 def _has_doubled_count(trial: Trial) -> bool:

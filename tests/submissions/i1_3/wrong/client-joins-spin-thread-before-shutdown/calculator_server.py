@@ -1,0 +1,1 @@
+../../right/client-asks-again/calculator_server.py
