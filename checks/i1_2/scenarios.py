@@ -71,6 +71,11 @@ async def steady(bench: Bench) -> Trial:
     return trial
 
 
+async def choose_numbers(bench: Bench) -> tuple[int, int]:
+    """Choose the first N, and how many numbers to skip, for both starts with jumps, so that they can be compared."""
+    return random.randint(*FIRST_NUMBERS), random.randint(*LEFT_OUT)
+
+
 async def jump(bench: Bench) -> Trial:
     """Send messages from a random N on, and skip several numbers."""
     return await _jump(bench, (JUMP_AFTER,))
@@ -82,16 +87,16 @@ async def jump_twice(bench: Bench) -> Trial:
 
 
 async def _jump(bench: Bench, jumps: Sequence[int]) -> Trial:
+    number, left_out = await bench.facts(choose_numbers)
     async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
         spins = await _wait_for_match(run, talker, MATCH_S)
         if not talker.subscribers:
             return Trial(run.trace(), spins=spins)
         waited_before_s = run.node_cpu_wait_s()
         sent: list[Sent] = []
-        number = random.randint(*FIRST_NUMBERS)
         for begin, end in pairwise((0, *jumps, JUMP_MESSAGES)):
             if begin:
-                number += random.randint(*LEFT_OUT) if begin == JUMP_AFTER else 1
+                number += left_out if begin == JUMP_AFTER else 1
             await _send(bench, run, talker, sent, range(number, number + end - begin), UNTIMED_HZ)
             number += end - begin
         before_break, before_second_jump = (

@@ -6,6 +6,7 @@ import random
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import product
 
 import pytest
 from hypothesis import given, settings
@@ -1226,6 +1227,18 @@ def test_a_node_that_drops_the_first_message_after_a_restart_counts_too_few(late
 def test_a_late_summary_with_a_newer_last_message_counts_too_few(late_s: float) -> None:
     verdict = judges.judge_slow_count(steady(CountsOneTooFew(), late_s=late_s), jump(CountsOneTooFew(), late_s=late_s))
     assert verdict.status is Status.FAILED, verdict
+
+
+@pytest.mark.parametrize("missed", range(LEFT_OUT[0], LEFT_OUT[1] + 1))
+@pytest.mark.parametrize(
+    ("node", "late_s"),
+    [*product([LossKeepsRising, GapsKeepRising], [0.0005, 0.3, 1.0]), (LossKeepsRisingInEachMessage, 0.0005)],
+)
+def test_a_loss_that_keeps_rising_is_recognised_whatever_number_is_chosen(
+    node: type[FakeStats], late_s: float, missed: int
+) -> None:
+    trials = (jump(node(), missed, late_s=late_s), jump_twice(node(), missed, late_s=late_s))
+    assert_failed(continuity.judge_gaps(*trials, steady(node(), late_s=late_s)), "false alarm")
 
 
 @pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])
