@@ -35,8 +35,8 @@ CHECK = Check(
             with_deeper_cause(continuity.judge_gaps),
             (scenarios.jump, scenarios.jump_twice, scenarios.steady),
         ),
-        Criterion("shutdown", judges.judge_shutdown, (scenarios.steady,), bonus=True),
+        Criterion("shutdown", judges.judge_shutdown, (scenarios.fast,), bonus=True),
     ),
-    expected_s=5.5,  # steady: up for 1 s, then 20 messages at 5 a second
+    expected_s=5.3,  # steady: up for 0.8 s, then 20 messages at 5 a second
     exceptions=load(Path(__file__).with_name("exceptions.toml")),
 )

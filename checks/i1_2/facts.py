@@ -26,7 +26,7 @@ Slow enough that a rate over the last second is right once ten messages have com
 neither a count (10, 20), nor a count divided by the whole seconds of the time that it took (1 of 1.8 s, 3 of 3.8 s).
 """
 STEADY_MESSAGES = 20
-QUIET_S = 1.0
+QUIET_S = 0.8
 """How long a node is up before the first message, so that a rate counted from its start is clearly too low."""
 
 MATCH_S = 0.4

@@ -418,5 +418,5 @@ def _logged(trial: Trial) -> list[str]:
     return [str(log) for log in trial.trace.logs[-6:]] or list(causes.output_tail(trial.trace))
 
 
-def judge_shutdown(steady: Trial) -> Verdict:
-    return ending.judge_ending(steady.trace, steady.ending)
+def judge_shutdown(fast: Trial) -> Verdict:
+    return ending.judge_ending(fast.trace, fast.ending)

@@ -51,21 +51,23 @@ STUCK_S = 1.5
 FAST_EXPECTED_S = MATCH_S + FAST_MESSAGES / FAST_HZ
 
 
-@repeat_if_doubtful
 async def steady(bench: Bench) -> Trial:
-    """Send messages at a steady rate, with N counting up from 0; then press Ctrl+C."""
+    """Send messages at a steady rate, with N counting up from 0.
+
+    A node without a summary is ended with Ctrl+C, since its last output may show why.
+    """
     async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
         bench.report_progress(0.05, "waiting for the subscription")
         spins = await _wait_for_match(run, talker, QUIET_S)
         if not talker.subscribers:
-            return Trial(run.trace(), spins=spins, ending=await run.interrupt() if run.exit is None else None)
+            return Trial(run.trace(), spins=spins)
         waited_before_s = run.node_cpu_wait_s()
         sent: list[Sent] = []
         await _send(bench, run, talker, sent, range(STEADY_MESSAGES), random.uniform(*STEADY_HZ))
         trial = Trial(run.trace(), tuple(sent), cpu_wait_s=run.node_cpu_wait_s() - waited_before_s, spins=spins)
         trial = await _collect_last_logs(run, trial)
-        bench.report_progress(0.95, "pressing Ctrl+C")
-        trial = replace(trial, ending=await run.interrupt() if run.exit is None else None)
+        if not find_summaries(trial):
+            trial = replace(trial, ending=await run.interrupt() if run.exit is None else None)
     if trial.sent and not trial.spins and not trial.lines and trial.trace.exit is None:
         return replace(trial, stuck=await _dump_stuck_node(bench))
     return trial
@@ -114,18 +116,21 @@ async def _jump(bench: Bench, jumps: Sequence[int]) -> Trial:
         return await _collect_last_logs(run, trial)
 
 
+@repeat_if_doubtful
 async def fast(bench: Bench) -> Trial:
-    """Send messages as fast as a typical sensor for a short while."""
+    """Send messages as fast as a typical sensor for a short while; then press Ctrl+C."""
     async with bench.start(FILE, expected_s=FAST_EXPECTED_S) as run, run.publisher(TOPIC, TYPE) as talker:
         spins = await _wait_for_match(run, talker, MATCH_S)
         if not talker.subscribers:
-            return Trial(run.trace(), spins=spins)
+            return Trial(run.trace(), spins=spins, ending=await run.interrupt() if run.exit is None else None)
         waited_before_s = run.node_cpu_wait_s()
         sent: list[Sent] = []
         first = random.randint(0, 50)
         await _send(bench, run, talker, sent, range(first, first + FAST_MESSAGES), FAST_HZ)
         cpu_wait_s = run.node_cpu_wait_s() - waited_before_s
-        return await _collect_last_logs(run, Trial(run.trace(), tuple(sent), cpu_wait_s=cpu_wait_s, spins=spins))
+        trial = await _collect_last_logs(run, Trial(run.trace(), tuple(sent), cpu_wait_s=cpu_wait_s, spins=spins))
+        bench.report_progress(0.95, "pressing Ctrl+C")
+        return replace(trial, ending=await run.interrupt() if run.exit is None else None)
 
 
 async def restart(bench: Bench) -> Trial:

@@ -1354,9 +1354,9 @@ def test_a_node_that_exits_on_a_restart_or_a_jump_fails() -> None:
 
 
 def test_shutdown() -> None:
-    assert_passed(judges.judge_shutdown(replace(steady(FakeStats()), ending=ending())))
+    assert_passed(judges.judge_shutdown(replace(fast(FakeStats()), ending=ending())))
     assert_failed(
-        judges.judge_shutdown(replace(steady(FakeStats()), ending=ending(still_running=True))), "SIGINT ignored"
+        judges.judge_shutdown(replace(fast(FakeStats()), ending=ending(still_running=True))), "SIGINT ignored"
     )
 
 
