@@ -37,6 +37,6 @@ CHECK = Check(
         ),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.fast,), bonus=True),
     ),
-    expected_s=5.3,  # steady: up for 0.8 s, then 20 messages at 5 a second
+    expected_s=5.2,  # restart: 25 messages at 8 a second, and 2 s without any
     exceptions=load(Path(__file__).with_name("exceptions.toml")),
 )

@@ -48,6 +48,8 @@ LOG_QUIET_LIMIT_S = 1.0
 STUCK_S = 1.5
 """Time within which a node that got a message has reached the call that blocks it."""
 
+STEADY_EXPECTED_S = QUIET_S + STEADY_MESSAGES / STEADY_HZ[0]
+JUMP_EXPECTED_S = MATCH_S + JUMP_MESSAGES / UNTIMED_HZ
 FAST_EXPECTED_S = MATCH_S + FAST_MESSAGES / FAST_HZ
 
 
@@ -56,7 +58,7 @@ async def steady(bench: Bench) -> Trial:
 
     A node without a summary is ended with Ctrl+C, since its last output may show why.
     """
-    async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
+    async with bench.start(FILE, expected_s=STEADY_EXPECTED_S) as run, run.publisher(TOPIC, TYPE) as talker:
         bench.report_progress(0.05, "waiting for the subscription")
         spins = await _wait_for_match(run, talker, QUIET_S)
         if not talker.subscribers:
@@ -90,7 +92,7 @@ async def jump_twice(bench: Bench) -> Trial:
 
 async def _jump(bench: Bench, jumps: Sequence[int]) -> Trial:
     number, left_out = await bench.facts(choose_numbers)
-    async with bench.start(FILE) as run, run.publisher(TOPIC, TYPE) as talker:
+    async with bench.start(FILE, expected_s=JUMP_EXPECTED_S) as run, run.publisher(TOPIC, TYPE) as talker:
         spins = await _wait_for_match(run, talker, MATCH_S)
         if not talker.subscribers:
             return Trial(run.trace(), spins=spins)
