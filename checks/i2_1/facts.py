@@ -100,7 +100,6 @@ class RuntimeChanges:
     after_prefix: Sample | None = None
     set_off: SetAnswer | None = None
     sent_while_off: tuple[Sample, ...] = ()
-    off_for_s: float = 0.0
     set_later: SetAnswer | None = None
     set_on: SetAnswer | None = None
     resumed: Sample | None = None

@@ -99,7 +99,9 @@ async def start_with_parameters(bench: Bench) -> ParameterStarts:
             await wait_until_seen(run, lambda: _has_publisher(run))
             since = run.now()
             # Two periods of the default rate, in case the rate given here has no effect.
-            await run.until(lambda: bool(run.samples_on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0)
+            await run.until(
+                lambda: bool(run.samples_on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0, idle_s=IDLE_S
+            )
             trace, quiet_s, first_after_enable = run.trace(), run.now() - since, None
             if node and not trace.samples_on(TOPIC) and not _has_publisher(run):
                 # The node may create its publisher only once it is enabled.
@@ -159,7 +161,9 @@ async def _set_prefix(bench: Bench) -> RuntimeChanges:
             )
 
         await run.until(
-            lambda: with_new_prefix() is not None or overdue_with_old_prefix() is not None, 2 * seen.period_s + 2
+            lambda: with_new_prefix() is not None or overdue_with_old_prefix() is not None,
+            2 * seen.period_s + 2,
+            idle_s=IDLE_S,
         )
         changed = with_new_prefix() if answer.successful else None
         before = measure(run.samples_on(TOPIC))
@@ -197,10 +201,11 @@ async def _switch(bench: Bench, *, at_once: bool) -> RuntimeChanges:
             return [s for s in run.samples_on(TOPIC) if s.source_time > quiet_from]
 
         quiet_until = quiet_from + QUIET_PERIODS * seen.period_s
-        await run.until(lambda: bool(unwanted()) or run.now() >= quiet_until, 3 * seen.period_s + 2)
-        sent, off_for_s = tuple(unwanted()), run.now() - set_off.answered_at
+        # An idle node sends nothing more by itself: it stays silent.
+        await run.until(lambda: bool(unwanted()) or run.now() >= quiet_until, 3 * seen.period_s + 2, idle_s=IDLE_S)
+        sent = tuple(unwanted())
         bench.report_progress(0.6, f"setting {PREFIX} to {seen.later}, then {ENABLED} to true")
-        seen = replace(seen, trace=run.trace(), sent_while_off=sent, off_for_s=off_for_s)
+        seen = replace(seen, trace=run.trace(), sent_while_off=sent)
         if sent:
             return seen
         set_later = await run.set_parameters(node, {PREFIX: seen.later}, limit_s=ANSWER_S)
@@ -211,7 +216,7 @@ async def _switch(bench: Bench, *, at_once: bool) -> RuntimeChanges:
         def resumed() -> Sample | None:
             return next((s for s in run.samples_on(TOPIC) if s.source_time > set_on.asked_at), None)
 
-        await run.until(lambda: resumed() is not None, 2 * seen.period_s + 2)
+        await run.until(lambda: resumed() is not None, 2 * seen.period_s + 2, idle_s=IDLE_S)
         bench.report_progress(0.8, "checking that it goes on as before")
         since = set_on.answered_at + seen.period_s + 0.1
         seen = replace(seen, set_later=set_later, set_on=set_on, resumed=resumed())
@@ -354,12 +359,12 @@ async def _measure_new_rate(run: Run, answer: SetAnswer, new_hz: float, old_hz: 
     window = window_s(new_hz)
     if new_hz > old_hz:
         measurable = max(settled, answer.answered_at + window) + IN_FLIGHT_S
-        await run.until(lambda: run.now() >= measurable, window + 1 / old_hz + 1)
+        await run.until(lambda: run.now() >= measurable, window + 1 / old_hz + 1, idle_s=IDLE_S)
         samples = [sample for sample in run.samples_on(TOPIC) if sample.source_time >= answer.answered_at]
         rate = measure(samples)
         if rate is not None and rate.agrees_with(new_hz) and rate.covers(window):
             return rate, len(samples)
-    await run.until(lambda: run.now() >= settled, 1 / old_hz + 1)
+    await run.until(lambda: run.now() >= settled, 1 / old_hz + 1, idle_s=IDLE_S)
     return await measure_steady_rate(run, TOPIC, new_hz, since=settled)
 
 

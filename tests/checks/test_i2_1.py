@@ -206,7 +206,6 @@ def runtime_changes(**changes: Any) -> RuntimeChanges:
         "set_prefix": answer({PREFIX: "Servus7"}),
         "after_prefix": sample(TOPIC, "Servus7 3", 1003.0),
         "set_off": answer({ENABLED: False}),
-        "off_for_s": 2.5,
         "set_later": answer({PREFIX: "Gruezi9"}),
         "set_on": answer({ENABLED: True}),
         "resumed": sample(TOPIC, "Gruezi9 4", 1008.0),

@@ -45,7 +45,7 @@ TRIES = "rclpy.try_shutdown()"
 TRIES_SAFELY = "with __import__('contextlib').suppress(RuntimeError): rclpy.try_shutdown()"
 SCENARIOS = [
     ("i1.1", "plain_start"),
-    ("i1.2", "steady"),
+    ("i1.2", "fast"),
     ("i1.3", "call_each_service"),
     ("i2.1", "plain_start"),
     ("i2.3", "run_idle"),

@@ -121,7 +121,7 @@ class FakeRun:
     def samples_on(self, topic: str) -> list[Sample]:
         return [Sample(topic, {"data": 1.0}, at, at) for at in self._times if at <= self._now]
 
-    async def until(self, seen: Callable[[], bool], limit_s: float) -> bool:
+    async def until(self, seen: Callable[[], bool], limit_s: float, *, idle_s: float | None = None) -> bool:
         ends = self._now + limit_s
         while not seen() and self._now < ends:
             self._now += 0.01

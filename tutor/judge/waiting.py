@@ -147,9 +147,10 @@ def window_s(hz: float) -> float:
 async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: float) -> tuple[Rate | None, int]:
     """The rate on `topic` from source time `since` on, and the number of messages that it is based on.
 
-    Measures for as long as `asked_hz` requires. If the rate does not agree and the messages are uneven, measures once
-    more, for longer, and uses only that second window: a hiccup in the first is the machine's, a rate that stays wrong
-    is the learner's. Raises MachineTooBusy if the machine hardly lets the node run in any window.
+    Measures for as long as `asked_hz` requires, or until the node is idle and so sends nothing more. If the rate does
+    not agree and the messages are uneven, measures once more, for longer, and uses only that second window: a hiccup in
+    the first is the machine's, a rate that stays wrong is the learner's. Raises MachineTooBusy if the machine hardly
+    lets the node run in any window.
     """
     start, for_s, cpu_wait_s = max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz, run.node_cpu_wait_s()
     samples = await _samples_in_window(run, topic, start, for_s)
@@ -185,5 +186,5 @@ def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, el
 
 async def _samples_in_window(run: Run, topic: str, start: float, for_s: float) -> list[Sample]:
     end, late_s = start + for_s, run.our_cpu_wait_s()
-    await run.until(lambda: run.now() >= end + IN_FLIGHT_S + run.our_cpu_wait_s() - late_s, for_s + 2)
+    await run.until(lambda: run.now() >= end + IN_FLIGHT_S + run.our_cpu_wait_s() - late_s, for_s + 2, idle_s=IDLE_S)
     return [sample for sample in run.samples_on(topic) if start <= sample.source_time <= end]
