@@ -153,7 +153,12 @@ def judge_shutdown(seen: LaunchRun) -> Verdict:
     if ended is not None:
         # `ros2 launch` relays its nodes' output with a prefix on each line.
         ended = replace(ended, output=_without_prefixes(ended.output))
-    verdict = ending.judge_ending(seen.trace, ended)
+    # The launch file itself has nothing to do with how its programs end.
+    programs = {name: text for name, text in seen.trace.sources.items() if name != seen.trace.file}
+    verdict = ending.judge_ending(replace(seen.trace, sources=programs), ended)
+    if ended is not None and ended.exit is None:
+        left = [command[:200] for command in ended.survivors]
+        return replace(verdict, expected=expected, evidence=(*left[:6], *(line.text for line in ended.output[-6:])))
     if not verdict.passed or ended is None:
         return replace(verdict, expected=expected)
     if ended.survivors:

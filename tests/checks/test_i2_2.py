@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -482,7 +483,11 @@ def test_a_process_is_left_behind() -> None:
 
 def test_the_launch_ignores_sigint() -> None:
     seen = launched(pair("/chatter"), ending=ending(None, still_running=True))
-    assert_failed(judges.judge_shutdown(seen), "SIGINT ignored")
+    launch_file = Path("lessons/i2_2/solution/my_launch.py").read_text()
+    seen = replace(seen, trace=replace(seen.trace, sources={seen.trace.file: launch_file}))
+    verdict = judges.judge_shutdown(seen)
+    assert_failed(verdict, "SIGINT ignored")
+    assert verdict.hint.startswith("let KeyboardInterrupt end the program"), "an edit of the launch file cannot help"
 
 
 def test_a_traceback_of_a_node_fails_though_the_launch_exits_cleanly() -> None:
