@@ -23,6 +23,7 @@ from checks.i2_2.facts import (
 )
 from checks.i2_2.processes import ended_processes
 from tutor.judge.bench import Bench, Run
+from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.trace import Trace
 from tutor.judge.waiting import MESSAGE_GAP_S, OTHER_NAME_S, START_S
 from tutor.ros_model import Graph
@@ -58,6 +59,7 @@ LOG_DELAY_S = 1.0
 """A subscriber that logs its messages does so within this time of receiving one."""
 
 
+@repeat_if_doubtful
 async def plain(bench: Bench) -> LaunchRun:
     """Launch without arguments, watch the nodes and their messages, then press Ctrl+C."""
     async with bench.launch(FILE) as run:
