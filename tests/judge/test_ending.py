@@ -178,6 +178,6 @@ def test_endings_that_are_never_chance(end: Ending | None) -> None:
     assert not may_be_chance(end)
 
 
-@pytest.mark.parametrize(("took_s", "chance"), [(5.0, False), (5.2, False), (5.5, True), (9.0, True)])
-def test_a_process_that_goes_on_may_be_chance_on_a_busy_machine_only(took_s: float, chance: bool) -> None:
-    assert may_be_chance(Ending(None, took_s, 5.0)) == chance
+@pytest.mark.parametrize(("cpu_wait_share", "chance"), [(0.0, False), (0.1, False), (0.2, True), (1.5, True)])
+def test_a_process_that_goes_on_may_be_chance_on_a_busy_machine_only(cpu_wait_share: float, chance: bool) -> None:
+    assert may_be_chance(Ending(None, 5.0, 5.0, cpu_wait_share=cpu_wait_share)) == chance

@@ -339,13 +339,15 @@ class RosRun:
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
         await self._wait_until_blocked()
         pressed = time.time()
+        cpu_wait_share = self._read_cpu_time().waited_s / max(pressed - self.started_at, POLL_S)
         self.interrupted_at = pressed
         self._process.interrupt()
         await self.wait_for_exit(limit_s)
         ended = self.exit
         took = (self.started_at + ended.after_s if ended is not None else time.time()) - pressed
         survivors = await self._survivors()
-        return Ending(ended, took, limit_s, tuple(line for line in self.output if line.at >= pressed), survivors)
+        output = tuple(line for line in self.output if line.at >= pressed)
+        return Ending(ended, took, limit_s, output, survivors, cpu_wait_share)
 
     async def _wait_until_blocked(self) -> None:
         """Wait until all threads of the process are blocked, as they usually are when someone presses Ctrl+C.

@@ -16,8 +16,8 @@ _SPIN_WITHOUT_CONTEXT = "the given context is not valid"
 _MAX_RETRIES = 2
 """How often to restart a process whose unclean exit on Ctrl+C may have been a race outside the learner's code."""
 
-BUSY_S = 0.5
-"""The machine is busy if the limit on the exit was extended by this long, since the process had to wait for a CPU."""
+BUSY_SHARE = 0.2
+"""The machine is busy if the process waited for a CPU for at least this share of the time."""
 
 _INVALID_CONTEXT = "context is invalid", "context is not valid", "context argument is null"
 _SHUT_DOWN_TWICE = "rcl_shutdown already called", "Context must be initialized before it can be shutdown"
@@ -62,7 +62,7 @@ def repeat_if_doubtful[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
 def may_be_chance(ending: Ending | None) -> bool:
     """Whether the process failed in a way that a correct program may, by a race (see `repeat_if_doubtful`)."""
     if ending is not None and ending.exit is None:
-        return ending.took_s >= ending.limit_s + BUSY_S
+        return ending.cpu_wait_share >= BUSY_SHARE
     found = tracebacks.find_tracebacks(ending.output) if ending is not None else []
     return all(_is_race_in_spin(each) or _is_race_in_shutdown(each) for each in found) if found else _crashed(ending)
 

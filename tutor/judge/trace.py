@@ -78,6 +78,7 @@ class Ending:
 
     `exit` is None if the process was still running after `limit_s` seconds; `output` is what it wrote since the SIGINT.
     `survivors` holds the command lines of the processes that remained at the end (including its own).
+    `cpu_wait_share`: how long the processes had waited for a CPU by then, as a share of the time since their start.
     """
 
     exit: Exit | None
@@ -85,6 +86,7 @@ class Ending:
     limit_s: float
     output: tuple[OutputLine, ...] = ()
     survivors: tuple[str, ...] = ()
+    cpu_wait_share: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
