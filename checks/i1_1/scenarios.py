@@ -41,15 +41,15 @@ from checks.i1_1.facts import (
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
 from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.rates import are_even, measure
+from tutor.judge.rates import measure
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import (
-    HARDLY_WAITED_SHARE,
     IDLE_S,
     RESENT_S,
     START_S,
     TRIES,
+    are_undisturbed,
     find_stuck_frames,
     too_few_by_cpu_wait,
     wait_for_message,
@@ -346,7 +346,7 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, as_integ
             if (
                 probe.agrees
                 or ended
-                or (are_even(run.samples_on(TOPIC)[1:]) and lost_s < HARDLY_WAITED_SHARE * elapsed_s)
+                or are_undisturbed(run.samples_on(TOPIC)[1:], cpu_wait_s=lost_s, elapsed_s=elapsed_s)
                 or (probe.rate is not None and probe.rate.is_far_above(asked_hz, window))
                 or (
                     stretch > 1

@@ -10,14 +10,12 @@ from tutor.judge import causes, shutdown_steps, tracebacks
 from tutor.judge.bench import Bench, Scenario
 from tutor.judge.trace import Ending, Exit, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.judge.waiting import CPU_WAIT_SHARE
 
 _CRASH_SIGNALS = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT
 _SPIN_WITHOUT_CONTEXT = "the given context is not valid"
 _MAX_RETRIES = 2
 """How often to restart a process whose unclean exit on Ctrl+C may have been a race outside the learner's code."""
-
-BUSY_SHARE = 0.2
-"""The machine is busy if the process waited for a CPU for at least this share of the time."""
 
 _INVALID_CONTEXT = "context is invalid", "context is not valid", "context argument is null"
 _SHUT_DOWN_TWICE = "rcl_shutdown already called", "Context must be initialized before it can be shutdown"
@@ -62,7 +60,7 @@ def repeat_if_doubtful[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
 def may_be_chance(ending: Ending | None) -> bool:
     """Whether the process failed in a way that a correct program may, by a race (see `repeat_if_doubtful`)."""
     if ending is not None and ending.exit is None:
-        return ending.cpu_wait_share >= BUSY_SHARE
+        return ending.cpu_wait_share >= CPU_WAIT_SHARE
     found = tracebacks.find_tracebacks(ending.output) if ending is not None else []
     return all(_is_race_in_spin(each) or _is_race_in_shutdown(each) for each in found) if found else _crashed(ending)
 

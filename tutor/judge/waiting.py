@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 from tutor.errors import MachineTooBusy
 from tutor.judge.bench import Bench, Run
@@ -155,8 +155,9 @@ async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: f
     start, for_s, cpu_wait_s = max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz, run.node_cpu_wait_s()
     samples = await _samples_in_window(run, topic, start, for_s)
     rate = measure(samples)
-    hardly_waited = run.node_cpu_wait_s() - cpu_wait_s < HARDLY_WAITED_SHARE * for_s
-    if rate is not None and (rate.agrees_with(asked_hz) or (are_even(samples) and hardly_waited)):
+    cpu_wait_s = run.node_cpu_wait_s() - cpu_wait_s
+    agrees = rate is not None and rate.agrees_with(asked_hz)
+    if agrees or are_undisturbed(samples, cpu_wait_s=cpu_wait_s, elapsed_s=for_s):
         return rate, len(samples)
     for _ in range(TRIES):
         for_s, cpu_wait_s = max(window_s(asked_hz), REMEASURE_S), run.node_cpu_wait_s()
@@ -170,6 +171,11 @@ async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: f
     else:
         raise MachineTooBusy("this machine is too busy to measure a rate")
     return rate, len(samples)
+
+
+def are_undisturbed(samples: Sequence[Sample], *, cpu_wait_s: float, elapsed_s: float) -> bool:
+    """Whether the machine cannot have changed the rate of these samples: they are even, and the node hardly waited."""
+    return are_even(samples) and cpu_wait_s < HARDLY_WAITED_SHARE * elapsed_s
 
 
 def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, elapsed_s: float) -> bool:
