@@ -277,7 +277,7 @@ async def _cancel(tasks: Collection[asyncio.Task[Any]]) -> None:
 
 
 async def probe_names(bench: Bench) -> NameProbes:
-    """Start once for each string parameter, set to a value that nothing else would log.
+    """Start once for each string parameter, set to a value that nothing else would log, until one is logged.
 
     The skeleton's parameter name is probed while `parameters` still runs: it is probed in any case, since the node may
     answer no call, or accept parameters that it does not declare.
@@ -302,14 +302,18 @@ async def probe_names(bench: Bench) -> NameProbes:
             at_end = (await run.interrupt()).output if not found and run.exit is None else ()
             return NameProbe(name, value, found, trace, at_end)
 
-    suggested = asyncio.ensure_future(probe(0, SUGGESTED_NAME))
+    probes: list[NameProbe] = []
+    pending = {asyncio.ensure_future(probe(0, SUGGESTED_NAME))}
     try:
         declared = await bench.facts(parameters)
         known.update(p.name for p in declared or ())
         others = [p.name for p in declared or () if p.type == "string" and p.name != SUGGESTED_NAME]
-        probes = await asyncio.gather(suggested, *(probe(i, name) for i, name in enumerate(others, start=1)))
+        pending.update(asyncio.ensure_future(probe(number, name)) for number, name in enumerate(others, start=1))
+        while pending and not any(each.found for each in probes):  # one that is logged is enough
+            done, pending = await asyncio.wait(pending, return_when=asyncio.FIRST_COMPLETED)
+            probes.extend(task.result() for task in done)
     finally:
-        await _cancel([suggested])
+        await _cancel(pending)
     return NameProbes(declared, tuple(sorted(probes, key=lambda each: each.name not in known)))  # declared ones first
 
 

@@ -1,12 +1,12 @@
 """How soon a learner gets feedback: the first failed criterion and the whole verdict, over the test submissions.
 
-    uv run python -m tests.benchmarks.verdicts [EXERCISE[/wrong[/NAME]] ...] [--sample] [--jobs 2] [--times 1]
+    uv run python -m tests.benchmarks.verdicts [EXERCISE[/KIND[/NAME]] ...] [--sample] [--jobs 2] [--times 1]
 
-For each exercise: its solution, alone, and its wrong submissions, each timed from the start of its process. "told" is
-when the first final failed criterion comes, "whole" when the check has ended; half of the checks stay within p50, nine
-of ten within p90. "times sol." is the median of the wrong submissions relative to the solution's time; "within" is the
-share of them that end within twice the solution's time plus 4 s. CPU is in seconds per check: of the engine, and of its
-children.
+For each exercise: its solution, alone, then its wrong and its right submissions (KIND is one of these two), each timed
+from the start of its process. "told" is when the first final failed criterion comes, "whole" when the check has ended;
+half of the checks stay within p50, nine of ten within p90. "times sol." is the median of the submissions relative to
+the solution's time; "within" is the share of them that end within twice the solution's time plus 4 s. CPU is in seconds
+per check: of the engine, and of its children.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from pathlib import Path
 from tests.judging import find_cases
 from tests.sampling import sample
 from tutor.content import load_course
-from tutor.content.submissions import WRONG
+from tutor.content.submissions import RIGHT, WRONG
 from tutor.judge.events import CriterionJudged, ExerciseJudged, decode
 from tutor.judge.verdict import Status
 
@@ -129,7 +129,7 @@ def format_row(name: str, timings: Sequence[Timing], solution_s: float | None) -
 
 
 def main() -> int:
-    """Print a line for each exercise's solution and wrong submissions, and one for all wrong submissions."""
+    """Print a line for each exercise's solution, wrong and right submissions, and one for each kind over all of them."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
     parser.add_argument("--sample", action="store_true", help="only the submissions that the tests judge")
@@ -139,9 +139,9 @@ def main() -> int:
     parser.add_argument("--csv", type=Path, help="also write every check to this file")
     arguments = parser.parse_args()
     cases = find_cases(arguments.wanted)[0]
-    cases = [case for case in (sample(cases) if arguments.sample else cases) if case.kind == WRONG]
+    cases = [case for case in (sample(cases) if arguments.sample else cases) if case.kind in (WRONG, RIGHT)]
     if not cases:
-        parser.error("no wrong submission has this name")
+        parser.error("no wrong or right submission has this name")
     lessons = [lesson for lesson in load_course().lessons if any(case.exercise == lesson.id for case in cases)]
     print(f"{len(os.sched_getaffinity(0))} cores, load {os.getloadavg()[0]:.1f}; seconds")
     print(f"{'':<16}{'':>5}{'told':>7}{'':>14}{'whole':>7}{'':>14}{'CPU':>7}{'':>9}{'times':>8}")
@@ -156,13 +156,16 @@ def main() -> int:
         solution_s[lesson.id] = statistics.median(each.whole_s for each in solutions)
         print(format_row(f"{lesson.id} solution", solutions, None), flush=True)
         timings += solutions
-    for lesson in lessons:
-        mine = [case for case in cases if case.exercise == lesson.id]
-        wrong = [(str(case), lesson.id, WRONG, case.folder) for case in mine] * arguments.times
-        found = asyncio.run(time_all(wrong, arguments.jobs))
-        print(format_row(f"{lesson.id} wrong", found, solution_s[lesson.id]), flush=True)
-        timings += found
-    print(format_row("all wrong", [each for each in timings if each.kind == WRONG], None))
+    for kind in (WRONG, RIGHT):
+        for lesson in lessons:
+            mine = [case for case in cases if case.exercise == lesson.id and case.kind == kind]
+            if mine:
+                wanted = [(str(case), lesson.id, kind, case.folder) for case in mine] * arguments.times
+                found = asyncio.run(time_all(wanted, arguments.jobs))
+                print(format_row(f"{lesson.id} {kind}", found, solution_s[lesson.id]), flush=True)
+                timings += found
+        if found := [each for each in timings if each.kind == kind]:
+            print(format_row(f"all {kind}", found, None), flush=True)
     if arguments.csv:
         with arguments.csv.open("w", newline="") as file:
             writer = csv.writer(file)
