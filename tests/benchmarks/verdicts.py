@@ -129,7 +129,7 @@ def format_row(name: str, timings: Sequence[Timing], solution_s: float | None) -
 
 
 def main() -> int:
-    """Print a line for each exercise's solution, wrong and right submissions, and one for each kind over all of them."""
+    """Print a line for each exercise's solution, wrong and right submissions, and one for each kind in total."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
     parser.add_argument("--sample", action="store_true", help="only the submissions that the tests judge")
