@@ -209,7 +209,7 @@ async def probe_rates(bench: Bench) -> RateProbes:
     under_way = {attempt: asyncio.ensure_future(probe(attempt)) for attempt in suggested}
     try:
         declared = await bench.facts(parameters)
-        if any(p.name == SUGGESTED_RATE for p in declared or ()):
+        if declared is None or any(p.name == SUGGESTED_RATE for p in declared):
             return await _probe_declared(bench, declared, under_way)
     finally:
         await _cancel(under_way.values())
