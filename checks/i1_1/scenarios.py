@@ -112,10 +112,14 @@ async def collect_values(bench: Bench) -> CollectedValues:
         if len(values) > counts.get(run, 0) and find_out_of_range(values):
             bench.report_facts(CollectedValues((tuple(values),), run.trace()))
         counts[run] = len(values)
-        others = {value for other in counts if other is not run for value in _values(other)}
         bench.report_progress(min(len(values) / randomness.MIN_SAMPLE_SIZE, 1), f"{len(values)} temperatures so far")
-        # If both runs send the same values, they may come from a fixed list: only its second round would show that.
-        suspicious = randomness.needs_more_values(values) or len(others.intersection(values)) > len(values) / 2
+        # Both runs may send the same fixed list: only its second round would show that. Coarse values are judged by few
+        # of them, so the run at a higher rate, which collects plenty, must have shown no pattern.
+        suspicious = (
+            randomness.needs_more_values(values)
+            or any(randomness.may_be_one_sequence(values, _values(other)) for other in counts if other is not run)
+            or (randomness.are_coarse(values) and not fast.done())
+        )
         decided = suspicious and fast.done() and bool(fast.result())
         return (
             (decided and len(values) >= MIN_VALUES)
@@ -361,7 +365,8 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, as_integ
         else:
             raise MachineTooBusy("this machine is too busy to measure a rate")
         bench.report_progress(1.0, f"{name}:={value:g} measured")
-        if probe.agrees and asked_hz == FAST_HZ and randomness.needs_more_values(_values(run)):
+        suspicious = randomness.needs_more_values(_values(run)) or randomness.are_coarse(_values(run))
+        if probe.agrees and asked_hz == FAST_HZ and suspicious:
             await run.until(lambda: len(_values(run)) >= randomness.FULL_SAMPLE_SIZE, FAST_COLLECT_S)
             return replace(probe, trace=run.trace())
         return probe

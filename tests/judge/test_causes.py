@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -184,6 +185,17 @@ def test_causes_of_nothing_received(seen: Trace, answers: bool, cause: str, word
     assert found.name == cause
     assert word in found.text
     assert found.hint
+
+
+@pytest.mark.parametrize("topic", ["'chatter'", "'/chatter'", "TOPIC"])
+def test_the_step_for_an_incompatible_subscription_replaces_its_qos(topic: str) -> None:
+    code = f"""\
+node.create_subscription(Map, '/map', on_map, LATCHED)
+node.create_subscription(String, {topic}, on_text, qos_profile=LATCHED)
+"""
+    seen = replace(subscribed(OURS.topic, OURS.type, QoS("reliable", "transient_local")), sources={"node.py": code})
+    hint = diagnose_nothing_received(seen, OURS, answers=True).hint
+    assert hint == f"line 2 becomes: node.create_subscription(String, {topic}, on_text, qos_profile=10)"
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tutor.judge.randomness import FULL_SAMPLE_SIZE, MIN_SAMPLE_SIZE, find_pattern, needs_more_values
+from tutor.judge.randomness import (
+    COARSE_SAMPLE_SIZE,
+    FULL_SAMPLE_SIZE,
+    MIN_SAMPLE_SIZE,
+    are_coarse,
+    find_pattern,
+    may_be_one_sequence,
+    needs_more_values,
+)
 
 TRIALS = 500
 
@@ -101,6 +109,51 @@ def test_few_random_values_are_no_pattern(name: str, count: int) -> None:
 def test_random_values_rarely_need_more_values() -> None:
     doubtful = sum(needs_more_values(RANDOM["uniform"](MIN_SAMPLE_SIZE)) for _ in range(TRIALS))
     assert doubtful <= TRIALS / 20
+
+
+@pytest.mark.parametrize("name", ["whole degrees", "half degrees"])
+def test_coarse_random_values_need_only_a_few_more(name: str) -> None:
+    samples = [RANDOM[name](COARSE_SAMPLE_SIZE) for _ in range(TRIALS)]
+    coarse = [values for values in samples if are_coarse(values)]
+    assert len(coarse) > TRIALS / 2
+    assert sum(map(needs_more_values, coarse)) <= TRIALS / 5
+
+
+@pytest.mark.parametrize("period", range(2, 11))
+def test_a_cycle_with_values_that_occur_twice_in_it_needs_more(period: int) -> None:
+    missed = 0
+    for _ in range(TRIALS):
+        cycle = [float(rng.randint(20, 30)) for _ in range(period - 1)]
+        cycle.append(rng.choice(cycle))
+        missed += not needs_more_values((cycle * 6)[:COARSE_SAMPLE_SIZE])
+    assert missed == 0
+
+
+def test_values_that_became_stuck_need_more() -> None:
+    for _ in range(TRIALS):
+        values = [float(rng.randint(20, 30)) for _ in range(rng.randint(3, FULL_SAMPLE_SIZE - 3))]
+        assert needs_more_values([*values, values[-1]])
+
+
+def test_runs_of_a_fixed_list_are_one_sequence_even_if_the_first_values_of_one_were_missed() -> None:
+    listed = [float(rng.randint(20, 30)) for _ in range(FULL_SAMPLE_SIZE)]
+    for missed in range(4):
+        assert may_be_one_sequence(listed[:COARSE_SAMPLE_SIZE], listed[missed:COARSE_SAMPLE_SIZE])
+        assert may_be_one_sequence(listed[missed:COARSE_SAMPLE_SIZE], listed[:COARSE_SAMPLE_SIZE])
+
+
+def test_a_shuffled_list_of_different_values_is_one_sequence() -> None:
+    listed = [20.0 + i for i in range(MIN_SAMPLE_SIZE)]
+    assert may_be_one_sequence(rng.sample(listed, len(listed)), rng.sample(listed, len(listed)))
+
+
+@pytest.mark.parametrize("name", ["uniform", "whole degrees"])
+def test_two_random_runs_are_rarely_one_sequence(name: str) -> None:
+    alike = sum(
+        may_be_one_sequence(RANDOM[name](COARSE_SAMPLE_SIZE), RANDOM[name](COARSE_SAMPLE_SIZE)) for _ in range(TRIALS)
+    )
+    assert alike <= TRIALS / 20
+    assert not may_be_one_sequence(RANDOM[name](MIN_SAMPLE_SIZE), [])
 
 
 bases = st.floats(-100, 100)

@@ -19,6 +19,9 @@ SIGNIFICANCE = 1e-6
 MIN_SAMPLE_SIZE = 8
 """Sample size that is enough if nothing looks suspicious."""
 
+COARSE_SAMPLE_SIZE = 12
+"""Sample size that is enough if nothing looks suspicious except that values occur twice, as whole degrees do."""
+
 FULL_SAMPLE_SIZE = 24
 """Sample size that is enough in any case."""
 
@@ -27,6 +30,9 @@ VALUE_TOLERANCE = 0.01
 
 SMOOTH_RESIDUAL = 5e-4
 """A series is a curve, not noise, if its predecessors explain all but this share of its variance."""
+
+MAX_MISSED = 3
+"""Maximum number of values at the start of a run that an observer may miss because discovery takes time."""
 
 LONGEST_STEPS = 6
 """Maximum number of different steps that a ramp may cycle through."""
@@ -71,13 +77,42 @@ def needs_more_values(values: Sequence[float]) -> bool:
     if len(values) < MIN_SAMPLE_SIZE or find_pattern(values) is not None:
         return True
     step_repeats = max(Counter(step for step in _steps(values) if step != 0).values(), default=0)
+    coarse = are_coarse(values)
     return (
-        len(set(values)) < len(values)
-        or step_repeats > 2
+        (coarse and (len(values) < COARSE_SAMPLE_SIZE or _may_have_begun_to_cycle(values)))
+        or step_repeats > (4 if coarse else 2)
         or _monotone(values)
         or any(_follows_in_steps(values, period, _tolerance(values)) for period in range(1, 4))
         or any(_repeats(values, period, VALUE_TOLERANCE * _span(values)) for period in range(2, len(values) - 1))
         or min(_unexplained(values, 2), _unexplained(_unfold(values), 2)) < 0.02
+    )
+
+
+def are_coarse(values: Sequence[float]) -> bool:
+    """Whether some value occurs more than once, as among whole degrees."""
+    return not _all_distinct(values)
+
+
+def may_be_one_sequence(values: Sequence[float], others: Sequence[float]) -> bool:
+    """Whether two runs of a program may send the same sequence, such as a fixed list or seeded random values.
+
+    The first values of either run may be missing. Values in another order count, too, if each occurs only once: the
+    list may be shuffled. Coarse random values have many in common, but not in the same order.
+    """
+    if not are_coarse(values):
+        return len(set(others).intersection(values)) > len(values) / 2
+    shifted = [(values[shift:], others) for shift in range(MAX_MISSED + 1)]
+    shifted += [(values, others[shift:]) for shift in range(1, MAX_MISSED + 1)]
+    pairs = [list(zip(*each, strict=False)) for each in shifted]
+    return any(sum(a == b for a, b in each) > 0.8 * len(each) for each in pairs)
+
+
+def _may_have_begun_to_cycle(values: Sequence[float]) -> bool:
+    """Whether the last few values, all equal or not, are the same as those before them."""
+    return values[-1] == values[-2] or any(
+        _repeats(values[first:], period, 0.0)
+        for first in range(len(values) // 2)
+        for period in range(1, len(values) - first - 2)
     )
 
 

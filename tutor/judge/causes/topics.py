@@ -88,7 +88,7 @@ def diagnose_nothing_received(
     if here:
         mismatched = [cause for each in here if (cause := diagnose_incompatible_qos(ours, each)) is not None]
         if len(mismatched) == len(here):
-            return mismatched[0]
+            return replace(mismatched[0], hint=_use_plain_depth(trace, ours.topic) or mismatched[0].hint)
         if not answers:
             return diagnose_no_answer(trace, stuck)
         return Cause(
@@ -101,6 +101,19 @@ def diagnose_nothing_received(
         f"{node_names(trace)} is up, but has no subscription on {ours.topic}",
         f"create one in __init__: self.create_subscription({_class(ours.type)}, '{ours.topic}', self.callback, 10)",
     )
+
+
+def _use_plain_depth(trace: Trace, topic: str) -> str | None:
+    """The step that gives the subscription on `topic` the depth 10 for its QoS."""
+    file = started_node(trace)
+    made = [each for each in file.calls("create_subscription") if _may_name(argument(each, 1, "topic"), topic)]
+    given = [qos for each in made if (qos := argument(each, 3, "qos_profile")) is not None]
+    return file.step([replace_node(file.text, given[0], "10")]) if given else None
+
+
+def _may_name(code: ast.expr | None, topic: str) -> bool:
+    """Whether this expression may name the topic: unless it is a literal for another one, namespaces aside."""
+    return not isinstance(code, ast.Constant) or f"/{topic}".endswith(f"/{code.value!s}")
 
 
 def diagnose_incompatible_qos(publisher: TopicEndpoint, subscription: TopicEndpoint) -> Cause | None:
