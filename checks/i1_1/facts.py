@@ -180,6 +180,17 @@ def find_agreeing_groups(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
     return [group for group in group_probes(probes) if len(group) > 1 and all(probe.agrees for probe in group)]
 
 
+def are_inverted(group: Iterable[RateProbe], *, min_measured: int = 1) -> bool:
+    """Whether the rates that could be measured, at least so many, are all the reciprocals of the requested ones."""
+    measured = [probe for probe in group if probe.rate is not None]
+    return len(measured) >= min_measured and len(find_inverted_probes(measured)) == len(measured)
+
+
+def has_known_unit(name: str) -> bool:
+    """Whether a parameter's name says in which unit it sets the rate."""
+    return len(possible_units(name)) < len(UNITS)
+
+
 def count_agreeing(group: Iterable[RateProbe]) -> int:
     """Count the probes whose measured rate agrees with the requested one."""
     return sum(probe.agrees for probe in group)

@@ -22,11 +22,13 @@ from checks.i1_1.facts import (
     PlainStart,
     RateProbe,
     RateProbes,
+    are_inverted,
     count_agreeing,
     find_agreeing_groups,
     find_inverted_probes,
     find_out_of_range,
     group_probes,
+    has_known_unit,
 )
 from tutor.judge import causes, ending, randomness, tracebacks
 from tutor.judge.rates import TOLERANCE
@@ -194,9 +196,13 @@ def judge_rate(found: RateProbes) -> Verdict:
         return passed(expected, f"{group[0].name} is read in {group[0].unit}", [str(probe) for probe in group])
     if not found.probes:
         return failed(expected, "no numeric parameter is declared", _diagnose_undeclared_rate(None))
-    nearest = max(
-        group_probes(found.probes), key=lambda group: (count_agreeing(group), len(find_inverted_probes(group)))
-    )
+    declared = {parameter.name for parameter in found.declared or ()}
+
+    def likelihood(group: Sequence[RateProbe]) -> tuple[bool, int, int]:
+        name = group[0].name
+        return name in declared and has_known_unit(name), count_agreeing(group), len(find_inverted_probes(group))
+
+    nearest = max(group_probes(found.probes), key=likelihood)
     wrong = next((probe for probe in nearest if not probe.agrees), None)
     if wrong is None:
         cause = Cause(
@@ -227,7 +233,7 @@ def _diagnose_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple
     if wrong.rate is not None and wrong.rate.in_bursts:
         return causes.diagnose_bursts(step)
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
-    if measured and len(find_inverted_probes(group)) == len(measured):
+    if are_inverted(group):
         if wrong.unit == "Hz":
             return causes.diagnose_rate_as_period(wrong.name, step)
         return causes.diagnose_period_as_rate(wrong.name, step)

@@ -30,10 +30,12 @@ from checks.i1_1.facts import (
     PlainStart,
     RateProbe,
     RateProbes,
+    are_inverted,
     count_agreeing,
     find_agreeing_groups,
     find_out_of_range,
     group_probes,
+    has_known_unit,
     numeric_parameters,
     parameter_and_unit,
     possible_units,
@@ -257,9 +259,13 @@ async def _probe_declared(
         return bool(find_agreeing_groups(tried))
 
     numeric = numeric_parameters(declared or ())
-    with_known_unit = [parameter for parameter in numeric if len(possible_units(parameter.name)) < len(UNITS)]
+    with_known_unit = [parameter for parameter in numeric if has_known_unit(parameter.name)]
     for group in (with_known_unit, *([other] for other in numeric if other not in with_known_unit)):
         if await attempt(list(_plan_attempts(group))):
+            return RateProbes(declared, tuple(tried))
+        # One that sets the rate to the reciprocal of what its name says leaves no room for another that sets it right.
+        inverted = any(are_inverted(each, min_measured=2) for each in group_probes(tried))
+        if group is with_known_unit and inverted:
             return RateProbes(declared, tuple(tried))
     if not any(p.name == SUGGESTED_RATE for p in numeric) and (await bench.facts(plain_start)).trace.samples_on(TOPIC):
         # The node may answer no parameter call, or accept parameters that it does not declare.

@@ -19,6 +19,7 @@ from checks.i1_1.facts import (
     PlainStart,
     RateProbe,
     RateProbes,
+    are_inverted,
     possible_units,
 )
 from checks.i1_1.judges import (
@@ -243,6 +244,21 @@ def test_one_working_parameter_of_several_is_enough() -> None:
 
 
 BOTH = (parameter("period", "double", 1.0), RATE)
+
+
+def test_a_parameter_named_after_the_rate_is_explained_even_if_another_agrees_once_by_chance() -> None:
+    by_chance = [probe(0.5, 2.0, "min_temp", "s"), probe(1.5, 2.0, "min_temp", "s")]
+    inverted = [probe(hz, 1 / hz) for hz in RATES_HZ]
+    declared = (RATE, parameter("min_temp", "double", 20.0))
+    assert_failed(judge_rate(rates(*by_chance, *inverted, declared=declared)), "rate used as a period", "publish_rate")
+
+
+def test_rates_are_inverted_if_all_that_could_be_measured_are() -> None:
+    inverted = [probe(2.0, 0.5), probe(0.7, 1 / 0.7), probe(10.0, None)]
+    assert are_inverted(inverted, min_measured=2)
+    assert not are_inverted(inverted[1:], min_measured=2)
+    assert not are_inverted([*inverted, probe(8.0, 8.0)])
+    assert not are_inverted([probe(10.0, None)])
 
 
 @pytest.mark.parametrize(
