@@ -144,16 +144,29 @@ def use_default_qos(code: Code) -> str | None:
 
 
 def return_response(trace: Trace, service: str) -> str | None:
-    """Step: return the response on every path through the callback, a decorator of it, or a helper it returns."""
+    """Step: return the response on every path through the callback, a decorator of it, or a helper it returns.
+
+    If it is the callback that does not return it, the other services' callbacks in its file return theirs, too.
+    """
     found = find_callback(trace, service)
     if found is None:
         return compute_results(trace, [service], whole=True)
     code, function = found
     for each in (function, *_wrappers(code, function), *_helpers(code, function)):
         changes = list(_fix_returns(code, each, argument_names(code, function)[1]))
+        if changes and each is function:
+            changes = _fix_all_returns(trace, code)
         if changes and (step := code.as_step(changes)) is not None:
             return step
     return compute_results(trace, [service], whole=True)
+
+
+def _fix_all_returns(trace: Trace, code: Code) -> list[Edit]:
+    """Make all callbacks in this file return their responses, the lowest edit first."""
+    found = [each for service in OPERATOR_SIGNS if (each := find_callback(trace, service)) is not None]
+    functions = {function.lineno: function for there, function in found if there.file == code.file}
+    changes = [edit for each in functions.values() for edit in _fix_returns(code, each, argument_names(code, each)[1])]
+    return sorted(changes, key=lambda edit: -edit.first)
 
 
 def _wrappers(code: Code, function: Function) -> Iterator[Function]:

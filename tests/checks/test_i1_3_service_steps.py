@@ -73,6 +73,15 @@ def test_a_response_is_returned_on_every_path(before: str, after: str) -> None:
     assert follow_step(before, lambda run: service_steps.return_response(run, "/divide")) == after
 
 
+def test_all_callbacks_that_return_nothing_return_the_response() -> None:
+    names = ("add", "subtract", "multiply", "divide")
+    offers = "".join(f"        self.create_service(AddTwoInts, '{name}', self.{name})\n" for name in names)
+    callbacks = [f"\n    def {name}(self, q, p):\n        p.sum = 1\n" for name in names]
+    before = f"class Server(Node):\n    def __init__(self):\n{offers}" + "".join(callbacks)
+    after = follow_step(before, lambda run: service_steps.return_response(run, "/add"))
+    assert after == before.replace("p.sum = 1\n", "p.sum = 1\n        return p\n")
+
+
 WRAPPED = """\
 def logged(function):
     def wrapper(self, request, response):

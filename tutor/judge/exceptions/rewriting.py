@@ -193,6 +193,34 @@ def _callbacks(text: str, create: str) -> Iterator[Function]:
                 yield from SourceFile(text).functions_named(last_name(each))[-1:]
 
 
+def responses(text: str, words: Words) -> Sequence[Edit] | None:
+    """Make every service callback that returns nothing return its response, and so the function `callback`."""
+    found = {each.lineno: each for each in _callbacks(text, "create_service")}
+    found |= {each.lineno: each for each in SourceFile(text).functions_named(words["callback"])[-1:]}
+    made: list[Edit] = []
+    for function in found.values():
+        names = [each.arg for each in function.args.args if each.arg != "self"]
+        if len(names) == 2:
+            made += edits.return_on_every_path(function, names[1])
+    return sorted(made, key=lambda edit: -edit.first)
+
+
+def service_parameters(text: str, words: Words) -> Sequence[Edit]:
+    """Give every service callback a request and a response, after `self` if it is a method."""
+    file, lines = SourceFile(text), text.splitlines()
+    functions = {each.lineno: each for each in _callbacks(text, "create_service")}
+    made: list[Edit] = []
+    for number in sorted(functions, reverse=True):
+        given = [each.arg for each in functions[number].args.args]
+        is_method = file.class_of(functions[number]) is not None and not functions[number].decorator_list
+        own = [each for each in given if each != "self"]
+        wanted = [*(["self"] if is_method else []), *(own[:1] or ["request"]), *(own[1:2] or ["response"])]
+        head = re.sub(r"\([^()]*\)", f"({', '.join(wanted)})", lines[number - 1].strip(), count=1)
+        if given != wanted:
+            made.append(edits.replace_lines(number, head))
+    return made
+
+
 def optional(text: str, words: Words) -> Sequence[Edit]:
     """Make every command line argument optional, and ignore those of ROS."""
     swaps: list[tuple[ast.expr, str]] = []
@@ -231,7 +259,9 @@ def readable(text: str, words: Words) -> Sequence[Edit] | None:
     return repair(text)
 
 
-REWRITERS: Mapping[str, Callable[[str, Words], Sequence[Edit] | None]] = {
-    each.__name__: each for each in (log, severities, imported, types_first, readable, without, raised, optional, utf8)
-}
+_REWRITERS = (
+    *(log, severities, imported, types_first, readable, without, raised),
+    *(responses, service_parameters, optional, utf8),
+)
+REWRITERS: Mapping[str, Callable[[str, Words], Sequence[Edit] | None]] = {each.__name__: each for each in _REWRITERS}
 """The edits by their names in the tables; each takes the file's text and the placeholders' values."""
