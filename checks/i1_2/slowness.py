@@ -61,9 +61,14 @@ def diagnose_waits(trace: Trace, text: str) -> Cause | None:
 
 
 def remove_call(trace: Trace, call: ast.Call) -> str | None:
-    """The step that removes this call's statement; None if the call is only a part of it."""
+    """The step that removes this call's statement; None if the call is only a part of it.
+
+    An awaited sleep lets other coroutines run, so it is only made as short as possible.
+    """
     file = source.file_holding(trace, call)
     made = file.statement(call)
+    if isinstance(made, ast.Expr) and isinstance(made.value, ast.Await) and made.value.value is call and call.args:
+        return edits.describe_edits_of(file, edits.replace_node(file.text, call.args[0], "0"))
     whole = isinstance(made, ast.Expr | ast.Assign) and made.value is call
     return edits.describe_edits_of(file, edits.remove_statement(file.text, made)) if whole else None
 

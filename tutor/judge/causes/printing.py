@@ -4,20 +4,30 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
 from tutor.judge import source
-from tutor.judge.edits import replace_nodes
+from tutor.judge.edits import describe_edits_of, replace_nodes, replace_statement
 from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.trace import Trace
+
+_VALUE = "\0"
+_PLACEHOLDER = re.compile(r"%[-\d.]*[a-z]|\{[^}]*\}")
+
+_METHODS = {"print": "info", "write": "info", "critical": "fatal", "exception": "error", "debug": "info"}
+"""The method of a node's logger that replaces a function or method, where it has another name."""
 
 _LEVELS = ("debug", "info", "warning", "warn", "error", "critical", "exception")
 
 
 def find_print(trace: Trace, text: str) -> ast.Call | None:
-    """The print() call that wrote this text; None if unknown."""
-    found = [call for call in source.calls(trace, "print") if _may_have_written(call, text)]
-    return max(found, key=lambda call: sum(map(len, _literal_pieces(call))), default=None)
+    """The call of print() or of a standard stream's write() that wrote this line; None if unknown."""
+    calls = [call for call in source.calls(trace, "print", "write") if _is_print(call)]
+    found = [(size, call) for call in calls if (size := _matching_characters(trace, call, text))]
+    return max(found, key=lambda each: each[0], default=(0, None))[1]
+
+
+def _is_print(call: ast.Call) -> bool:
+    return source.called_name(call) == "print" or ast.unparse(call.func).endswith(("stdout.write", "stderr.write"))
 
 
 def find_python_logging(trace: Trace, text: str = "") -> ast.Call | None:
@@ -32,7 +42,7 @@ def find_python_logging(trace: Trace, text: str = "") -> ast.Call | None:
     ]
     if not text:
         return next(iter(calls), None)
-    return next((call for call in calls if _may_have_written(call, text)), None)
+    return next((call for call in calls if _matching_characters(trace, call, text)), None)
 
 
 def enable_rosout(file: NodeFile) -> str | None:
@@ -52,14 +62,38 @@ def enable_rosout(file: NodeFile) -> str | None:
 
 
 def log_instead_of_print(trace: Trace, call: ast.Call) -> str:
-    """The step that replaces a call by one of the node's own logger."""
-    function = source.file_holding(trace, call).function_around(call)
-    is_method = function is not None and [each.arg for each in function.args.args[:1]] == ["self"]
-    level = source.called_name(call)
-    level = {"print": "info", "critical": "fatal", "exception": "error", "debug": "info"}.get(level, level)
+    """The step that replaces a call by one of the node's own logger, and with it the calls right above and below it."""
+    file = source.file_holding(trace, call)
+    together = [each for each in _neighbours(file, call) if source.called_name(each[1]) == "print" and each[1].args]
+    edits = [replace_statement(statement, _log_code(file, each)) for statement, each in reversed(together)]
+    if len(edits) > 1 and (step := describe_edits_of(file, *edits)) is not None:
+        return step
     line = f"line {call.lineno}" if call.end_lineno == call.lineno else f"lines {call.lineno} to {call.end_lineno}"
     verb = "becomes" if call.end_lineno == call.lineno else "become"
-    return f"{line} {verb}: {'self' if is_method else 'node'}.get_logger().{level}({_message(call)})"
+    return f"{line} {verb}: {_log_code(file, call)}"
+
+
+def _neighbours(file: source.SourceFile, call: ast.Call) -> list[tuple[ast.stmt, ast.Call]]:
+    """The uninterrupted series of statements around this call that are nothing but calls, with these calls."""
+    statement = file.statement(call)
+    blocks = (getattr(next(file.ancestors(statement), None), name, None) for name in ("body", "orelse", "finalbody"))
+    block = next((each for each in blocks if isinstance(each, list) and statement in each), [statement])
+    series: list[tuple[ast.stmt, ast.Call]] = []
+    for each in block:
+        if isinstance(each, ast.Expr) and isinstance(each.value, ast.Call):
+            series.append((each, each.value))
+        elif any(found is statement for found, _ in series):
+            break
+        else:
+            series = []
+    return series
+
+
+def _log_code(file: source.SourceFile, call: ast.Call) -> str:
+    function = file.function_around(call)
+    is_method = function is not None and [each.arg for each in function.args.args[:1]] == ["self"]
+    name = source.called_name(call)
+    return f"{'self' if is_method else 'node'}.get_logger().{_METHODS.get(name, name)}({_message(call)})"
 
 
 def _message(call: ast.Call) -> str:
@@ -84,24 +118,30 @@ def _format_part(argument: ast.expr) -> ast.expr:
     return ast.FormattedValue(argument, -1)
 
 
-def _may_have_written(call: ast.Call, text: str) -> bool:
-    pieces = _literal_pieces(call)
-    return bool(pieces) and all(piece in text for piece in pieces)
+def _matching_characters(trace: Trace, call: ast.Call, text: str) -> int:
+    """How many literal characters of one of the lines that a call writes are in `text`; 0 unless they all are."""
+    function = source.file_holding(trace, call).function_around(call)
+    sizes = [0]
+    for line in " ".join(_template(each, function) for each in call.args).split("\n"):
+        pieces = [piece.strip() for piece in line.split(_VALUE) if piece.strip()]
+        if all(piece in text for piece in pieces):
+            sizes.append(sum(map(len, pieces)))
+    return max(sizes)
 
 
-def _literal_pieces(call: ast.Call) -> list[str]:
-    """The pieces of text that a call writes literally, whatever its values are."""
-    texts = [text for argument in call.args for text in _texts(argument)]
-    pieces = [piece.strip() for text in texts for piece in re.split(r"%[-\d.]*[a-z]|\{[^}]*\}|\n", text)]
-    return [piece for piece in pieces if piece]
-
-
-def _texts(node: ast.AST) -> Iterator[str]:
-    """The string literals in an expression, except arguments of nested calls and subscripts."""
-    if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield node.value
-    elif isinstance(node, ast.FormattedValue):
-        yield from _texts(node.value)  # not its format, such as .2f
-    elif not isinstance(node, ast.Call | ast.Subscript):
-        for child in ast.iter_child_nodes(node):
-            yield from _texts(child)
+def _template(code: ast.expr, function: source.Function | None) -> str:
+    """The text that an expression makes, with `_VALUE` for each part that is not literal."""
+    match code:
+        case ast.Constant(value=str(text)):
+            return _PLACEHOLDER.sub(_VALUE, text)
+        case ast.JoinedStr(values=values):
+            return "".join(_template(each, function) for each in values)
+        case ast.BinOp(left=left, op=ast.Add(), right=right):
+            return _template(left, function) + _template(right, function)
+        case ast.BinOp(left=left, op=ast.Mod()):
+            return _template(left, function)
+        case ast.Call(func=ast.Attribute(value=template, attr="format")):
+            return _template(template, function)
+        case ast.Name(id=name) if function is not None and len(values := source.values_of(name, function)) == 1:
+            return _VALUE if isinstance(values[0], ast.Name) else _template(values[0], function)
+    return _VALUE
