@@ -13,6 +13,7 @@ from checks.i2_3.facts import SERVICE, WORK_S
 from checks.i2_3.rewriting import combine_edits, service, service_callback, timer, timer_callback
 from checks.i2_3.ticks import HZ
 from tutor.judge.causes.printing import enable_rosout
+from tutor.judge.causes.slips import diagnose_simulated_time
 from tutor.judge.edits import Edit, remove_statement, replace_lines, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.rewriting.program import whole_program
@@ -265,6 +266,8 @@ def rewrite_ticking(file: NodeFile) -> str | None:
 
 def diagnose_no_ticks(file: NodeFile) -> Cause | None:
     """Find why no messages of the timer arrive."""
+    if (simulated := diagnose_simulated_time(file)) is not None:
+        return simulated
     made, found = timer(file), timer_callback(file)
     given = [each for call in file.calls("__init__", "Node") for each in call.keywords]
     if (off := next((each.value for each in given if each.arg == "enable_rosout"), None)) is not None:

@@ -8,6 +8,7 @@ import pytest
 
 from tests.checks.builders import trace
 from tutor.judge.causes import slips
+from tutor.judge.rewriting.node import node_file
 from tutor.judge.trace import Trace
 
 
@@ -33,3 +34,23 @@ def test_a_boolean_compared_with_text(text: str, step: str) -> None:
 )
 def test_valid_comparisons_are_not_reported(text: str) -> None:
     assert slips.fix_bool_compared_with_text(node(text)) is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "p = Parameter('use_sim_time', Parameter.Type.BOOL, True)",
+        "p = {'a': True, 'use_sim_time': True}",
+        "n.declare_parameter('use_sim_time', value=True)",
+    ],
+)
+def test_simulated_time_is_switched_off(text: str) -> None:
+    found = slips.diagnose_simulated_time(node_file(text))
+    assert found is not None
+    head, _, tail = text.rpartition("True")
+    assert found.hint == f"line 1 becomes: {head}False{tail}"
+
+
+@pytest.mark.parametrize("text", ["p = Parameter('use_sim_time', value=False)", "n.get_parameter('use_sim_time')"])
+def test_real_time_is_not_reported(text: str) -> None:
+    assert slips.diagnose_simulated_time(node_file(text)) is None

@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 
 from tutor.judge import edits, source
+from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.trace import Trace
+from tutor.judge.verdict import Cause
 
 _TRUTH_VALUES = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
 
@@ -27,6 +29,27 @@ def fix_bool_compared_with_text(trace: Trace) -> str | None:
             continue
         negation = "" if truth is isinstance(operator, ast.Eq) else "not "
         return edits.describe_edits(text, edits.replace_node(text, node, f"{negation}{ast.unparse(value)}"))
+    return None
+
+
+def diagnose_simulated_time(file: NodeFile) -> Cause | None:
+    """Whether the node sets use_sim_time, so that its timers wait for a simulator's clock."""
+    for name in (each for each in file.nodes if isinstance(each, ast.Constant) and each.value == "use_sim_time"):
+        value = _true_beside(file, name)
+        step = file.step([edits.replace_node(file.text, value, "False")]) if value is not None else None
+        if step is not None:
+            text = f"line {name.lineno}: with use_sim_time, timers wait for a simulator's /clock, and there is none"
+            return Cause("simulated time", text, step)
+    return None
+
+
+def _true_beside(file: NodeFile, name: ast.Constant) -> ast.expr | None:
+    """The True given together with a name: its value in a dict, or in the innermost expression that has one."""
+    for around in file.ancestors(name):
+        nodes = around.values[around.keys.index(name) :] if isinstance(around, ast.Dict) else list(ast.walk(around))
+        found = [each for each in nodes if isinstance(each, ast.Constant) and each.value is True]
+        if found or isinstance(around, ast.stmt):
+            return next(iter(found), None)
     return None
 
 

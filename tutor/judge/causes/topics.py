@@ -10,6 +10,7 @@ from dataclasses import replace
 from tutor.judge.causes import names, period_slips
 from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
+from tutor.judge.causes.slips import diagnose_simulated_time
 from tutor.judge.edits import (
     Edit,
     append_to_function,
@@ -66,7 +67,7 @@ def _diagnose_idle_publisher(trace: Trace, topic: str, step: str) -> Cause:
 def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause | None:
     """Whether the source shows why an existing publisher never sends anything: nothing calls it, or too rarely."""
     file = started_node(trace)
-    if (slip := period_slips.diagnose_period_unit(file)) is not None:
+    if (slip := period_slips.diagnose_period_unit(file) or diagnose_simulated_time(file)) is not None:
         return slip
     if file.publisher and not file.calls("publish"):
         text = f"there is a publisher on {topic}, but nothing calls publish()"
