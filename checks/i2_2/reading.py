@@ -184,7 +184,7 @@ def _parts(node: ast.AST, file: SourceFile) -> tuple[str, ...]:
                 for each in node.values
             )
         case ast.BinOp(op=ast.Add()) if not isinstance(next(file.ancestors(node), None), ast.BinOp):
-            return tuple(_summands(node))
+            return tuple(summands(node))
         case ast.Call(
             func=ast.Attribute(value=ast.Constant(value=str() as separator), attr="join"), args=[ast.List(elts=parts)]
         ):
@@ -194,12 +194,11 @@ def _parts(node: ast.AST, file: SourceFile) -> tuple[str, ...]:
             return ()
 
 
-def _summands(node: ast.expr) -> Iterator[str]:
+def summands(node: ast.expr) -> list[str]:
+    """The source text of the parts that + joins, without the str() around any of them."""
     match node:
         case ast.BinOp(left=left, op=ast.Add(), right=right):
-            yield from _summands(left)
-            yield from _summands(right)
+            return [*summands(left), *summands(right)]
         case ast.Call(func=ast.Name(id="str"), args=[inner]):
-            yield ast.unparse(inner)
-        case _:
-            yield ast.unparse(node)
+            return [ast.unparse(inner)]
+    return [ast.unparse(node)]

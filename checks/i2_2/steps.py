@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
-from checks.i2_2.reading import Call, Source
+from checks.i2_2.reading import Call, Source, summands
 from checks.i2_2.rewriting import (
     DEFAULTS,
     Launch,
@@ -26,7 +26,7 @@ from checks.i2_2.rewriting import (
     return_opaque_actions,
     rewrite_description,
 )
-from tutor.judge.edits import replace_node
+from tutor.judge.edits import Edit, replace_node, replace_nodes
 from tutor.judge.rewriting.node import argument as argument_of
 from tutor.judge.step_parsing import NotAnEdit, apply_step
 from tutor.judge.verdict import Cause
@@ -218,11 +218,28 @@ def step_for_early_text(launch_file: Launch, name: str) -> str | None:
     """The step where a substitution was made part of a string."""
     source = launch_file.source
     known = {target for target, set_to in source.assignments() if "LaunchConfiguration(" in set_to}
+    if (step := launch_file.step(_lists_instead_of_sums(launch_file, known))) is not None:
+        return step
     for parts in source.texts():
         names = [part for part in parts if part in known or "LaunchConfiguration(" in part]
         if names:
             return remap_nodes(launch_file, name)
     return None
+
+
+def _lists_instead_of_sums(launch_file: Launch, substitutions: Collection[str]) -> list[Edit]:
+    """Make lists of sums of text and substitutions outside the description of a node, such as in a LogInfo."""
+    file = launch_file.file
+    within = {id(each) for call in file.calls("Node", "LifecycleNode") for each in ast.walk(call)}
+    swaps: list[tuple[ast.expr, str]] = []
+    for each in file.nodes:
+        if not isinstance(each, ast.BinOp) or isinstance(next(file.ancestors(each), None), ast.BinOp):
+            continue
+        parts = summands(each)
+        has_substitution = any(part in substitutions or "LaunchConfiguration(" in part for part in parts)
+        if has_substitution and id(each) not in within:
+            swaps.append((each, f"[{', '.join(parts)}]"))
+    return replace_nodes(file.text, *swaps)
 
 
 def remapping(source: Source, name: str) -> str:

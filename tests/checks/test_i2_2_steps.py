@@ -187,6 +187,12 @@ def test_a_substitution_turned_into_text_too_early(written: str) -> None:
     assert step.count(RIGHT) == 2
 
 
+def test_text_added_to_a_substitution_outside_a_node_becomes_a_list() -> None:
+    logged = changed(("        listener,\n", "        listener,\n        LogInfo(msg='on ' + name + '.'),\n"))
+    step = str(steps.step_for_early_text(logged, "chatter"))
+    assert step.endswith("becomes: LogInfo(msg=['on ', name, '.']),")
+
+
 def test_steps_that_change_single_lines() -> None:
     assert steps.add_return(changed(("    return Launch", "    Launch"))) == (
         "line 12 becomes: return LaunchDescription(["
