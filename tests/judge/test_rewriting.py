@@ -264,6 +264,9 @@ def test_slips_in_a_period(file: NodeFile, cause: str, line: str) -> None:
     assert period_slips.diagnose_integer_period(changed()) is period_slips.diagnose_period_unit(changed()) is None
 
 
+COUNT = "        self.count = 0\n"
+
+
 @pytest.mark.parametrize(
     ("file", "right"),
     [
@@ -280,6 +283,12 @@ def test_slips_in_a_period(file: NodeFile, cause: str, line: str) -> None:
                 )
             ),
             NODE,
+        ),
+        (
+            changed((COUNT, f"{COUNT}        self.set_parameters([*DEFAULTS])\n")),
+            NODE.replace(
+                COUNT, f"{COUNT}        self.set_parameters([self.get_parameter(each.name) for each in [*DEFAULTS]])\n"
+            ),
         ),
     ],
 )
