@@ -114,7 +114,12 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
 
 def _is_due_to_no_answer(found: tracebacks.Traceback | None) -> bool:
     """Whether an exception comes from using an answer that had not arrived yet."""
-    return found is not None and any(word in found.message for word in ("'NoneType'", "'Future'"))
+    return found is not None and (_uses_none(found) or "'Future'" in found.message)
+
+
+def _uses_none(found: tracebacks.Traceback) -> bool:
+    """Whether None was used as an answer; `with rclpy.init()` uses it as something else."""
+    return "'NoneType'" in found.message and "context manager" not in found.message
 
 
 def _missing(seen: ClientRun) -> list[str]:
@@ -141,7 +146,7 @@ def _follows_from_silence(trace: Trace) -> bool:
         return True
     own = found.own(trace.folder)
     deliberate = own is not None and own.code.startswith(("raise ", "assert "))
-    return deliberate or found.type.endswith("TimeoutError") or "'NoneType'" in found.message
+    return deliberate or found.type.endswith("TimeoutError") or _uses_none(found)
 
 
 def _diagnose_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:

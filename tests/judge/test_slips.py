@@ -54,3 +54,21 @@ def test_simulated_time_is_switched_off(text: str) -> None:
 @pytest.mark.parametrize("text", ["p = Parameter('use_sim_time', value=False)", "n.get_parameter('use_sim_time')"])
 def test_real_time_is_not_reported(text: str) -> None:
     assert slips.diagnose_simulated_time(node_file(text)) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "step"),
+    [
+        ("os.environ['ROS_DOMAIN_ID'] = '42'\n", "remove line 1: os.environ['ROS_DOMAIN_ID'] = '42'"),
+        ("rclpy.init(args=args, domain_id=42)", "line 1 becomes: rclpy.init(args=args)"),
+    ],
+)
+def test_a_domain_of_its_own_is_named(text: str, step: str) -> None:
+    found = slips.diagnose_other_domain(node_file(text))
+    assert found is not None
+    assert found.hint == step
+
+
+@pytest.mark.parametrize("text", ["print(os.environ['ROS_DOMAIN_ID'])", "rclpy.init(args=args)"])
+def test_the_domain_of_the_environment_is_not_reported(text: str) -> None:
+    assert slips.diagnose_other_domain(node_file(text)) is None

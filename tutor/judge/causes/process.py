@@ -7,7 +7,7 @@ import signal
 from collections.abc import Sequence
 
 from tutor.judge import tracebacks
-from tutor.judge.causes import names, spinning
+from tutor.judge.causes import names, slips, spinning
 from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.exceptions import diagnose_known_exception, diagnose_traceback
 from tutor.judge.edits import remove_statement
@@ -33,7 +33,7 @@ def diagnose_process(trace: Trace) -> Cause | None:
     if trace.exit is not None:
         return _diagnose_exit(trace)
     if not trace.graph.nodes:
-        return Cause(
+        return slips.diagnose_other_domain(started_node(trace)) or Cause(
             "no node",
             f"the process runs, but made no ROS node{' and prints without end' if trace.dropped_lines else ''}",
             first_sound_step(trace, whole_program)

@@ -53,6 +53,23 @@ def _true_beside(file: NodeFile, name: ast.Constant) -> ast.expr | None:
     return None
 
 
+def diagnose_other_domain(file: NodeFile) -> Cause | None:
+    """Whether the program chooses a domain of its own, where nobody sees its node."""
+    for node in file.nodes:
+        match node:
+            case ast.Assign(targets=[ast.Subscript(slice=ast.Constant(value="ROS_DOMAIN_ID"))]):
+                edit = edits.remove_statement(file.text, node)
+            case ast.Call(keywords=keywords) if any(each.arg == "domain_id" for each in keywords):
+                kept = [each for each in keywords if each.arg != "domain_id"]
+                edit = edits.replace_node(file.text, node, ast.unparse(ast.Call(node.func, node.args, kept)))
+            case _:
+                continue
+        if (step := file.step([edit])) is not None:
+            text = f"{source.where(node)} puts the node into another domain, where nothing else sees it"
+            return Cause("another domain", text, step)
+    return None
+
+
 def _parameter_value(expression: ast.expr) -> ast.expr | None:
     """The `x.value` in `x.value` or `str(x.value)`. `str(x.value).lower()` is not matched: comparing it is correct."""
     match expression:
