@@ -40,6 +40,7 @@ from checks.i1_1.facts import (
     parameter_and_unit,
     possible_units,
 )
+from checks.i1_1.log_calls import logs_the_same_on_each_message
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
 from tutor.judge.ending import repeat_if_doubtful
@@ -48,6 +49,8 @@ from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import (
     IDLE_S,
+    IN_FLIGHT_S,
+    MESSAGE_GAP_S,
     RESENT_S,
     START_S,
     TRIES,
@@ -306,8 +309,20 @@ async def probe_names(bench: Bench) -> NameProbes:
             def logged() -> str:
                 return next((str(log) for log in run.logs if contains_value(str(log).casefold())), "")
 
-            await wait_until_seen(run, lambda: bool(logged()), promised=lambda: True, idle_s=IDLE_S)
-            await bench.facts(parameters)
+            repeats = logs_the_same_on_each_message(run.trace().sources)
+
+            def is_known() -> bool:
+                """Whether the name is logged, or never will be."""
+                return bool(logged()) or (repeats and bool(run.logs) and _has_published(run, 2))
+
+            since = run.now()
+            await wait_until_seen(
+                run, lambda: is_known() or _has_published(run, 3), promised=lambda: True, idle_s=IDLE_S
+            )
+            declared = await bench.facts(parameters)
+            if not is_known() and not await _ignores(run, name, declared):
+                left_s = MESSAGE_GAP_S - (run.now() - since)
+                await wait_until_seen(run, is_known, promised=lambda: True, message_gap_s=left_s, idle_s=IDLE_S)
             found, trace = logged(), run.trace()
             at_end = (await run.interrupt()).output if not found and run.exit is None else ()
             return NameProbe(name, value, found, trace, at_end)
@@ -325,6 +340,20 @@ async def probe_names(bench: Bench) -> NameProbes:
     finally:
         await _cancel(pending)
     return NameProbes(declared, tuple(sorted(probes, key=lambda each: each.name not in known)))  # declared ones first
+
+
+def _has_published(run: Run, messages: int) -> bool:
+    """Whether the node has published so many messages, and everything that it had logged by then is here."""
+    samples = run.samples_on(TOPIC)
+    return len(samples) >= messages and run.now() >= samples[messages - 1].source_time + IN_FLIGHT_S
+
+
+async def _ignores(run: Run, name: str, declared: tuple[Parameter, ...] | None) -> bool:
+    """Whether the node has not declared this parameter, neither by itself nor because it was given at start-up."""
+    if declared is None or any(parameter.name == name for parameter in declared):
+        return False
+    given = await run.parameters(ANSWER_S)
+    return given is not None and all(parameter.name != name for parameter in given)
 
 
 async def _probe_rate(bench: Bench, name: str, unit: str, value: float, as_integer: bool) -> RateProbe:

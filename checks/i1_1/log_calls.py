@@ -1,0 +1,45 @@
+"""I1.1: whether a node's log messages all come early, so that there is no point in waiting for others.
+
+This never decides what counts as logged. It only tells when a node has shown all that it will ever log by itself.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+
+from tutor.judge.rewriting.node import NodeFile, node_file
+from tutor.judge.rewriting.whole import is_usual
+from tutor.judge.source import calls_in, last_name
+
+_OWN_CONTROL = frozenset({"logging", "loguru", "asyncio", "threading", "time", "datetime"})
+_DYNAMIC = ("exec", "eval", "getattr", "setattr", "__import__", "import_module", "get_clock", "add_post_set_parameters")
+_BRANCHES = (ast.If, ast.IfExp, ast.Match, ast.For, ast.While, ast.Return, ast.Try, ast.BoolOp)
+
+
+def logs_the_same_on_each_message(sources: Mapping[str, str]) -> bool:
+    """Whether the node logs at the start, the same kind of messages each time it publishes, and nothing else.
+
+    That is certain only of a node of the usual structure, in one file, with one timer, whose callback has no branches.
+    """
+    file = node_file(next(iter(sources.values()))) if len(sources) == 1 else node_file("")
+    modules = {alias.name.split(".")[0] for _, alias in file.imports}
+    if not is_usual(file) or len(file.timers) != 1 or file.calls(*_DYNAMIC) or modules & _OWN_CONTROL:
+        return False
+    if any(isinstance(each, ast.AsyncFunctionDef | ast.Lambda) for each in file.nodes):
+        return False
+    names = [each for each in file.nodes if last_name(each) == "get_logger"]
+    return all(_is_early(file, each) for each in names)
+
+
+def _is_early(file: NodeFile, name: ast.AST) -> bool:
+    """Whether a log call comes at the start, on each message, or to report an exception or the end."""
+    function = file.function_around(name)
+    logs = next((each for each in file.ancestors(name) if isinstance(each, ast.Expr)), None)
+    call = logs.value if logs is not None else None
+    match call:
+        case ast.Call(func=ast.Attribute(value=ast.Call(func=logger)), keywords=given) if logger is name and function:
+            if function is file.timer_callback:
+                return not given and not any(isinstance(each, _BRANCHES) for each in ast.walk(function))
+            return function is file.setup or bool(calls_in(function, "spin"))
+    return False  # such as a logger that is kept in a variable
