@@ -311,18 +311,18 @@ async def probe_names(bench: Bench) -> NameProbes:
 
             repeats = logs_the_same_on_each_message(run.trace().sources)
 
-            def is_known() -> bool:
+            def is_decided() -> bool:
                 """Whether the name is logged, or never will be."""
                 return bool(logged()) or (repeats and bool(run.logs) and _has_published(run, 2))
 
             since = run.now()
             await wait_until_seen(
-                run, lambda: is_known() or _has_published(run, 3), promised=lambda: True, idle_s=IDLE_S
+                run, lambda: is_decided() or _has_published(run, 3), promised=lambda: True, idle_s=IDLE_S
             )
             declared = await bench.facts(parameters)
-            if not is_known() and not await _ignores(run, name, declared):
+            if not is_decided() and not await _ignores(run, name, declared):
                 left_s = MESSAGE_GAP_S - (run.now() - since)
-                await wait_until_seen(run, is_known, promised=lambda: True, message_gap_s=left_s, idle_s=IDLE_S)
+                await wait_until_seen(run, is_decided, promised=lambda: True, message_gap_s=left_s, idle_s=IDLE_S)
             found, trace = logged(), run.trace()
             at_end = (await run.interrupt()).output if not found and run.exit is None else ()
             return NameProbe(name, value, found, trace, at_end)

@@ -41,6 +41,12 @@ from tutor.judge.waiting import CPU_WAIT_SHARE, IDLE_S, wait_until_seen
 INTO_CALL_S = 1.5
 """A call is being processed this long after the request."""
 
+CALL_LOGS_S = 0.3
+"""What is logged this soon after a request may be the service callback's own message, not the timer's."""
+
+SILENT_S = 1.5
+"""A node that logs nothing for this long during a call may be blocked by it: most timers log once a second."""
+
 DISCOVERY_S = 1.0
 """Time limit for all services of a node to appear in the graph once the node is discovered."""
 
@@ -77,22 +83,23 @@ async def run_idle(bench: Bench) -> IdleRun:
 
 async def call_singly(bench: Bench) -> SingleCalls:
     """Call the service, then once more, and watch the timer during the calls and until its next message."""
-    dumps: list[asyncio.Task[tuple[tuple[Frame, ...], bool]]] = []
+    dumps: dict[bool, asyncio.Task[tuple[tuple[Frame, ...], bool]]] = {}
 
     def suspect(answers: bool) -> None:
-        dumps.append(asyncio.ensure_future(_dump_stacks(bench, answers=answers)))
+        if answers not in dumps:
+            dumps[answers] = asyncio.ensure_future(_dump_stacks(bench, answers=answers))
 
     try:
         seen, fine = await _call_singly(bench, suspect)
         if seen.calls and seen.trace.exit is None and not fine:
-            answers = seen.calls[-1].answer.response is not None
-            stuck, spins = await (dumps[-1] if dumps else _dump_stacks(bench, answers=answers))
+            suspect(answers := seen.calls[-1].answer.response is not None)
+            stuck, spins = await dumps[answers]
             return replace(seen, stuck=stuck, spins=spins)
         return seen
     finally:
-        for task in dumps:
+        for task in dumps.values():
             task.cancel()
-        await asyncio.gather(*dumps, return_exceptions=True)
+        await asyncio.gather(*dumps.values(), return_exceptions=True)
 
 
 async def _call_singly(bench: Bench, suspect: Callable[[bool], None]) -> tuple[SingleCalls, bool]:
@@ -134,10 +141,18 @@ async def _make_call(run: Run, operands: Mapping[str, int], limit_s: float) -> _
 
 
 async def _make_first_call(run: Run, suspect: Callable[[bool], None], limit_s: float) -> _TimedAnswer:
-    """Make a call; `suspect` is called if it is not answered while a correct node would have answered."""
-    call = asyncio.ensure_future(_make_call(run, _large_operands(), limit_s))
+    """Make a call; `suspect` is called if the node goes silent, or does not answer while a correct one would have."""
+    call, asked_at = asyncio.ensure_future(_make_call(run, _large_operands(), limit_s)), run.now()
+
+    def is_silent() -> bool:
+        last_at = max((log.stamp for log in logs_since(run.logs, asked_at + CALL_LOGS_S)), default=asked_at)
+        return run.now() >= last_at + SILENT_S
+
     try:
-        done, _ = await asyncio.wait({call}, timeout=LONGEST_S + 2 * EXCUSED_S)
+        await run.until(lambda: call.done() or is_silent(), LONGEST_S)
+        if not call.done() and run.exit is None:
+            suspect(True)
+        done, _ = await asyncio.wait({call}, timeout=max(0.0, asked_at + LONGEST_S + 2 * EXCUSED_S - run.now()))
         if not done:
             suspect(False)
         return await call
