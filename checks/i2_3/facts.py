@@ -187,6 +187,14 @@ def is_doubtful(logs: Sequence[LogRecord], call: Call, series: Sequence[Series])
     return is_disturbed(logs, replace(call, cpu_wait_s=NEGLIGIBLE_S), series)
 
 
+def stops_timer(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
+    """Whether no timer logs anything during this call, although two messages are due and the machine is idle."""
+    begin, end = call.answer.asked_at + NEGLIGIBLE_S, call.answer.answered_at - NEGLIGIBLE_S
+    if not series or call.cpu_wait_s > NEGLIGIBLE_S or max(each.longest_s for each in series) > (end - begin) / 2:
+        return False
+    return not any(begin <= log.stamp <= end and each.key.of(log) for log in logs for each in series)
+
+
 def is_excused(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
     """Whether a busy machine may have disturbed the timer: its pace is acceptable with twice the CPU wait."""
     right = [each for each in series if each.is_10_hz]

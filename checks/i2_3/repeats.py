@@ -14,6 +14,7 @@ from checks.i2_3.facts import (
     is_disturbed,
     is_doubtful,
     is_excused,
+    stops_timer,
 )
 from checks.i2_3.ticks import Series
 from tutor.judge.trace import LogRecord
@@ -33,14 +34,16 @@ AT_ONCE_TRIES, MAX_AT_ONCE_TRIES = 3, 6
 def needs_repeat(logs: Sequence[LogRecord], calls: Sequence[Call], series: Sequence[Series], max_tries: int) -> bool:
     """Whether to call again, to tell effects of the machine, or of the first connection, from the node's own behaviour.
 
-    More than `TRIES` calls, up to `max_tries`, are only made if none so far was conclusive.
+    A timer that stops for the whole call is the node's. More than `TRIES` calls, up to `max_tries`, are only made if
+    none so far was conclusive.
     """
     call, tried = calls[-1], len(calls)
     if call.answer.response is None:
         return False
     disturbed, late = is_disturbed(logs, call, series), call.answer.took_s > LONGEST_S
     if tried == 1:
-        return disturbed or late or is_doubtful(logs, call, series)
+        stopped = disturbed and not late and stops_timer(logs, call, series)
+        return not stopped and (disturbed or late or is_doubtful(logs, call, series))
     excused = disturbed and is_excused(logs, call, series)
     if tried < TRIES:
         return excused or (late and call.nearly_in_time and call.cpu_wait_s > BUSY_S) or is_doubtful(logs, call, series)

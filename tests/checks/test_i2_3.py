@@ -11,7 +11,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i2_3.facts import SERVICE, TYPE, Call, CallBatch, ConcurrentCalls, IdleRun, Interrupted, SingleCalls
+from checks.i2_3.facts import (
+    SERVICE,
+    TYPE,
+    Call,
+    CallBatch,
+    ConcurrentCalls,
+    IdleRun,
+    Interrupted,
+    SingleCalls,
+    stops_timer,
+)
 from checks.i2_3.judges import (
     judge_blocks,
     judge_blocks_so_far,
@@ -151,6 +161,23 @@ def calls_made(each: Call, logs: Sequence[LogRecord] = (), *, most: int = MAX_TR
     while not made or needs_repeat(logs, made, series_in(tick_logs(every=1)), most):
         made.append(each if len(made) + 1 < calm_at else replace(each, cpu_wait_s=0.0))
     return len(made)
+
+
+def test_a_timer_that_stops_for_the_whole_call_needs_no_repetition_if_the_machine_is_calm() -> None:
+    (calm,), (busy,) = single_calls().calls, single_calls((), cpu_wait_s=0.5).calls
+    stopped = tick_logs(every=1, until_s=5.5, pause=(0.4, 3.3))
+    assert calls_made(calm, stopped) == 1
+    assert calls_made(busy, stopped) == 2
+    assert calls_made(calm, tick_logs(every=1, until_s=5.5, pause=(0.4, 2.5))) == 2
+    assert calls_made(replace(calm, answer=answer(4.1)), tick_logs(every=1, until_s=5.5, pause=(0.4, 4.4))) == 2
+
+
+def test_a_slow_series_shows_no_stop_within_a_call() -> None:
+    (call,) = single_calls().calls
+    slow = series_in(tick_logs(every=20, until_s=9.0))
+    assert not stops_timer([], call, slow)
+    assert stops_timer([], call, series_in(tick_logs()))
+    assert not stops_timer([], call, ())
 
 
 def test_calls_are_repeated_until_one_is_conclusive() -> None:
