@@ -36,7 +36,7 @@ from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.trace import CallAnswer
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import CPU_WAIT_SHARE, IDLE_S, wait_until_seen
+from tutor.judge.waiting import CPU_WAIT_SHARE, IDLE_S, patience_s, wait_until_seen
 
 INTO_CALL_S = 1.5
 """A call is being processed this long after the request."""
@@ -225,7 +225,11 @@ def _is_wrong(answer: CallAnswer) -> bool:
 
 async def _wait_for_service(run: Run) -> bool:
     """Wait for the service, and return whether it exists."""
-    return await wait_until_seen(run, lambda: has_service(run.graph.servers))
+    return await wait_until_seen(
+        run,
+        lambda: has_service(run.graph.servers),
+        settle_s=lambda: patience_s(((each.name, each.type) for each in run.graph.servers), SERVICE, TYPE),
+    )
 
 
 def _answer_limit_s(spins: bool) -> float:
