@@ -152,6 +152,22 @@ async def test_a_rate_is_measured_again_unless_messages_are_even(
     assert run.now() == pytest.approx(first_s + (windows - 1) * max(window_s(asked_hz), REMEASURE_S), abs=0.4)
 
 
+async def test_a_rate_far_below_is_measured_until_its_messages_are_seen_to_be_even() -> None:
+    run = FakeRun(_ticks(2.0))
+    rate, messages = await measure_steady_rate(run, "/t", 10.0, since=0.0)  # type: ignore[arg-type]
+    assert rate is not None
+    assert (rate.hz, messages) == (pytest.approx(2.0), MIN_EVEN)
+    assert run.now() < 2.0
+
+
+async def test_a_rate_far_below_is_measured_for_longer_if_the_node_waits_for_a_cpu() -> None:
+    run = FakeRun(_ticks(2.0), cpu_wait_share=0.1)
+    rate, messages = await measure_steady_rate(run, "/t", 10.0, since=0.0)  # type: ignore[arg-type]
+    assert rate is not None
+    assert (rate.hz, messages) == (pytest.approx(2.0), REMEASURE_S * 2)
+    assert run.now() > REMEASURE_S
+
+
 async def test_a_hiccup_in_the_first_window_does_not_count() -> None:
     stalled = [*_ticks(10, to_s=0.4), *_ticks(10, from_s=0.95)]
     rate, _ = await measure_steady_rate(FakeRun(stalled), "/t", 10.0, since=0.0)  # type: ignore[arg-type]

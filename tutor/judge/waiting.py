@@ -148,20 +148,27 @@ async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: f
     """The rate on `topic` from source time `since` on, and the number of messages that it is based on.
 
     Measures for as long as `asked_hz` requires, or until the node is idle and so sends nothing more. If the rate does
-    not agree and the messages are uneven, measures once more, for longer, and uses only that second window: a hiccup in
-    the first is the machine's, a rate that stays wrong is the learner's. Raises MachineTooBusy if the machine hardly
-    lets the node run in any window.
+    not agree, measures on until the messages are enough to show that they are sent evenly. If they are not, only a
+    second, longer window counts: a hiccup in the first is the machine's, a rate that stays wrong is the learner's.
+    Raises MachineTooBusy if the machine hardly lets the node run in any window.
     """
-    start, for_s, cpu_wait_s = max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz, run.node_cpu_wait_s()
+    start, for_s, waited_s = max(since, run.now()), window_s(asked_hz) + 0.5 / asked_hz, run.node_cpu_wait_s()
+
+    def all_samples() -> list[Sample]:
+        return [sample for sample in run.samples_on(topic) if sample.source_time >= start]
+
+    def is_clear() -> bool:
+        return are_undisturbed(all_samples(), cpu_wait_s=run.node_cpu_wait_s() - waited_s, elapsed_s=run.now() - start)
+
     samples = await _samples_in_window(run, topic, start, for_s)
     rate = measure(samples)
-    cpu_wait_s = run.node_cpu_wait_s() - cpu_wait_s
-    agrees = rate is not None and rate.agrees_with(asked_hz)
-    if agrees or are_undisturbed(samples, cpu_wait_s=cpu_wait_s, elapsed_s=for_s):
+    if rate is not None and rate.agrees_with(asked_hz):
         return rate, len(samples)
     for _ in range(TRIES):
         for_s, cpu_wait_s = max(window_s(asked_hz), REMEASURE_S), run.node_cpu_wait_s()
-        samples = await _samples_in_window(run, topic, run.now(), for_s)
+        samples = await _samples_in_window(run, topic, run.now(), for_s, is_clear)
+        if is_clear():
+            return measure(all_samples()), len(all_samples())
         rate = measure(samples)
         if rate is not None and rate.agrees_with(asked_hz):
             break
@@ -190,7 +197,11 @@ def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, el
     return mean_hz <= asked_hz and mean_hz / running_share >= (1 - TOLERANCE) * asked_hz
 
 
-async def _samples_in_window(run: Run, topic: str, start: float, for_s: float) -> list[Sample]:
+async def _samples_in_window(
+    run: Run, topic: str, start: float, for_s: float, enough: Callable[[], bool] = lambda: False
+) -> list[Sample]:
     end, late_s = start + for_s, run.our_cpu_wait_s()
-    await run.until(lambda: run.now() >= end + IN_FLIGHT_S + run.our_cpu_wait_s() - late_s, for_s + 2, idle_s=IDLE_S)
+    await run.until(
+        lambda: enough() or run.now() >= end + IN_FLIGHT_S + run.our_cpu_wait_s() - late_s, for_s + 2, idle_s=IDLE_S
+    )
     return [sample for sample in run.samples_on(topic) if start <= sample.source_time <= end]
