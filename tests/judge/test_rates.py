@@ -156,7 +156,8 @@ async def test_a_rate_far_below_is_measured_until_its_messages_are_seen_to_be_ev
     run = FakeRun(_ticks(2.0))
     rate, messages = await measure_steady_rate(run, "/t", 10.0, since=0.0)  # type: ignore[arg-type]
     assert rate is not None
-    assert (rate.hz, messages) == (pytest.approx(2.0), MIN_EVEN)
+    assert rate.hz == pytest.approx(2.0)
+    assert messages == MIN_EVEN
     assert run.now() < 2.0
 
 
@@ -164,7 +165,8 @@ async def test_a_rate_far_below_is_measured_for_longer_if_the_node_waits_for_a_c
     run = FakeRun(_ticks(2.0), cpu_wait_share=0.1)
     rate, messages = await measure_steady_rate(run, "/t", 10.0, since=0.0)  # type: ignore[arg-type]
     assert rate is not None
-    assert (rate.hz, messages) == (pytest.approx(2.0), REMEASURE_S * 2)
+    assert rate.hz == pytest.approx(2.0)
+    assert messages == 2 * REMEASURE_S
     assert run.now() > REMEASURE_S
 
 
