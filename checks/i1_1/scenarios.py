@@ -49,7 +49,6 @@ from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import (
     IDLE_S,
-    IN_FLIGHT_S,
     MESSAGE_GAP_S,
     RESENT_S,
     START_S,
@@ -65,6 +64,9 @@ from tutor.ros_model import Parameter
 
 SILENT_S = 5.0
 """A node that has sent nothing for this long may be stuck."""
+
+LOG_DELAY_S = 0.5
+"""Upper bound on the latency of a log message, apart from our own wait for a CPU."""
 
 ANSWER_S = 2.0
 """Time limit for an answer to a parameter request from a node that is up."""
@@ -309,16 +311,22 @@ async def probe_names(bench: Bench) -> NameProbes:
             def logged() -> str:
                 return next((str(log) for log in run.logs if contains_value(str(log).casefold())), "")
 
-            repeats = logs_the_same_on_each_message(run.trace().sources)
+            repeats, since, waited_s = (
+                logs_the_same_on_each_message(run.trace().sources),
+                run.now(),
+                run.our_cpu_wait_s(),
+            )
+
+            def has_published(messages: int) -> bool:
+                """Whether it has published so many messages, and all that it had logged by then must be here."""
+                samples, delay_s = run.samples_on(TOPIC), LOG_DELAY_S + run.our_cpu_wait_s() - waited_s
+                return len(samples) >= messages and run.now() >= samples[messages - 1].received_at + delay_s
 
             def is_decided() -> bool:
                 """Whether the name is logged, or never will be."""
-                return bool(logged()) or (repeats and bool(run.logs) and _has_published(run, 2))
+                return bool(logged()) or (repeats and bool(run.logs) and has_published(2))
 
-            since = run.now()
-            await wait_until_seen(
-                run, lambda: is_decided() or _has_published(run, 3), promised=lambda: True, idle_s=IDLE_S
-            )
+            await wait_until_seen(run, lambda: is_decided() or has_published(3), promised=lambda: True, idle_s=IDLE_S)
             declared = await bench.facts(parameters)
             if not is_decided() and not await _ignores(run, name, declared):
                 left_s = MESSAGE_GAP_S - (run.now() - since)
@@ -340,12 +348,6 @@ async def probe_names(bench: Bench) -> NameProbes:
     finally:
         await _cancel(pending)
     return NameProbes(declared, tuple(sorted(probes, key=lambda each: each.name not in known)))  # declared ones first
-
-
-def _has_published(run: Run, messages: int) -> bool:
-    """Whether the node has published so many messages, and everything that it had logged by then is here."""
-    samples = run.samples_on(TOPIC)
-    return len(samples) >= messages and run.now() >= samples[messages - 1].source_time + IN_FLIGHT_S
 
 
 async def _ignores(run: Run, name: str, declared: tuple[Parameter, ...] | None) -> bool:

@@ -1,4 +1,4 @@
-"""Slips in plain Python that raise nothing: how the learner's source reveals them, and the step."""
+"""Slips that raise nothing: how the learner's source reveals them, and the step."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plain Python mistakes that raise no exception, found in the learner's source, with the step that fixes them."""
+"""Mistakes that raise no exception, found in the learner's source, with the step that fixes them."""
 
 from __future__ import annotations
 
