@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from checks.i1_1 import judges, scenarios
+from checks.i1_1 import judges, probes, scenarios, values
 from tutor.judge.check import Check, Criterion
 
 CHECK = Check(
@@ -12,14 +12,14 @@ CHECK = Check(
         Criterion(
             "range",
             judges.judge_range,
-            (scenarios.collect_values, scenarios.collect_more_values),
+            (values.collect_values, values.collect_more_values),
             after=("publishes",),
-            early=((scenarios.collect_values, judges.judge_range_so_far),),
+            early=((values.collect_values, judges.judge_range_so_far),),
         ),
-        Criterion("random", judges.judge_random, (scenarios.collect_values,), after=("publishes",)),
+        Criterion("random", judges.judge_random, (values.collect_values,), after=("publishes",)),
         Criterion("echo", judges.judge_echo, (scenarios.plain_start,), after=("publishes",)),
-        Criterion("rate", judges.judge_rate, (scenarios.probe_rates,), after=("publishes",)),
-        Criterion("sensor-name", judges.judge_name, (scenarios.probe_names,)),
+        Criterion("rate", judges.judge_rate, (probes.probe_rates,), after=("publishes",)),
+        Criterion("sensor-name", judges.judge_name, (probes.probe_names,)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.plain_start,), bonus=True),
     ),
     expected_s=4.3,  # the rate probe at 0.7 Hz: 1.4 s to the first message, then 2.9 s for two periods
