@@ -6,24 +6,12 @@ import asyncio
 from collections.abc import Collection
 from typing import Any
 
-from checks.i1_1.facts import (
-    ECHO_LIMIT_S,
-    FILE,
-    TOPIC,
-    TYPE,
-    PlainStart,
-    numeric_parameters,
-)
+from checks.i1_1.facts import ECHO_LIMIT_S, FILE, TOPIC, TYPE, PlainStart, numeric_parameters
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import (
-    RESENT_S,
-    START_S,
-    find_stuck_frames,
-    wait_for_message,
-)
+from tutor.judge.waiting import RESENT_S, START_S, find_stuck_frames, wait_for_message
 from tutor.ros_model import Parameter
 
 SILENT_S = 5.0

@@ -21,9 +21,7 @@ from checks.i1_1.scenarios import cancel, plain_start, values_of
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
 from tutor.judge.trace import Trace
-from tutor.judge.waiting import (
-    wait_for_message,
-)
+from tutor.judge.waiting import wait_for_message
 
 
 async def collect_values(bench: Bench) -> CollectedValues:
