@@ -305,6 +305,8 @@ def test_a_value_that_the_node_overwrites(file: NodeFile, right: str) -> None:
         )
     )
     assert parameter_slips.diagnose_override(corrected, RATE) is None
+    other_set = changed((COUNT, f"{COUNT}        self.set_parameters([Parameter('publish_rate', value=1.0)])\n"))
+    assert parameter_slips.diagnose_override(other_set, PREFIX) is None
 
 
 @pytest.mark.parametrize(

@@ -92,7 +92,9 @@ def _diagnose_own_set(file: NodeFile, name: str) -> Cause | None:
                 f"{where(call)} sets {name} itself, so a value set from outside does not last",
                 step,
             )
-        if function is not None and function is file.setup and call.args:
+        names_others = any(isinstance(each.value, str) for each in _constants([call]))
+        at_end_of_setup = function is not None and function is file.setup and statement in function.body
+        if call.args and at_end_of_setup and not names_others:
             current = f"[{file.name}.get_parameter(each.name) for each in {ast.unparse(call.args[0])}]"
             if (step := file.step([replace_node(file.text, call.args[0], current)])) is not None:
                 text = f"{where(call)} sets the defaults again, so a value given at start-up does not last"
