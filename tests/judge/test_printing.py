@@ -47,6 +47,7 @@ def test_text_kept_in_a_variable_is_found() -> None:
     assert find_print(printing("text = f'total: {total}'", "print(text)"), "total: 7") is not None
     assert find_print(printing("text = f'count: {total}'", "print(text)"), "total: 7") is None
     assert find_print(printing("text = last", "print(text)"), "total: 7") is None
+    assert find_print(printing("last = 'last: ' + last", "print(last)"), "last: 7") is not None
 
 
 def test_calls_that_print_other_lines_are_not_taken() -> None:

@@ -41,6 +41,7 @@ def test_valid_comparisons_are_not_reported(text: str) -> None:
     [
         "p = Parameter('use_sim_time', Parameter.Type.BOOL, True)",
         "p = {'a': True, 'use_sim_time': True}",
+        "p = {'name': 'use_sim_time', 'value': True}",
         "n.declare_parameter('use_sim_time', value=True)",
     ],
 )

@@ -143,5 +143,5 @@ def _template(code: ast.expr, function: source.Function | None) -> str:
         case ast.Call(func=ast.Attribute(value=template, attr="format")):
             return _template(template, function)
         case ast.Name(id=name) if function is not None and len(values := source.values_of(name, function)) == 1:
-            return _VALUE if isinstance(values[0], ast.Name) else _template(values[0], function)
+            return _template(values[0], None)  # no further: it may be made from itself
     return _VALUE

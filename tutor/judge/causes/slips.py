@@ -46,7 +46,11 @@ def diagnose_simulated_time(file: NodeFile) -> Cause | None:
 def _true_beside(file: NodeFile, name: ast.Constant) -> ast.expr | None:
     """The True given together with a name: its value in a dict, or in the innermost expression that has one."""
     for around in file.ancestors(name):
-        nodes = around.values[around.keys.index(name) :] if isinstance(around, ast.Dict) else list(ast.walk(around))
+        match around:
+            case ast.Dict(keys=keys, values=values) if name in keys:
+                nodes: list[ast.AST] = [values[keys.index(name)]]
+            case _:
+                nodes = list(ast.walk(around))
         found = [each for each in nodes if isinstance(each, ast.Constant) and each.value is True]
         if found or isinstance(around, ast.stmt):
             return next(iter(found), None)

@@ -215,8 +215,9 @@ def service_parameters(text: str, words: Words) -> Sequence[Edit]:
         is_method = file.class_of(functions[number]) is not None and not functions[number].decorator_list
         own = [each for each in given if each != "self"]
         wanted = [*(["self"] if is_method else []), *(own[:1] or ["request"]), *(own[1:2] or ["response"])]
-        head = re.sub(r"\([^()]*\)", f"({', '.join(wanted)})", lines[number - 1].strip(), count=1)
-        if given != wanted:
+        line = lines[number - 1].strip()
+        head = re.sub(r"\([^()]*\)", f"({', '.join(wanted)})", line, count=1)
+        if given != wanted and head != line:
             made.append(edits.replace_lines(number, head))
     return made
 
