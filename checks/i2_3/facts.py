@@ -188,9 +188,9 @@ def is_doubtful(logs: Sequence[LogRecord], call: Call, series: Sequence[Series])
 
 
 def stops_timer(logs: Sequence[LogRecord], call: Call, series: Sequence[Series]) -> bool:
-    """Whether no timer logs anything during this call, although two messages are due and the machine is idle."""
+    """Whether no timer logs anything during this call, although two messages are due even without the CPU wait."""
     begin, end = call.answer.asked_at + NEGLIGIBLE_S, call.answer.answered_at - NEGLIGIBLE_S
-    if not series or call.cpu_wait_s > NEGLIGIBLE_S or max(each.longest_s for each in series) > (end - begin) / 2:
+    if not series or 2 * max(each.longest_s for each in series) > end - begin - call.cpu_wait_s:
         return False
     return not any(begin <= log.stamp <= end and each.key.of(log) for log in logs for each in series)
 

@@ -163,11 +163,12 @@ def calls_made(each: Call, logs: Sequence[LogRecord] = (), *, most: int = MAX_TR
     return len(made)
 
 
-def test_a_timer_that_stops_for_the_whole_call_needs_no_repetition_if_the_machine_is_calm() -> None:
-    (calm,), (busy,) = single_calls().calls, single_calls((), cpu_wait_s=0.5).calls
+def test_a_timer_that_stops_for_the_whole_call_needs_no_repetition_unless_the_machine_is_busy() -> None:
+    (calm,), (busy,) = single_calls().calls, single_calls((), cpu_wait_s=2.5).calls
     stopped = tick_logs(every=1, until_s=5.5, pause=(0.4, 3.3))
     assert calls_made(calm, stopped) == 1
-    assert calls_made(busy, stopped) == 2
+    assert calls_made(replace(calm, cpu_wait_s=0.5), stopped) == 1
+    assert calls_made(busy, stopped, calm_at=2) == 2
     assert calls_made(calm, tick_logs(every=1, until_s=5.5, pause=(0.4, 2.5))) == 2
     assert calls_made(replace(calm, answer=answer(4.1)), tick_logs(every=1, until_s=5.5, pause=(0.4, 4.4))) == 2
 
