@@ -78,7 +78,8 @@ async def test_a_topic_followed_with_enter_shows_its_echo_statistics_and_a_plot(
         await me.sees("Not followed: press Enter")
         await me.press("enter")
         await me.sees("messages · ", "Hz · jitter", "data: 2", "---", "reliable, volatile", "10 s ago", "┤")
-        assert set(me.screen()) & {chr(0x2800 + bits) for bits in range(1, 256)}, "a line is drawn"
+        braille = {chr(0x2800 + bits) for bits in range(1, 256)}
+        await me.until(lambda: bool(braille.intersection(me.screen())), "a line in the plot")  # painted after the axis
         await me.press("delete")
         await me.sees("Not followed: press Enter")
 
