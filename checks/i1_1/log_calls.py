@@ -12,8 +12,8 @@ from tutor.judge.rewriting.node import NodeFile, node_file
 from tutor.judge.rewriting.whole import is_usual
 from tutor.judge.source import calls_in, last_name
 
-_OWN_CONTROL = frozenset({"logging", "loguru", "asyncio", "threading", "time", "datetime"})
-_DYNAMIC = ("exec", "eval", "getattr", "setattr", "__import__", "import_module", "get_clock", "add_post_set_parameters")
+_UNPREDICTABLE_MODULES = frozenset({"logging", "loguru", "asyncio", "threading", "time", "datetime"})
+_UNPREDICTABLE_CALLS = ("exec", "eval", "getattr", "setattr", "__import__", "import_module", "get_clock")
 _BRANCHES = (ast.If, ast.IfExp, ast.Match, ast.For, ast.While, ast.Return, ast.Try, ast.BoolOp)
 
 
@@ -24,7 +24,9 @@ def logs_the_same_on_each_message(sources: Mapping[str, str]) -> bool:
     """
     file = node_file(next(iter(sources.values()))) if len(sources) == 1 else node_file("")
     modules = {alias.name.split(".")[0] for _, alias in file.imports}
-    if not is_usual(file) or len(file.timers) != 1 or file.calls(*_DYNAMIC) or modules & _OWN_CONTROL:
+    if not is_usual(file) or len(file.timers) != 1:
+        return False
+    if modules & _UNPREDICTABLE_MODULES or file.calls(*_UNPREDICTABLE_CALLS):
         return False
     if any(isinstance(each, ast.AsyncFunctionDef | ast.Lambda) for each in file.nodes):
         return False
@@ -33,7 +35,7 @@ def logs_the_same_on_each_message(sources: Mapping[str, str]) -> bool:
 
 
 def _is_early(file: NodeFile, name: ast.AST) -> bool:
-    """Whether a log call comes at the start, on each message, or to report an exception or the end."""
+    """Whether a log call comes on each message, at the start, or around the spin: before it or at the end."""
     function = file.function_around(name)
     logs = next((each for each in file.ancestors(name) if isinstance(each, ast.Expr)), None)
     call = logs.value if logs is not None else None

@@ -159,11 +159,8 @@ async def probe_names(bench: Bench) -> NameProbes:
             def logged() -> str:
                 return next((str(log) for log in run.logs if contains_value(str(log).casefold())), "")
 
-            repeats, since, waited_s = (
-                logs_the_same_on_each_message(run.trace().sources),
-                run.now(),
-                run.our_cpu_wait_s(),
-            )
+            repeats = logs_the_same_on_each_message(run.trace().sources)
+            since, waited_s = run.now(), run.our_cpu_wait_s()
 
             def has_published(messages: int) -> bool:
                 """Whether it has published so many messages, and all that it had logged by then must be here."""
@@ -250,8 +247,9 @@ async def _probe_rate(bench: Bench, name: str, unit: str, value: float, as_integ
         else:
             raise MachineTooBusy("this machine is too busy to measure a rate")
         bench.report_progress(1.0, f"{name}:={value:g} measured")
-        suspicious = randomness.needs_more_values(values_of(run)) or randomness.are_coarse(values_of(run))
-        if probe.agrees and asked_hz == FAST_HZ and suspicious:
+        if not probe.agrees or asked_hz != FAST_HZ:
+            return probe
+        if randomness.needs_more_values(values := values_of(run)) or randomness.are_coarse(values):
             await run.until(lambda: len(values_of(run)) >= randomness.FULL_SAMPLE_SIZE, FAST_COLLECT_S)
             return replace(probe, trace=run.trace())
         return probe

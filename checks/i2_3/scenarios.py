@@ -145,8 +145,8 @@ async def _make_first_call(run: Run, suspect: Callable[[bool], None], limit_s: f
     call, asked_at = asyncio.ensure_future(_make_call(run, _large_operands(), limit_s)), run.now()
 
     def is_silent() -> bool:
-        last_at = max((log.stamp for log in logs_since(run.logs, asked_at + CALL_LOGS_S)), default=asked_at)
-        return run.now() >= last_at + SILENT_S
+        last_at = run.logs[-1].stamp if run.logs else asked_at
+        return run.now() >= (last_at if last_at >= asked_at + CALL_LOGS_S else asked_at) + SILENT_S
 
     try:
         await run.until(lambda: call.done() or is_silent(), LONGEST_S)

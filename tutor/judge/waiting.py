@@ -182,7 +182,7 @@ async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: f
 
 def are_undisturbed(samples: Sequence[Sample], *, cpu_wait_s: float, elapsed_s: float) -> bool:
     """Whether the machine cannot have changed the rate of these samples: they are even, and the node hardly waited."""
-    return are_even(samples) and cpu_wait_s < HARDLY_WAITED_SHARE * elapsed_s
+    return cpu_wait_s < HARDLY_WAITED_SHARE * elapsed_s and are_even(samples)
 
 
 def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, elapsed_s: float) -> bool:
