@@ -18,7 +18,7 @@ class FakeProcess:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now, self.wake, self.cpu_wait_s = 50.0, NextWake(math.inf, 7), 3.0
         monkeypatch.setattr("time.monotonic", lambda: self.now)
-        self.idle = idle.IdleDetector(lambda: self.wake, lambda: self.cpu_wait_s, 0.7)
+        self.idle = idle.IdleDetector(lambda by: self.wake, lambda: self.cpu_wait_s, 0.7)
 
     def advance(self, seconds: float) -> bool:
         self.now += seconds

@@ -89,5 +89,14 @@ def test_the_earliest_wake_up_of_several_processes_counts() -> None:
         assert next_wake([idle, sleeper, 2**22 + 1]).at == 0.0
 
 
+def test_the_search_ends_at_one_that_wakes_up_early_enough() -> None:
+    with running("threading.Event().wait()") as idle, running("time.sleep(60)") as sleeper:
+        slept = wait_until_asleep(sleeper)
+        wait_until_asleep(idle)
+        assert next_wake([sleeper, idle], by=time.time() + 120).timeslices == slept.timeslices
+        assert next_wake([sleeper, 2**22 + 1], by=time.time() + 120).at == pytest.approx(slept.at, abs=0.1)
+        assert next_wake([sleeper, 2**22 + 1], by=time.time() + 1).at == 0.0
+
+
 def test_the_wake_up_of_no_process_is_unknown() -> None:
     assert next_wake([]) == NextWake()

@@ -14,11 +14,12 @@ POLL_S = 0.1
 class IdleDetector:
     """Detects whether a process is idle.
 
-    `for_s`: how long its threads must have been blocked, in seconds. `cpu_wait_s()`: how long we have waited for a CPU
-    so far; that time does not count, since messages may have arrived that we have not seen.
+    `next_wake(by)`: see `tutor.process.next_wake`. `for_s`: how long its threads must have been blocked, in seconds.
+    `cpu_wait_s()`: how long we have waited for a CPU so far; that time does not count, since messages may have arrived
+    that we have not seen.
     """
 
-    def __init__(self, next_wake: Callable[[], NextWake], cpu_wait_s: Callable[[], float], for_s: float) -> None:
+    def __init__(self, next_wake: Callable[[float], NextWake], cpu_wait_s: Callable[[], float], for_s: float) -> None:
         self._next_wake = next_wake
         self._cpu_wait_s = cpu_wait_s
         self._for_s = for_s
@@ -33,7 +34,7 @@ class IdleDetector:
         if now - self._read_at < POLL_S:
             return self._idle
         self._read_at = now
-        wake = self._next_wake()
+        wake = self._next_wake(deadline)
         if wake.at <= deadline or wake.timeslices != self._timeslices:
             self._timeslices = wake.timeslices
             self._idle_since, self._waited_before_s = now, self._cpu_wait_s()

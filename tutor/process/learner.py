@@ -149,9 +149,12 @@ class LearnerProcess:
         await asyncio.wait({self._exited}, timeout=limit_s)
         return self._exit
 
-    def next_wake(self) -> NextWake:
-        """Return when a thread of the learner's processes next wakes up by itself, as far as the kernel reports it."""
-        return self._link.next_wake()
+    def next_wake(self, by: float = 0.0) -> NextWake:
+        """Return when a thread of the learner's processes next wakes up by itself, as far as the kernel reports it.
+
+        The search ends at one that wakes up by `by`, in seconds since the epoch.
+        """
+        return self._link.next_wake(by)
 
     def survivors(self) -> list[Survivor]:
         """Return the learner's live processes, including the program itself. Zombies do not count."""

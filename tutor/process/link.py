@@ -106,12 +106,12 @@ class SupervisorLink(asyncio.Protocol):
         found = [p for p in descendants(self._supervisor.pid) if p.alive] or orphans.find_orphans(self._marks())
         return [p for p in found if p.pid not in self._ours]
 
-    def next_wake(self) -> NextWake:
-        """Return when a thread of the processes under the supervisor next wakes up by itself."""
+    def next_wake(self, by: float = 0.0) -> NextWake:
+        """Return when a thread of the processes under the supervisor next wakes up by itself; see `next_wake`."""
         if self._supervisor is None or self.gone.done():
             return NextWake()
         found = descendants_in(recent_processes(self._supervisor.pid), self._supervisor.pid)
-        return next_wake(p.pid for p in found if p.alive and p.pid not in self._ours)
+        return next_wake((p.pid for p in found if p.alive and p.pid not in self._ours), by)
 
     def end(self) -> None:
         """Start ending everything; `gone` resolves when that is done. Idempotent."""

@@ -36,30 +36,41 @@ class NextWake:
     """When a thread of one or more processes next wakes up by itself.
 
     `at` is in seconds since the epoch: inf means never, 0.0 that one may be running or nothing is known. `timeslices`
-    counts how often their threads have been scheduled so far.
+    counts how often the threads that were read have been scheduled so far.
     """
 
     at: float = 0.0
     timeslices: int = 0
 
 
-def next_wake(pids: Iterable[int]) -> NextWake:
-    """Return the earliest wake-up of these processes; unknown (0.0) if there are none."""
-    found = [_process_wake(pid) for pid in pids]
+def next_wake(pids: Iterable[int], by: float = 0.0) -> NextWake:
+    """Return the earliest wake-up of these processes; unknown (0.0) if there are none.
+
+    Reading all threads costs milliseconds, so the search ends at one that wakes up by `by`, in seconds since the epoch.
+    """
+    found: list[NextWake] = []
+    for pid in pids:
+        found.append(_process_wake(pid, by))
+        if found[-1].at <= by:
+            break
     return NextWake(min((each.at for each in found), default=0.0), sum(each.timeslices for each in found))
 
 
-def _process_wake(pid: int) -> NextWake:
+def _process_wake(pid: int, by: float) -> NextWake:
     wakes: list[float] = []
     background: list[float] = []
     timeslices = 0
     try:
-        for thread in os.listdir(f"/proc/{pid}/task"):
+        for thread in sorted(os.listdir(f"/proc/{pid}/task"), key=str(pid).__ne__):  # the main thread first
             folder = f"/proc/{pid}/task/{thread}"
             if _read_file(f"{folder}/comm").startswith(_FAST_DDS_PREFIX):
                 continue
-            (background if thread != str(pid) else wakes).append(_thread_wake(pid, _read_file(f"{folder}/syscall")))
+            is_main = thread == str(pid)
+            wake = _thread_wake(pid, _read_file(f"{folder}/syscall"))
+            (wakes if is_main else background).append(wake)
             timeslices += int(_read_file(f"{folder}/schedstat").split()[2])
+            if wake <= by and (is_main or wake == 0.0):  # the log-flushing thread is known only from all of them
+                return NextWake(wake, timeslices)
         return NextWake(min((*wakes, *_drop_flusher(pid, background)), default=0.0), timeslices)
     except (OSError, IndexError, ValueError):  # the process is ending, or this kernel has no such files
         return NextWake()
@@ -107,5 +118,5 @@ def _drop_flusher(pid: int, background: list[float]) -> list[float]:
 
 
 def _read_file(path: str) -> bytes:
-    with open(path, "rb") as file:
+    with open(path, "rb", buffering=0) as file:
         return file.read()
