@@ -149,6 +149,8 @@ async def _set_prefix(bench: Bench) -> RuntimeChanges:
         answer = await run.set_parameters(node, {PREFIX: seen.prefix}, limit_s=ANSWER_S)
         if not answer.answered:
             return replace(seen, trace=run.trace(), set_prefix=answer, stuck=await run.dump_stacks())
+        if not answer.successful:
+            return replace(seen, trace=run.trace(), set_prefix=answer)
         due = answer.answered_at + seen.period_s + 0.1
 
         def with_new_prefix() -> Sample | None:
@@ -165,9 +167,8 @@ async def _set_prefix(bench: Bench) -> RuntimeChanges:
             2 * seen.period_s + 2,
             idle_s=IDLE_S,
         )
-        changed = with_new_prefix() if answer.successful else None
         before = measure(run.samples_on(TOPIC))
-        return replace(seen, trace=run.trace(), set_prefix=answer, after_prefix=changed, before=before)
+        return replace(seen, trace=run.trace(), set_prefix=answer, after_prefix=with_new_prefix(), before=before)
 
 
 async def _switch_enabled(bench: Bench) -> RuntimeChanges:
