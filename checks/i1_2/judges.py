@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from checks.i1_2 import backlog, rates, slowness, steps
 from checks.i1_2.facts import FAST_HZ, FAST_MESSAGES, OURS, STALL_S, SUMMARY_EVERY, TOPIC, Trial
-from checks.i1_2.reading import labelled, parse_log
+from checks.i1_2.reading import Number, labelled, parse_log
 from checks.i1_2.summaries import (
     Summary,
     count_complete,
@@ -61,6 +61,14 @@ def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
             _diagnose_count(summary, trial),
             [str(other) for _, other in seen],
         )
+    if all(_total_as_rate(summary, trial) for trial, summary in seen):
+        trial, summary = seen[-1]
+        return failed(
+            expected,
+            f"the summary that came after {summary.messages} messages does not say so",
+            _diagnose_swapped(summary, trial),
+            [str(other) for _, other in seen],
+        )
     stated = ", ".join(str(true_total(summary, trial)) for trial, summary in seen)
     return passed(expected, f"{len(seen)} summaries state {stated}", [str(summary) for _, summary in seen])
 
@@ -87,6 +95,22 @@ def true_total(summary: Summary, trial: Trial, *, before: int = 0) -> int:
     }
     held_back = [total for total in sorted(earlier_totals) if summary.states(total)]
     return next((t for t in held_back if _is_made_after(before + t, summary, trial, before=before)), 0)
+
+
+def _total_as_rate(summary: Summary, trial: Trial) -> Number | None:
+    """The number that states the true total, if its unit says that it is a rate; None if another one states it, too."""
+    stating = [number for number in summary.numbers if true_total(summary, trial) in number.values]
+    return stating[0] if stating and all(number.per_second for number in stating) else None
+
+
+def _diagnose_swapped(summary: Summary, trial: Trial) -> Cause:
+    number = _total_as_rate(summary, trial)
+    assert number is not None
+    return Cause(
+        "count and rate swapped",
+        f"it gives {number.text}, which is how many messages came, as messages per second",
+        steps.count_messages(trial.trace) or "swap the two values: the count is self.total_count",
+    )
 
 
 def _may_be_made_after(messages: int, summary: Summary, trial: Trial, *, before: int) -> bool:
@@ -162,6 +186,10 @@ def judge_rate(steady: Trial, jump: Trial) -> Verdict:
     expected = f"each summary states the messages per second: {rates.sent_hz(steady):.2f}, from {low:.1f} to {high:.1f}"
     evidence = [str(summary) for summary in summaries]
     stated = rates.find_stated_rates(summaries, allowed, jump)
+    if stated is not None and all(_total_as_rate(summary, steady) for summary in summaries):
+        wrong = summaries[-1]
+        observed = f"after {wrong.messages} messages it states {', '.join(n.text for n in wrong.numbers)}"
+        return failed(expected, observed, _diagnose_swapped(wrong, steady), evidence)
     if stated is None:
         wrong = next((r for r, a in zip(summaries, allowed, strict=True) if not a.among(r)), summaries[-1])
         return failed(

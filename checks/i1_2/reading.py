@@ -9,7 +9,7 @@ import math
 import re
 import unicodedata
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from tutor.judge.trace import LogRecord
@@ -26,16 +26,25 @@ _LABEL = re.compile(
     r"[\s_-]*+(?:[^\W\d]++\s*+)?[\"']?\s*+[:=]\s*+[^\w\s]*$",
     re.IGNORECASE,
 )
+_PER_SECOND = re.compile(  # right after a number, and not the label of the next one
+    r"[ _]*(?:[^\W\d]{1,12}\.?[ _]*)?(?:/ ?(?:s|secs?|seconds?|sek|sekunde|秒)|(?:per|pro|par|por|al)[ _](?:sec|second|"
+    r"sekunde|seconde|segundo|secondo)|hz)\b(?!\s*(?:[:=]|\(?-?\d))",
+    re.IGNORECASE,
+)
 _DIGITS = re.compile(r"(?<![0-9A-Za-z#])[0-9A-Za-z]*+#[0-9A-Za-z#]*")  # of an identifier, such as 0x5f3a
 _REPEATED = re.compile(r"(.)\1+")
 
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A number as written, and all values that it may stand for: "4,93" is 4.93, or 4 and 93."""
+    """A number as written, and all values that it may stand for: "4,93" is 4.93, or 4 and 93.
+
+    `per_second`: whether its unit says that it is a rate, as in "4.93 messages per second".
+    """
 
     text: str
     values: tuple[float, ...]
+    per_second: bool = False
 
     @property
     def value(self) -> float:
@@ -75,8 +84,7 @@ def parse_log(log: LogRecord, messages: int) -> Line:
     text = unicodedata.normalize("NFKC", _COLOUR.sub("", log.text))
     quoted = tuple(int(found[1]) for found in _CONTENT.finditer(text))
     plain = _CLOCK.sub("@", _CONTENT.sub("“”", text))
-    found_numbers = (number for found in _NUMBER.finditer(plain) for number in _split_list(found[0]))
-    numbers = tuple(number for number in found_numbers if all(map(math.isfinite, number.values)))
+    numbers = tuple(number for number in _find_numbers(plain) if all(map(math.isfinite, number.values)))
     shape = _REPEATED.sub(r"\1", re.sub(r"\s+", " ", _DIGITS.sub("#", _NUMBER.sub("#", plain)))).strip()
     return Line(log.level, shape, text, log.stamp, messages, quoted, numbers)
 
@@ -88,6 +96,13 @@ def labelled(text: str) -> Iterator[tuple[str, int]]:
         if label := _LABEL.search(text[end : found.start()]):
             yield "first" if label["first"] else "last", int(found[1])
         end = found.end()
+
+
+def _find_numbers(plain: str) -> Iterator[Number]:
+    for found in _NUMBER.finditer(plain):
+        *others, last = _split_list(found[0])
+        yield from others
+        yield replace(last, per_second=_PER_SECOND.match(plain, found.end()) is not None)
 
 
 def _split_list(written: str) -> Iterator[Number]:

@@ -594,6 +594,7 @@ FORMATS = st.sampled_from([
     "{f}|{l}|{n:05d}|{r:8.3f}", "n={n:.1f};r={r:.1f}/s;f={f};l={l}", "last: {l}\nfirst: {f}\nrate: {r}\ncount: {n}",
     "{n}件 毎秒{r:.1f}件 「{f}」「{l}」", "MessageStats(total_count={n}, first_message='{f}', last_message='{l}', "
     "start_time=1763726400.123, messages_per_second={r})", "#{n}: {r:g}Hz, «{f}» to «{l}»", "{n}/{r:.2f}/{f}/{l}",
+    "{r:.2f} msgs/sec | {n} messages | {f} | {l}", "total {n} Hz: {r:.1f} ({f}, {l})", "{n} msg/s={r:.2f} {f} {l}",
     "ogółem {n}, {r:.2f} na sekundę, od {f} do {l}", "count............{n}\nrate.............{r:.2f}\n{f}\n{l}",
 ])  # fmt: skip
 
@@ -660,6 +661,24 @@ def stating(count: str = "{n}", rate: str = "{r:.2f}", first: str = "{f}", last:
             yield 20, " | ".join(part.format(**known) for part in (count, rate, first, last))
 
     return Stating
+
+
+SWAPPED = [
+    "{r:.2f} messages in total, {n:.2f} messages per second, {f}, {l}",
+    "{r:.2f} msgs | {n} Hz | {f} | {l}",
+    "{f}, {l}, total={r:.1f}, rate={n}/s",
+]
+
+
+@pytest.mark.parametrize("written", SWAPPED)
+def test_a_count_in_place_of_the_rate_fails_both(written: str) -> None:
+    class Swapped(FakeStats):
+        def summary(self) -> Iterator[Log]:
+            yield 20, written.format(n=self.total, r=self.rate(), f=self.first, l=self.last)
+
+    verdicts = judge_trials(Swapped)
+    failing = {name: verdict.cause.split(":")[0] for name, verdict in verdicts.items() if not verdict.passed}
+    assert failing == {"count": "count and rate swapped", "rate": "count and rate swapped"}
 
 
 STATES_WRONG = {
