@@ -101,7 +101,8 @@ def declare_name(trace: Trace, name: str) -> str:
 def diagnose_name(trace: Trace, name: str) -> Cause:
     """Diagnose why the sensor's name is missing from the log messages."""
     read = file(trace)
-    if (cause := _diagnose_log_level(read) or _diagnose_missing_f(read)) is not None:
+    dropped = parameter_slips.diagnose_dropped_arguments(read)
+    if (cause := dropped or _diagnose_log_level(read) or _diagnose_missing_f(read)) is not None:
         return cause
     draw, imported = _draw(read)
     callback = [*publishing.whole_timer_callback(read, draw, log=name), *imported] if whole.is_usual(read) else []
@@ -121,7 +122,8 @@ def find_any_step(trace: Trace) -> str:
 
 def _diagnose_log_level(read: NodeFile) -> Cause | None:
     for call in read.calls("debug"):
-        if isinstance(call.func, ast.Attribute):
+        contains_value = any(not isinstance(each, ast.Constant) for each in call.args)
+        if isinstance(call.func, ast.Attribute) and contains_value:
             info = replace_node(read.text, call.func, f"{ast.unparse(call.func.value)}.info")
             if (step := read.step([info])) is not None:
                 text = f"line {call.lineno}: {ast.unparse(call)}: debug messages are not shown"
@@ -144,6 +146,7 @@ def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
     read = file(trace)
     return (
         diagnose_whole_rate(trace, name)
+        or parameter_slips.diagnose_dropped_arguments(read)
         or period_slips.diagnose_period_unit(read)
         or parameter_slips.diagnose_override(read, name, whole_program(read))
         or period_slips.diagnose_sleep(read, asked_hz)

@@ -12,6 +12,8 @@ from checks.i1_3 import client_names, client_requests, rewriting, service_steps,
 from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import CLIENT, CLIENT_S, OPERATOR_SIGNS, SERVER, SERVER_DELAY_S, ClientRun
 from tutor.judge import causes, edits, source, tracebacks
+from tutor.judge.causes import period_slips
+from tutor.judge.rewriting.node import started_node
 from tutor.judge.rewriting.program import call_main, first_sound_step
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
@@ -87,6 +89,9 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
     raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
     if cause.name == "did not end" and own is not None and "sleep(" in own.code:
         fixes: Sequence[_Step] = [partial(_remove_calls, names=("sleep",))]
+        if not _missing(seen):
+            function = own.function
+            fixes = [lambda code, *_: steps.make_thread_daemon(code, function), *fixes]
     elif cause.name == "did not end" and not _missing(seen) and source.calls(trace, "Thread"):
         joined = own if own is not None and ".join(" in own.code else None
         fixes = [
@@ -103,7 +108,12 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
     each_file = [partial(step, code, cause, seen) for step in fixes for code in learner_files(trace)]
     not_sent = cause.name in ("wrong service name", "wrong type", "not called", "waits too short a time")
     waits = (
-        [] if not_sent else [partial(client_requests.wait_for_answers, code, trace) for code in learner_files(trace)]
+        []
+        if not_sent
+        else [
+            *(partial(client_requests.spin_while_polling, code) for code in learner_files(trace)),
+            *(partial(client_requests.wait_for_answers, code, trace) for code in learner_files(trace)),
+        ]
     )
     file = next(iter(learner_files(trace)), Code(""))
     last = [partial(rewriting.rewrite_client, file)] if file.file else []
@@ -114,7 +124,9 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
 
 def _is_due_to_no_answer(found: tracebacks.Traceback | None) -> bool:
     """Whether an exception comes from using an answer that had not arrived yet."""
-    return found is not None and (_uses_none(found) or "'Future'" in found.message)
+    return found is not None and (
+        _uses_none(found) or "'Future'" in found.message or found.type.endswith(("Timeout", "TimeoutError"))
+    )
 
 
 def _uses_none(found: tracebacks.Traceback) -> bool:
@@ -177,6 +189,8 @@ def _diagnose_hang(seen: ClientRun, missing: Sequence[str]) -> Cause:
         return mismatched
     if (unknown := client_names.diagnose_client(seen, missing)) is not None:
         return unknown
+    if not seen.served and (unit := period_slips.diagnose_milliseconds(started_node(seen.trace))) is not None:
+        return unit
     own = tracebacks.own_frame(seen.stuck, seen.trace.folder)
     where = f" at {own}" if own else ""
     spins = any(frame.function.startswith("spin") for frame in seen.stuck)

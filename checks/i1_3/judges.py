@@ -81,6 +81,8 @@ def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
         return with_applicable_step(cause, trace, lambda: service_steps.rename_services(trace, misnamed))
     if (destroyed := service_steps.diagnose_destroyed(trace)) is not None:
         return destroyed
+    if (inactive := causes.diagnose_lifecycle(trace)) is not None:
+        return inactive
     cause = Cause(
         "service missing",
         f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there",

@@ -47,6 +47,18 @@ def join_thread(code: Code) -> str | None:
     return change.as_step() if change.swaps else shut_down_rclpy(code)
 
 
+def make_thread_daemon(code: Code, function: str) -> str | None:
+    """Step: make the thread that runs this function a daemon, so that Python does not wait for it at exit."""
+    change = Changes(code)
+    for call in code.calls("Thread"):
+        targets = [each.value for each in call.keywords if each.arg == "target"]
+        if targets and source.last_name(targets[0]) == function:
+            kept = [each for each in call.keywords if each.arg != "daemon"]
+            daemon = ast.keyword("daemon", ast.Constant(True))
+            change.swaps.append((call, ast.unparse(ast.Call(call.func, call.args, [*kept, daemon]))))
+    return change.as_step()
+
+
 def _find_entry_point(code: Code) -> Function | None:
     """Find the first function of the file that top-level code calls."""
     nodes = [node for each in code.top if not isinstance(each, _DEFINITIONS) for node in ast.walk(each)]

@@ -29,7 +29,7 @@ from checks.i2_1.failures import (
     with_steps,
 )
 from tutor.judge import causes, ending, tracebacks
-from tutor.judge.causes import names, period_slips
+from tutor.judge.causes import names, parameter_slips, period_slips
 from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import Level, Trace
@@ -151,8 +151,11 @@ def _diagnose_other_rate(trace: Trace) -> Cause:
 
 
 def _diagnose_ignored(name: str, trace: Trace) -> Cause:
-    return steps.diagnose_override(trace, name) or Cause(
-        "parameter ignored", f"{name} given at start-up has no effect", steps.use_parameter(trace, name)
+    dropped = parameter_slips.diagnose_dropped_arguments(started_node(trace))
+    return (
+        dropped
+        or steps.diagnose_override(trace, name)
+        or Cause("parameter ignored", f"{name} given at start-up has no effect", steps.use_parameter(trace, name))
     )
 
 

@@ -145,7 +145,7 @@ def _diagnose_ignored_change(name: str, trace: Trace) -> Cause:
     read = started_node(trace)
     old = parameter_slips.diagnose_old_value_read(read, name)
     if (
-        cause := parameter_slips.diagnose_override(read, name) or parameter_slips.diagnose_uncalled_callback(read)
+        cause := parameter_slips.diagnose_override(read, name) or parameter_slips.diagnose_broken_callback(read)
     ) is not None:
         return cause
     if old is not None:
@@ -211,6 +211,6 @@ def _diagnose_old_period(trace: Trace) -> Cause:
     if (old := parameter_slips.diagnose_old_value_read(read, RATE)) is not None:
         return replace(old, hint=old.hint or steps.follow_changes(trace))
     text = "the parameter changes, but the timer keeps its old period"
-    return parameter_slips.diagnose_uncalled_callback(read) or Cause(
+    return parameter_slips.diagnose_broken_callback(read) or Cause(
         names.TIMER_NOT_REPLACED, text, steps.follow_changes(trace)
     )

@@ -101,7 +101,7 @@ def _diagnose_change(trace: Trace, text: str) -> Cause:
 def _diagnose_no_validation(trace: Trace, bad: float) -> Cause:
     """Diagnose a node that accepts a bad rate."""
     read = started_node(trace)
-    return parameter_slips.diagnose_uncalled_callback(read) or Cause(
+    return parameter_slips.diagnose_broken_callback(read) or Cause(
         "no validation", parameter_slips.why_accepted(read, bad), steps.refuse_bad_rates(trace)
     )
 

@@ -7,9 +7,9 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 
 from tutor.judge import source, tracebacks
-from tutor.judge.causes import names, printing
+from tutor.judge.causes import names, printing, slips
 from tutor.judge.rewriting.node import started_node
-from tutor.judge.trace import OutputLine, Trace
+from tutor.judge.trace import Level, OutputLine, Trace
 from tutor.judge.verdict import Cause
 
 _LOG_LINE = re.compile(r"^(?:\x1b\[\d+m)?\[(?:DEBUG|INFO|WARN|ERROR|FATAL)\] \[\d+\.\d+\] \[(?P<logger>[^\]]*)\]")
@@ -60,7 +60,8 @@ def diagnose_printed(
         return Cause(
             "not the node's logger",
             f"{what} is logged by a logger that belongs to no node, so it does not reach /rosout: {logged[0].string}",
-            "use self.get_logger(): rclpy.logging.get_logger(...) writes to the terminal only",
+            printing.use_node_logger(started_node(trace))
+            or "use self.get_logger(): rclpy.logging.get_logger(...) writes to the terminal only",
         )
     late = [text for text in _printed_lines(tuple(after)) if says(text)]
     if late:
@@ -71,6 +72,9 @@ def diagnose_printed(
             f"{what} is printed, not logged, and appears only when the program ends: {late[0]}",
             f"{step}: print() into a pipe or a file waits until its buffer is full, a log message goes out at once",
         )
+    lowest = min((log.level for log in trace.logs), default=Level.FATAL)
+    if (raised := slips.diagnose_raised_level(started_node(trace), lowest)) is not None:
+        return raised
     unused = None if source.calls(trace, "get_logger") else printing.find_python_logging(trace)
     return _diagnose_python_logging(trace, unused, what) if unused is not None else None
 

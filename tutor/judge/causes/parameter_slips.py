@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from tutor.judge.edits import Edit, remove_statement, replace_node, replace_nodes
 from tutor.judge.rewriting import parameters
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.source import Function, where
+from tutor.judge.source import Function, called_name, where
 from tutor.judge.verdict import Cause
 
 _OVERWRITTEN = "value overwritten by the node"
@@ -106,14 +106,14 @@ def _diagnose_ignored_overrides(file: NodeFile, name: str) -> Cause | None:
     found: list[tuple[ast.expr, str]] = []
     first: ast.Call | None = None
     for call in file.calls("declare_parameter", "declare_parameters"):
-        keyword = next((each for each in call.keywords if each.arg == "ignore_override"), None)
-        if keyword is not None and ast.unparse(keyword.value) == "True":
+        given = argument(call, 3 if called_name(call) == "declare_parameter" else 2, "ignore_override")
+        if given is not None and ast.unparse(given) == "True":
             first = first or call if name in ast.unparse(call) else first
-            found.append((keyword.value, "False"))
+            found.append((given, "False"))
     step = file.step(replace_nodes(file.text, *found)) if first is not None else None
     if first is None or step is None:
         return None
-    text = f"{where(first)}: with ignore_override=True, the value given at start-up is ignored"
+    text = f"{where(first)}: with ignore_override True, the value given at start-up is ignored"
     return Cause(_OVERWRITTEN, text, step)
 
 
@@ -134,6 +134,55 @@ def _diagnose_reassignment(file: NodeFile, name: str) -> Cause | None:
             text = f"{where(node)} overwrites the value of {name} that line {kept.lineno} has read"
             return Cause(_OVERWRITTEN, text, step) if step else None
     return None
+
+
+def diagnose_dropped_arguments(file: NodeFile) -> Cause | None:
+    """Whether the node does not get the arguments of its command line, and so no parameter that is given there."""
+    for call in file.calls("init", "__init__", "Node", "create_node", *file.node_classes):
+        given = next((each.value for each in call.keywords if each.arg == "use_global_arguments"), None)
+        if given is not None and ast.unparse(given) == "False":
+            edit = replace_node(file.text, given, "True")
+        elif called_name(call) == "init" and (empty := _empty_list(file, argument(call, 0, "args"))) is not None:
+            edit = replace_node(file.text, empty, "None")
+        else:
+            continue
+        if (step := file.step([edit])) is not None:
+            text = f"{where(call)}: the node does not get the arguments that are given at start-up"
+            return Cause("arguments left out", text, step)
+    return None
+
+
+def _empty_list(file: NodeFile, given: ast.expr | None) -> ast.expr | None:
+    """The empty list that is given, or that is the default of the function's argument that is given."""
+    function = file.function_around(given) if isinstance(given, ast.Name) else None
+    if isinstance(given, ast.Name) and function is not None:
+        positional = function.args.args
+        defaults = dict(
+            zip([each.arg for each in reversed(positional)], reversed(function.args.defaults), strict=False)
+        )
+        given = defaults.get(given.id)
+    return given if isinstance(given, ast.List | ast.Tuple) and not given.elts else None
+
+
+def diagnose_broken_callback(file: NodeFile) -> Cause | None:
+    """Whether a parameter callback is never called, or compares a parameter's type with what it never equals."""
+    return diagnose_uncalled_callback(file) or _diagnose_compared_type(file)
+
+
+def _diagnose_compared_type(file: NodeFile) -> Cause | None:
+    compared = [
+        each.left
+        for each in file.nodes
+        if isinstance(each, ast.Compare)
+        and isinstance(each.left, ast.Attribute)
+        and each.left.attr in ("type_", "type")
+        and any("PARAMETER_" in ast.unparse(one) for one in each.comparators)
+    ]
+    step = file.step(replace_nodes(file.text, *((each, f"{ast.unparse(each)}.value") for each in compared)))
+    if not compared or step is None:
+        return None
+    text = f"{where(compared[0])} compares a Parameter.Type with a number of ParameterType: they are never equal"
+    return Cause("types never equal", text, step)
 
 
 def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:

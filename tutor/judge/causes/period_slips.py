@@ -10,6 +10,9 @@ from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import values_of, where
 from tutor.judge.verdict import Cause
 
+MIN_MILLISECONDS = 50.0
+"""A timer's period from this number on is in milliseconds: nobody waits so many seconds in an exercise."""
+
 
 def diagnose_integer_period(file: NodeFile) -> Cause | None:
     """Whether a timer's period is turned into a whole number, by //, int() or round()."""
@@ -32,6 +35,17 @@ def diagnose_period_unit(file: NodeFile) -> Cause | None:
                     f"line {period.lineno}: the period {ast.unparse(period)} is not the one of this rate: create_timer "
                     "takes seconds"
                 )
+                return Cause("wrong timer period", text, step) if step else None
+    return None
+
+
+def diagnose_milliseconds(file: NodeFile) -> Cause | None:
+    """Whether a timer's period is a plain number that must be meant in milliseconds, as in rclcpp's `500ms`."""
+    for period in _periods(file):
+        match period:
+            case ast.Constant(value=int() | float() as number) if number >= MIN_MILLISECONDS:
+                step = file.step([replace_node(file.text, period, f"{number / 1000:g}")])
+                text = f"line {period.lineno}: a period of {number:g} seconds: create_timer takes seconds"
                 return Cause("wrong timer period", text, step) if step else None
     return None
 

@@ -61,6 +61,21 @@ def enable_rosout(file: NodeFile) -> str | None:
     return file.step(replace_nodes(file.text, *swaps))
 
 
+def use_node_logger(file: NodeFile) -> str | None:
+    """The step that replaces loggers that belong to no node by the node's own, in methods of the node's class."""
+    made = [call for call in file.calls("get_logger") if call.args or call.keywords]
+    names = {file.assigned_to(call) for call in made if file.function_around(call) is None}
+    uses = [each for each in file.nodes if isinstance(each, ast.Name) and each.id in names]
+    node_classes = file.node_classes
+    swaps = []
+    for each in (*made, *uses):
+        function = file.function_around(each)
+        owner = file.class_of(function) if function is not None else None
+        if function is not None and function.args.args and owner is not None and owner.name in node_classes:
+            swaps.append((each, f"{function.args.args[0].arg}.get_logger()"))
+    return file.step(replace_nodes(file.text, *swaps))
+
+
 def log_instead_of_print(trace: Trace, call: ast.Call) -> str:
     """The step that replaces a call by one of the node's own logger, and with it the calls right above and below it."""
     file = source.file_holding(trace, call)

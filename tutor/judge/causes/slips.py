@@ -6,9 +6,10 @@ import ast
 
 from tutor.judge import edits, source
 from tutor.judge.rewriting.node import NodeFile
-from tutor.judge.trace import Trace
+from tutor.judge.trace import Level, Trace
 from tutor.judge.verdict import Cause
 
+_LEVELS = {"WARN": Level.WARN, "WARNING": Level.WARN, "ERROR": Level.ERROR, "FATAL": Level.FATAL}
 _TRUTH_VALUES = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
 
 
@@ -71,6 +72,23 @@ def diagnose_other_domain(file: NodeFile) -> Cause | None:
         if (step := file.step([edit])) is not None:
             text = f"{source.where(node)} puts the node into another domain, where nothing else sees it"
             return Cause("another domain", text, step)
+    return None
+
+
+def diagnose_raised_level(file: NodeFile, lowest: int) -> Cause | None:
+    """Whether the program raises a logger's level, so that messages below it are left out.
+
+    `lowest`: the lowest level (see `Level`) of the messages that were logged.
+    """
+    for call in file.calls("set_level", "set_logger_level"):
+        given = [*call.args, *(each.value for each in call.keywords)]
+        level = _LEVELS.get(source.last_name(given[-1])) if given else None
+        statement = file.statement(call)
+        if level is None or lowest < level or not isinstance(statement, ast.Expr):
+            continue
+        if (step := file.step([edits.remove_statement(file.text, statement)])) is not None:
+            text = f"line {call.lineno}: {ast.unparse(call)} leaves out what is logged below that level"
+            return Cause("log level raised", text, step)
     return None
 
 
