@@ -101,8 +101,10 @@ def declare_name(trace: Trace, name: str) -> str:
 def diagnose_name(trace: Trace, name: str) -> Cause:
     """Diagnose why the sensor's name is missing from the log messages."""
     read = file(trace)
+    shows_object = any("<rclpy.parameter.Parameter object" in log.text for log in trace.logs)
+    as_object = parameter_slips.diagnose_parameter_object(read, name) if shows_object else None
     dropped = parameter_slips.diagnose_dropped_arguments(read)
-    if (cause := dropped or _diagnose_log_level(read) or _diagnose_missing_f(read)) is not None:
+    if (cause := as_object or dropped or _diagnose_log_level(read) or _diagnose_missing_f(read)) is not None:
         return cause
     draw, imported = _draw(read)
     callback = [*publishing.whole_timer_callback(read, draw, log=name), *imported] if whole.is_usual(read) else []
@@ -147,6 +149,7 @@ def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
     return (
         diagnose_whole_rate(trace, name)
         or parameter_slips.diagnose_dropped_arguments(read)
+        or period_slips.diagnose_second_timer(read)
         or period_slips.diagnose_period_unit(read)
         or parameter_slips.diagnose_override(read, name, whole_program(read))
         or period_slips.diagnose_sleep(read, asked_hz)

@@ -11,7 +11,8 @@ from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, CallBatch, IdleRun, Sin
 from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
-from tutor.judge.causes import names
+from tutor.judge.causes import late_binding, names
+from tutor.judge.causes.slips import diagnose_unserved_node
 from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
@@ -63,6 +64,8 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
         return broken
     if (unmatched := causes.diagnose_incompatible_service(_our_servers(seen.trace))) is not None:
         return unmatched
+    if (overwritten := diagnose_unserved_node(started_node(seen.trace))) is not None:
+        return overwritten
     if not seen.spins and (empty := steps.diagnose_node_not_added(started_node(seen.trace))) is not None:
         return empty
     if not seen.spins or causes.is_in_blocking_call(seen.stuck):
@@ -100,6 +103,8 @@ def diagnose_wrong_sum(answer: CallAnswer, trace: Trace) -> Cause:
     source = started_node(trace)
     if answer.took_s < SHORTEST_S and (early := steps.diagnose_early_answer(source)) is not None:
         return early
+    if (late := late_binding.diagnose_late_binding(trace)) is not None:
+        return late
     step = steps.fix_answer(source) or "response.sum = request.a + request.b"
     actual, expected = answer.response["sum"], right_sum(answer)
     if actual == 0:

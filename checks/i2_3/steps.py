@@ -116,17 +116,19 @@ def separate_groups(file: NodeFile) -> str | None:
 
 
 def _add_threads(file: NodeFile) -> list[Edit]:
-    """More threads for a MultiThreadedExecutor that has only one."""
+    """More threads for a MultiThreadedExecutor that has only one, or a computed number if nothing else is wrong."""
     made = next(iter(file.calls(_MULTI_THREADED)), None)
     given = argument(made, 0, "num_threads") if made is not None else None
-    return [replace_node(file.text, given, str(_THREADS))] if given is not None and ast.unparse(given) == "1" else []
+    if given is None or (ast.unparse(given) != "1" and (isinstance(given, ast.Constant) or _group_edits(file))):
+        return []
+    return [replace_node(file.text, given, str(_THREADS))]
 
 
 def what_timer_waits_for(file: NodeFile) -> str:
     """Why the timer waits for the service although the executor has threads, as part of a sentence."""
     made = timer(file)
     if edits := _add_threads(file):
-        return f"the executor has too few threads, 1 (line {edits[0].first})"
+        return f"the executor has too few threads (line {edits[0].first})"
     if made is None or not _group_edits(file):
         return (
             "they are in one MutuallyExclusiveCallbackGroup (a node's default group is one), or the executor has too "

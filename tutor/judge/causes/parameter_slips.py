@@ -136,6 +136,18 @@ def _diagnose_reassignment(file: NodeFile, name: str) -> Cause | None:
     return None
 
 
+def diagnose_parameter_object(file: NodeFile, name: str) -> Cause | None:
+    """Whether the Parameter itself is used where its value is meant."""
+    for call in file.calls("get_parameter", "declare_parameter"):
+        around = next(file.ancestors(call), None)
+        constants = [each.value for each in _constants([call])]
+        if isinstance(around, ast.Assign | ast.FormattedValue) and name in constants[:1]:
+            step = file.step([replace_node(file.text, call, f"{ast.unparse(call)}.value")])
+            text = f"{where(call)} gives a Parameter object, and its value is in .value"
+            return Cause("parameter object", text, step) if step else None
+    return None
+
+
 def diagnose_dropped_arguments(file: NodeFile) -> Cause | None:
     """Whether the node does not get the arguments of its command line, and so no parameter that is given there."""
     for call in file.calls("init", "__init__", "Node", "create_node", *file.node_classes):

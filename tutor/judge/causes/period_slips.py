@@ -50,6 +50,31 @@ def diagnose_milliseconds(file: NodeFile) -> Cause | None:
     return None
 
 
+def diagnose_second_timer(file: NodeFile) -> Cause | None:
+    """Whether a timer with a fixed period runs beside another one with the same callback and a computed period."""
+    made = [(call, argument(call, 0, "timer_period_sec"), argument(call, 1, "callback")) for call in file.timers]
+    fixed = [each for each in made if each[1] is not None and _is_fixed(file, each[1])]
+    for call, period, callback in fixed:
+        others = [other for other, *given in made if (other, *given) not in fixed and _same(callback, given[1])]
+        step = file.step([remove_statement(file.text, file.statement(call))]) if others else None
+        if step is not None and period is not None:
+            text = (
+                f"line {call.lineno} makes a timer with the fixed period {ast.unparse(period)}, which runs beside "
+                f"the one of line {others[0].lineno}"
+            )
+            return Cause("two timers", text, step)
+    return None
+
+
+def _is_fixed(file: NodeFile, period: ast.expr) -> bool:
+    values = [period] if isinstance(period, ast.Constant) else values_of(ast.unparse(period), file.tree)
+    return bool(values) and all(isinstance(each, ast.Constant) for each in values)
+
+
+def _same(one: ast.expr | None, other: ast.expr | None) -> bool:
+    return one is not None and other is not None and ast.unparse(one) == ast.unparse(other)
+
+
 def diagnose_sleep(file: NodeFile, asked_hz: float) -> Cause | None:
     """Whether the timer's callback, or a function that it calls, sleeps, which limits the rate of the timer.
 

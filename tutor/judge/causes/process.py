@@ -125,7 +125,8 @@ def diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = Fa
     if broken is not None:
         return broken
     return (
-        diagnose_blocked(trace, stuck, spins=spins)
+        slips.diagnose_unserved_node(started_node(trace))
+        or diagnose_blocked(trace, stuck, spins=spins)
         or spinning.diagnose_not_spinning(trace, stuck, node_names(trace))
         or diagnose_no_spin(trace)
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 
 from tutor.judge import edits, source
 from tutor.judge.rewriting.node import NodeFile
@@ -10,6 +11,7 @@ from tutor.judge.trace import Level, Trace
 from tutor.judge.verdict import Cause
 
 _LEVELS = {"WARN": Level.WARN, "WARNING": Level.WARN, "ERROR": Level.ERROR, "FATAL": Level.FATAL}
+_NODE_LISTS = ("timers", "subscriptions", "services", "clients", "waitables", "guards")
 _TRUTH_VALUES = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
 
 
@@ -52,10 +54,18 @@ def _true_beside(file: NodeFile, name: ast.Constant) -> ast.expr | None:
                 nodes: list[ast.AST] = [values[keys.index(name)]]
             case _:
                 nodes = list(ast.walk(around))
-        found = [each for each in nodes if isinstance(each, ast.Constant) and each.value is True]
+        found = [each for each in nodes if isinstance(each, ast.expr) and _is_true(file, each)]
         if found or isinstance(around, ast.stmt):
             return next(iter(found), None)
     return None
+
+
+def _is_true(file: NodeFile, value: ast.expr) -> bool:
+    """Whether this is True, or a constant that is True."""
+    if isinstance(value, ast.Name):
+        given = source.values_of(value.id, file.tree)
+        return len(given) == 1 and isinstance(given[0], ast.Constant) and given[0].value is True
+    return isinstance(value, ast.Constant) and value.value is True
 
 
 def diagnose_other_domain(file: NodeFile) -> Cause | None:
@@ -72,6 +82,44 @@ def diagnose_other_domain(file: NodeFile) -> Cause | None:
         if (step := file.step([edit])) is not None:
             text = f"{source.where(node)} puts the node into another domain, where nothing else sees it"
             return Cause("another domain", text, step)
+    return None
+
+
+def diagnose_unserved_node(file: NodeFile) -> Cause | None:
+    """Whether executors cannot know what the node has to serve, or another node is spun in its place."""
+    return _diagnose_overwritten_attribute(file) or _diagnose_other_node_spun(file)
+
+
+def _diagnose_other_node_spun(file: NodeFile) -> Cause | None:
+    spins = [call for call in file.calls("spin") if len(call.args) == 1 and isinstance(call.args[0], ast.Name)]
+    made = {file.assigned_to(call): call for call in file.calls(*file.node_classes)}
+    helpers = {file.assigned_to(call) for call in file.calls("create_node", "Node")} - {""}
+    if len(spins) != 1 or len(made) != 1 or "" in made or file.calls("add_node"):
+        return None
+    spun, (name, own) = spins[0].args[0], next(iter(made.items()))
+    if ast.unparse(spun) not in helpers or file.function_around(own) is not file.function_around(spins[0]):
+        return None
+    step = file.step([edits.replace_node(file.text, spun, name)])
+    text = f"{source.where(spins[0])} runs the callbacks of {ast.unparse(spun)}, not those of {name}"
+    return Cause("another node spun", text, step) if step else None
+
+
+def _diagnose_overwritten_attribute(file: NodeFile) -> Cause | None:
+    """Whether the node overwrites a list of rclpy's Node that executors read, such as `self._services`."""
+    for each in file.nodes:
+        if not isinstance(each, ast.Assign | ast.AnnAssign):
+            continue
+        targets = each.targets if isinstance(each, ast.Assign) else [each.target]
+        function = file.function_around(each)
+        owner = file.class_of(function) if function is not None else None
+        names = [ast.unparse(target) for target in targets]
+        taken = next((name for name in names if name.removeprefix("self._") in _NODE_LISTS), None)
+        if taken is None or owner is None or owner.name not in file.node_classes:
+            continue
+        step = file.step(edits.replace_pattern(file.text, rf"\b{re.escape(taken)}\b", taken.replace("._", ".my_")))
+        if step is not None:
+            text = f"{source.where(each)} overwrites {taken}, by which rclpy's Node knows what it has to serve"
+            return Cause("attribute of Node overwritten", text, step)
     return None
 
 

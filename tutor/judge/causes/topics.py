@@ -7,10 +7,9 @@ import difflib
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from tutor.judge.causes import names, period_slips
+from tutor.judge.causes import names, period_slips, slips
 from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
-from tutor.judge.causes.slips import diagnose_simulated_time
 from tutor.judge.edits import (
     Edit,
     append_to_function,
@@ -67,7 +66,13 @@ def _diagnose_idle_publisher(trace: Trace, topic: str, step: str) -> Cause:
 def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause | None:
     """Whether the source shows why an existing publisher never sends anything: nothing calls it, or too rarely."""
     file = started_node(trace)
-    if (slip := period_slips.diagnose_period_unit(file) or diagnose_simulated_time(file)) is not None:
+    slip = (
+        period_slips.diagnose_period_unit(file)
+        or period_slips.diagnose_milliseconds(file)
+        or slips.diagnose_simulated_time(file)
+        or slips.diagnose_unserved_node(file)
+    )
+    if slip is not None:
         return slip
     if file.publisher and not file.calls("publish"):
         text = f"there is a publisher on {topic}, but nothing calls publish()"
@@ -92,7 +97,7 @@ def diagnose_nothing_received(
             return replace(mismatched[0], hint=_use_plain_depth(trace, ours.topic) or mismatched[0].hint)
         if not answers:
             return diagnose_no_answer(trace, stuck)
-        return Cause(
+        return slips.diagnose_unserved_node(started_node(trace)) or Cause(
             "callback does nothing",
             f"there is a subscription on {ours.topic}, but its messages have no effect",
             "is the right callback given to create_subscription, and the subscription kept in self?",

@@ -10,7 +10,7 @@ from itertools import takewhile
 
 from tutor.judge.edits import Edit, add_import, insert_after, insert_below, replace_statement
 from tutor.judge.rewriting.node import NodeFile, first_line, node_file
-from tutor.judge.source import Function, called_name, calls_in
+from tutor.judge.source import Function, called_name, calls_in, last_name
 from tutor.judge.trace import Trace
 
 SPINS = ("spin", "spin_once", "spin_some", "spin_until_future_complete")
@@ -131,14 +131,20 @@ def _call_once(file: NodeFile, scope: _Scope) -> list[Edit]:
 def _remove_obstacles(file: NodeFile) -> list[Edit]:
     """Let the process end: turn threads into daemons, and leave Ctrl+C and the exit to rclpy."""
     found = []
-    for each in file.calls("Thread", "Timer"):
-        if not any(given.arg == "daemon" for given in each.keywords) and called_name(each) == "Thread":
+    for each in [*file.calls("Thread"), *_thread_subclasses(file)]:
+        if not any(given.arg == "daemon" for given in each.keywords):
             found.append(_make_daemon(file, each))
     for each in file.calls("signal", "register"):
         statement = file.statement(each)
         if isinstance(statement, ast.Expr) and ast.unparse(each.func) in ("signal.signal", "atexit.register"):
             found.append(replace_statement(statement, "pass"))
     return found
+
+
+def _thread_subclasses(file: NodeFile) -> list[ast.Call]:
+    """The calls by which subclasses of Thread initialize it."""
+    classes = [each for each in file.nodes if isinstance(each, ast.ClassDef) and "Thread" in map(last_name, each.bases)]
+    return [call for each in classes for call in calls_in(each, "__init__")]
 
 
 def _make_daemon(file: NodeFile, call: ast.Call) -> Edit:
