@@ -171,12 +171,11 @@ def _make_instances(code: Code) -> str | None:
         each.value
         for each in code.nodes
         if isinstance(each, ast.Assign | ast.Return)
-        and source.last_name(each.value) == "Response"
+        and isinstance(each.value, ast.Attribute)
+        and each.value.attr == "Response"
         and (isinstance(each, ast.Return) or returned.intersection(map(ast.unparse, each.targets)))
     ]
-    return code.as_step(
-        edits.replace_nodes(code.text, *((each, f"{ast.unparse(each)}()") for each in classes if each is not None))
-    )
+    return code.as_step(edits.replace_nodes(code.text, *((each, f"{ast.unparse(each)}()") for each in classes)))
 
 
 def _fix_all_returns(trace: Trace, code: Code) -> list[Edit]:

@@ -229,7 +229,7 @@ def diagnose_lost_calls(trace: Trace, batch: CallBatch, answered: Sequence[CallA
             steps.fix_answer(source)
             or "keep a and b in local variables of the callback, not in self: several calls are in it at once",
         )
-    return Cause(
+    return late_binding.diagnose_late_binding(trace) or Cause(
         "wrong sum",
         f"the sums are {', '.join(map(str, sums))}",
         steps.fix_answer(source) or "answer every call with its own a + b, also while another one is being worked on",

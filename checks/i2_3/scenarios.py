@@ -336,8 +336,11 @@ def _random_operands() -> Mapping[str, int]:
 
 
 def _large_operands() -> Mapping[str, int]:
-    """Operands whose sum needs a 64-bit integer: neither 32 bits nor a float can represent it."""
-    return {"a": 2**53 + 2 * random.randint(1, 2**50) + 1, "b": 2 * random.randint(1, 900)}
+    """Operands whose sum needs a 64-bit integer: neither 32 bits nor a float can represent it.
+
+    Their product fits into one, too, so that a node that multiplies answers all the same.
+    """
+    return {"a": 2**53 + 2 * random.randint(1, 2**50) + 1, "b": 2 * random.randint(1, 400)}
 
 
 def _distinct_operands() -> list[Mapping[str, int]]:

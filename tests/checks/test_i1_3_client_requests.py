@@ -240,3 +240,33 @@ def test_an_event_that_nothing_sets_is_set_by_the_answer(spins: str, before: str
 @pytest.mark.parametrize("sets", ["answered.set()\n", "node.on_answer = answered.set\n"])
 def test_an_event_that_something_sets_is_left_alone(sets: str) -> None:
     assert set_event_step(WAITS.format(spins=SPINS, before=MADE + sets, within="", wait=WAIT)) is None
+
+
+POLLS = """\
+class Calculator:
+    def __init__(self, node):
+        self._node = node
+        self._add = node.create_client(AddTwoInts, "add")
+
+    def add(self, request):
+        future = self._add.call_async(request)
+        while not future.done():
+            {}
+        return future.result().sum
+"""
+
+
+def test_a_loop_that_polls_a_future_spins_instead_of_sleeping() -> None:
+    polled = POLLS.format("rclpy.spin_once(self._node, timeout_sec=0.1)")
+    assert follow_step(POLLS.format("time.sleep(0.01)"), client_requests.spin_while_polling) == polled
+    assert follow_step(polled, client_requests.spin_while_polling) is None
+
+
+def test_a_thread_that_outlives_the_client_becomes_a_daemon() -> None:
+    def step(code: Code) -> str | None:
+        return steps.make_thread_daemon(code, "beat")
+
+    kept = "threading.Thread(target=self.beat, daemon=False).start()\nthreading.Thread(target=self.spin).start()\n"
+    daemon = kept.replace("daemon=False", "daemon=True")
+    assert follow_step(kept, step) == daemon
+    assert follow_step(daemon, step) is None

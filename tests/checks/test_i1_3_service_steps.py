@@ -141,3 +141,11 @@ def test_a_spinning_thread_is_no_longer_a_daemon() -> None:
     text = "t = Thread(target=executor.spin, daemon=True)\n"
     step = steps.join_thread(Code(text, "node.py"))
     assert step == "in node.py, line 1 becomes: t = Thread(target=executor.spin)"
+
+
+@pytest.mark.parametrize("made", ["self.res = AddTwoInts.Response", "Response = AddTwoInts.Response"])
+def test_a_response_class_that_is_returned_becomes_an_instance(made: str) -> None:
+    name = made.split(" =")[0]
+    text = body(made, f"{name}.sum = 1", f"return {name}")
+    fixed = text.replace("AddTwoInts.Response", "AddTwoInts.Response()")
+    assert follow_step(text, lambda run: service_steps.return_response(run, "/divide")) == fixed

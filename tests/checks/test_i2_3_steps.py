@@ -86,7 +86,12 @@ def test_a_single_thread_is_replaced_by_several(file: NodeFile, step: str) -> No
 @pytest.mark.parametrize(
     ("file", "held", "step"),
     [
-        (changed(("num_threads=4", "num_threads=1")), "too few threads, 1 (line 30)", "num_threads=8"),
+        (changed(("num_threads=4", "num_threads=1")), "too few threads (line 30)", "num_threads=8"),
+        (
+            changed(("num_threads=4", "num_threads=config.get('threads', 1)"), ("=self.other", "=self.group")),
+            "too few threads (line 30)",
+            "num_threads=8",
+        ),
         (
             changed((", callback_group=self.group", ""), (", callback_group=self.other", "")),
             "the node's default group",

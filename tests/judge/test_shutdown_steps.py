@@ -101,6 +101,12 @@ def test_a_thread_started_by_the_node_becomes_a_daemon() -> None:
     assert "line 8 becomes: Thread(target=self.watch, daemon=True).start()" in shutdown_steps.allow_interrupt(kept)
 
 
+def test_a_subclass_of_thread_becomes_a_daemon() -> None:
+    watch = "class Watch(Thread):\n    def __init__(self):\n        super().__init__(name='w')\n\n\n"
+    kept = changed(("def main", f"{watch}def main"))
+    assert "super().__init__(name='w', daemon=True)" in shutdown_steps.allow_interrupt(kept)
+
+
 def test_a_correct_program_is_not_rewritten() -> None:
     assert shutdown_steps.allow_interrupt(node(MAIN)).startswith("let KeyboardInterrupt end the program")
     assert shutdown_steps.exit_with_zero(node("def broken(")).startswith("return normally")

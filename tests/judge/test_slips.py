@@ -7,9 +7,10 @@ from dataclasses import replace
 import pytest
 
 from tests.checks.builders import trace
-from tutor.judge.causes import slips
+from tutor.judge.causes import late_binding, parameter_slips, period_slips, slips
+from tutor.judge.causes.printing import use_node_logger
 from tutor.judge.rewriting.node import node_file
-from tutor.judge.trace import Trace
+from tutor.judge.trace import Level, Trace
 
 
 def node(text: str) -> Trace:
@@ -73,3 +74,147 @@ def test_a_domain_of_its_own_is_named(text: str, step: str) -> None:
 @pytest.mark.parametrize("text", ["print(os.environ['ROS_DOMAIN_ID'])", "rclpy.init(args=args)"])
 def test_the_domain_of_the_environment_is_not_reported(text: str) -> None:
     assert slips.diagnose_other_domain(node_file(text)) is None
+
+
+def test_simulated_time_may_be_switched_on_by_a_constant() -> None:
+    found = slips.diagnose_simulated_time(node_file("SIM = True\nn.set('use_sim_time', SIM)"))
+    assert found is not None
+    assert found.hint == "line 2 becomes: n.set('use_sim_time', False)"
+
+
+@pytest.mark.parametrize(
+    ("call", "lowest", "hides"),
+    [
+        ("self.get_logger().set_level(LoggingSeverity.WARN)", Level.FATAL, True),
+        ("rclpy.logging.set_logger_level('n', rclpy.logging.LoggingSeverity.ERROR)", Level.ERROR, True),
+        ("self.get_logger().set_level(LoggingSeverity.WARN)", Level.INFO, False),
+        ("self.get_logger().set_level(LoggingSeverity.DEBUG)", Level.FATAL, False),
+    ],
+)
+def test_a_raised_log_level_is_named_unless_lower_messages_came(call: str, lowest: Level, hides: bool) -> None:
+    found = slips.diagnose_raised_level(node_file(f"x = 1\n{call}\n"), lowest)
+    assert (found.hint if found else None) == (f"remove line 2: {call}" if hides else None)
+
+
+CLASS = "class N(Node):\n  def __init__(self):\n    super().__init__('n')\n"
+
+
+@pytest.mark.parametrize("name", ["_services", "_timers", "_subscriptions"])
+def test_an_overwritten_list_of_the_node_gets_another_name(name: str) -> None:
+    text = f"{CLASS}    self.{name}: dict = {{}}\n    self.{name}['a'] = 1\n"
+    found = slips.diagnose_unserved_node(node_file(text))
+    assert found is not None
+    new = name.replace("_", "my_", 1)
+    assert set(found.hint.splitlines()) == {
+        f"line 4 becomes: self.{new}: dict = {{}}",
+        f"line 5 becomes: self.{new}['a'] = 1",
+    }
+
+
+@pytest.mark.parametrize("text", [f"{CLASS}    self.services_ = []", "class A:\n  def f(self):\n    self._timers = 1"])
+def test_other_attributes_and_classes_are_not_reported(text: str) -> None:
+    assert slips.diagnose_unserved_node(node_file(text)) is None
+
+
+MAIN = "def main():\n  helper = rclpy.create_node('h')\n  own = N()\n  rclpy.spin({})\n"
+
+
+def test_another_node_spun_is_named() -> None:
+    found = slips.diagnose_unserved_node(node_file(CLASS + MAIN.format("helper")))
+    assert found is not None
+    assert found.hint == "line 7 becomes: rclpy.spin(own)"
+    assert slips.diagnose_unserved_node(node_file(CLASS + MAIN.format("own"))) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "step"),
+    [
+        ("rclpy.init(args=[])", "line 1 becomes: rclpy.init(args=None)"),
+        ("def main(args=[]):\n  rclpy.init(args=args)", "line 1 becomes: def main(args=None):"),
+        (
+            "n = Node('n', use_global_arguments=False)",
+            "line 1 becomes: n = Node('n', use_global_arguments=True)",
+        ),
+        ("rclpy.init(args=args)", None),
+        ("def main(args=None):\n  rclpy.init(args=args)", None),
+        ("def main(n, args=['a'], *, x=[]):\n  rclpy.init(args=args)", None),
+        ("rclpy.init()", None),
+    ],
+)
+def test_arguments_that_do_not_reach_the_node_are_named(text: str, step: str | None) -> None:
+    found = parameter_slips.diagnose_dropped_arguments(node_file(text))
+    assert (found.hint if found else None) == step
+
+
+def test_a_type_is_not_compared_with_a_number() -> None:
+    text = "def f(p):\n  if p.type_ == ParameterType.PARAMETER_BOOL:\n    pass\nn.add_on_set_parameters_callback(f)"
+    found = parameter_slips.diagnose_broken_callback(node_file(text))
+    assert found is not None
+    assert found.hint == "line 2 becomes: if p.type_.value == ParameterType.PARAMETER_BOOL:"
+    right = text.replace("ParameterType.PARAMETER_BOOL", "Parameter.Type.BOOL")
+    assert parameter_slips.diagnose_broken_callback(node_file(right)) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "step"),
+    [
+        ("self.n = self.get_parameter('name')", "line 1 becomes: self.n = self.get_parameter('name').value"),
+        ("self.n = self.get_parameter('name').value", None),
+        ("self.n = self.get_parameter('other')", None),
+    ],
+)
+def test_a_parameter_object_is_not_its_value(text: str, step: str | None) -> None:
+    found = parameter_slips.diagnose_parameter_object(node_file(text), "name")
+    assert (found.hint if found else None) == step
+
+
+@pytest.mark.parametrize(
+    ("text", "step"),
+    [
+        ("self.create_timer(500, self.tick)", "line 1 becomes: self.create_timer(0.5, self.tick)"),
+        ("PERIOD = 100\nself.create_timer(PERIOD, self.tick)", "line 1 becomes: PERIOD = 0.1"),
+        ("self.create_timer(5, self.tick)", None),
+    ],
+)
+def test_a_period_in_milliseconds(text: str, step: str | None) -> None:
+    found = period_slips.diagnose_milliseconds(node_file(text))
+    assert (found.hint if found else None) == step
+
+
+TIMERS = "P = 0.5\nself.t = self.create_timer(P, self.tick)\nself.u = self.create_timer(1 / rate, self.{})"
+
+
+def test_a_second_timer_with_a_fixed_period_is_removed() -> None:
+    found = period_slips.diagnose_second_timer(node_file(TIMERS.format("tick")))
+    assert found is not None
+    assert found.hint == "remove line 2: self.t = self.create_timer(P, self.tick)"
+    assert period_slips.diagnose_second_timer(node_file(TIMERS.format("other"))) is None
+
+
+LOGGER = "{}class N(Node):\n  def f(self):\n    {}\n    {}.info('x')\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "step"),
+    [
+        (
+            LOGGER.format("", "self.log = rclpy.logging.get_logger('a')", "self.log"),
+            "line 3 becomes: self.log = self.get_logger()",
+        ),
+        (
+            LOGGER.format("log = get_logger('a')\n", "x = 1", "log"),
+            "line 5 becomes: self.get_logger().info('x')",
+        ),
+        (LOGGER.format("", "x = 1", "self.get_logger()"), None),
+    ],
+)
+def test_a_logger_of_no_node_is_replaced(text: str, step: str | None) -> None:
+    assert use_node_logger(node_file(text)) == step
+
+
+def test_a_callback_made_in_a_loop_sees_the_values_of_the_last_iteration() -> None:
+    text = "for n, op in OPS:\n  self.create_service(T, n, lambda q, r: self.do(op, q, r))"
+    found = late_binding.diagnose_late_binding(node(text))
+    assert found is not None
+    assert "lambda q, r, op=op: self.do(op, q, r)" in found.hint
+    assert late_binding.diagnose_late_binding(node(text.replace("q, r:", "q, r, op=op:"))) is None
