@@ -27,10 +27,20 @@ from tutor.judge.waiting import wait_for_message
 async def collect_values(bench: Bench) -> CollectedValues:
     """Collect values from two plain starts, and more if they look suspicious.
 
-    Once the run at a higher rate has shown a pattern, there is no point in collecting more.
+    Once the run at a higher rate has shown a pattern, there is no point in collecting more; nor once all runs, those
+    with a parameter included, have sent one value again and again.
     """
     counts: dict[Run, int] = {}
     fast = asyncio.ensure_future(_regular_values(bench))
+    probed: list[asyncio.Task[list[list[float]]]] = []
+
+    def all_constant(values: list[float]) -> bool:
+        if len(values) < 3 or len(set(values)) > 1:
+            return False
+        if not probed:
+            probed.append(asyncio.ensure_future(_probed_values(bench)))
+        others = probed[0].result() if probed[0].done() else []
+        return randomness.are_all_constant([*map(values_of, counts), *others])
 
     def enough(run: Run) -> bool:
         values = values_of(run)
@@ -49,14 +59,18 @@ async def collect_values(bench: Bench) -> CollectedValues:
         return (
             (decided and len(values) >= MIN_VALUES)
             or len(values) >= randomness.FULL_SAMPLE_SIZE
-            or (not suspicious and run.now() >= run.samples_on(TOPIC)[0].source_time + MIN_COLLECT_S)
+            or (
+                bool(values)
+                and (all_constant(values) or not suspicious)
+                and run.now() >= run.samples_on(TOPIC)[0].source_time + MIN_COLLECT_S
+            )
         )
 
     try:
         runs = await asyncio.gather(_collect(bench, enough), _collect(bench, enough))
         fast_values = fast.result() if fast.done() else ()
     finally:
-        await cancel([fast])
+        await cancel([fast, *probed])
     return CollectedValues(tuple(values for values, _ in runs), runs[0][1], fast_values)
 
 
@@ -71,6 +85,13 @@ async def _regular_values(bench: Bench) -> tuple[float, ...]:
     return ()
 
 
+async def _probed_values(bench: Bench) -> list[list[float]]:
+    """Return the values of each run in which a parameter that may be the rate was set."""
+    with suppress(MachineTooBusy):
+        return [values_of(probe.trace) for probe in (await bench.facts(probe_rates)).probes]
+    return []
+
+
 async def collect_more_values(bench: Bench) -> CollectedValues:
     """Return the values of `plain_start`; if a rate probe went out of range, also plenty from two more plain starts.
 
@@ -79,8 +100,7 @@ async def collect_more_values(bench: Bench) -> CollectedValues:
     plain = tuple(values_of((await bench.facts(plain_start)).trace))
     probed: list[float] = []
     if not find_out_of_range((*plain, *(await bench.facts(collect_values)).all)):
-        with suppress(MachineTooBusy):
-            probed = [value for probe in (await bench.facts(probe_rates)).probes for value in values_of(probe.trace)]
+        probed = [value for values in await _probed_values(bench) for value in values]
     if not find_out_of_range(probed):
         return CollectedValues((plain,))
     bench.report_progress(0.6, "listening longer: a start with a parameter gave a temperature that is out of range")

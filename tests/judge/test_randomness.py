@@ -21,6 +21,7 @@ from tutor.judge.randomness import (
     COARSE_SAMPLE_SIZE,
     FULL_SAMPLE_SIZE,
     MIN_SAMPLE_SIZE,
+    are_all_constant,
     are_coarse,
     find_pattern,
     may_be_one_sequence,
@@ -315,3 +316,17 @@ def main() -> None:
 
 if __name__ == "__main__":
     main()
+
+
+@pytest.mark.parametrize(
+    ("runs", "expected"),
+    [
+        ([[5.0] * 7, [6.0] * 7, [5.0] * 60], True),
+        ([[5.0] * 7, [6.0] * 6, [5.0] * 60], False),
+        ([[5.0] * 60, [], [5.0]], False),
+        ([[5.0] * 30, [5.0] * 30], True),
+        ([[5.0] * 30, [5.0] * 30, [5.0, 6.0]], False),
+    ],
+)
+def test_several_constant_runs_are_evidence_together(runs: list[list[float]], expected: bool) -> None:
+    assert are_all_constant(runs) is expected

@@ -175,3 +175,12 @@ async def test_a_hiccup_in_the_first_window_does_not_count() -> None:
     rate, _ = await measure_steady_rate(FakeRun(stalled), "/t", 10.0, since=0.0)  # type: ignore[arg-type]
     assert rate is not None
     assert rate.hz == pytest.approx(10.0, rel=0.01)
+
+
+async def test_a_flood_is_measured_no_longer_than_it_takes_to_see_it() -> None:
+    run = FakeRun(_ticks(500.0), cpu_wait_share=0.5)
+    rate, messages = await measure_steady_rate(run, "/t", 5.0, since=0.0)  # type: ignore[arg-type]
+    assert rate is not None
+    assert rate.hz == pytest.approx(500.0)
+    assert 20 <= messages <= 40
+    assert run.now() < 0.3

@@ -88,6 +88,15 @@ def needs_more_values(values: Sequence[float]) -> bool:
     )
 
 
+def are_all_constant(runs: Sequence[Sequence[float]]) -> bool:
+    """Whether each run repeats a value of its own, together so often that this cannot be chance.
+
+    Half of the repetitions at most may come from one run, since a fast one may send a slower reading several times.
+    """
+    repetitions = (min(len(run) - 1, FULL_SAMPLE_SIZE // 2) for run in runs if run)
+    return all(len(set(run)) <= 1 for run in runs) and sum(repetitions) >= FULL_SAMPLE_SIZE
+
+
 def are_coarse(values: Sequence[float]) -> bool:
     """Whether some value occurs more than once, as among whole degrees."""
     return not _all_distinct(values)
