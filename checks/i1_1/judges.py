@@ -163,19 +163,23 @@ def judge_echo(seen: PlainStart) -> Verdict:
     echo = seen.echo
     if echo is None:  # the first message came after the wait for it had timed out
         return failed(expected, "the first message came too late", _diagnose_stopped(seen.trace))
-    if echo.samples and len(echo.types) == 1:
+    # A subscription counts, too: the real echo takes the type from all that is on the topic, and refuses two.
+    graph = seen.trace.graph
+    found = {each.type for each in (*graph.publishers, *graph.subscriptions) if each.topic == TOPIC}
+    if len(types := sorted(found.union(echo.types))) > 1:
+        cause = Cause(
+            "wrong type",
+            f"{TOPIC} carries two types, {' and '.join(types)}; echo cannot choose",
+            steps.use_one_type(seen.trace),
+        )
+        return failed(expected, "refused, since there is more than one type on the topic", cause)
+    if echo.samples:
         return passed(
             expected,
             f"shown with {echo.qos.reliability}, {echo.qos.durability} QoS",
             [f"data: {echo.samples[0].message['data']}"],
         )
-    if len(echo.types) > 1:
-        cause = Cause(
-            "wrong type",
-            f"{TOPIC} carries two types, {' and '.join(echo.types)}; echo cannot choose",
-            steps.use_one_type(seen.trace),
-        )
-    elif not echo.types:
+    if not echo.types:
         cause = _diagnose_exception(seen.trace) or Cause(
             "no publisher", "the publisher was gone when echo looked for it", "keep it for as long as the node lives"
         )

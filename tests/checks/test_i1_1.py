@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -49,7 +50,7 @@ from tests.checks.builders import (
 )
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Echo, Trace
-from tutor.ros_model import Parameter, QoS
+from tutor.ros_model import Parameter, QoS, TopicEndpoint
 
 PUBLISHING = graph(publishers={TOPIC: TYPE})
 MESSAGES = samples(TOPIC, 2.0, data=23.5)
@@ -196,6 +197,12 @@ def test_echo_passes() -> None:
 )
 def test_echo_fails(shown: Echo | None, cause: str) -> None:
     assert_failed(judge_echo(plain_start(trace(*MESSAGES), echo=shown)), cause)
+
+
+def test_echo_refuses_a_topic_to_which_another_type_subscribes() -> None:
+    subscribed = replace(graph(), subscriptions=(TopicEndpoint(TOPIC, "std_msgs/msg/String", "/display"),))
+    seen = plain_start(replace(trace(*MESSAGES), graph=subscribed), echo=echo(TYPE))
+    assert_failed(judge_echo(seen), "wrong type", "std_msgs/msg/String")
 
 
 def test_a_crash_is_the_cause_rather_than_a_missing_timer() -> None:

@@ -163,7 +163,7 @@ def whole_publishing(
 
 
 def use_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
-    """Move publishers of any other type on a topic to a topic of their own."""
+    """Move publishers of any other type on a topic to a topic of their own; let subscriptions expect the right type."""
     own, _ = file.import_name(type_name.rpartition("/")[2], type_name.partition("/")[0] + ".msg")
     edits = []
     for call in file.calls("create_publisher"):
@@ -172,6 +172,10 @@ def use_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
             continue
         if _topic_text(file, name) == topic.lstrip("/"):
             edits.append(replace_node(file.text, name, repr(f"{topic}_{ast.unparse(kind).lower()}")))
+    for call in file.calls("create_subscription"):
+        kind, name = argument(call, 0, "msg_type"), argument(call, 1, "topic")
+        if kind is not None and ast.unparse(kind) != own and _topic_text(file, name) == topic.lstrip("/"):
+            edits.append(replace_node(file.text, kind, own))
     return edits
 
 
