@@ -218,3 +218,12 @@ def test_a_callback_made_in_a_loop_sees_the_values_of_the_last_iteration() -> No
     assert found is not None
     assert "lambda q, r, op=op: self.do(op, q, r)" in found.hint
     assert late_binding.diagnose_late_binding(node(text.replace("q, r:", "q, r, op=op:"))) is None
+
+
+def test_the_experimental_executor_is_replaced() -> None:
+    text = "from rclpy.experimental import EventsExecutor\nexecutor = EventsExecutor()"
+    found = slips.diagnose_events_executor(node_file(text))
+    assert found is not None
+    assert "executor = MultiThreadedExecutor()" in found.hint
+    assert "from rclpy.executors import MultiThreadedExecutor" in found.hint
+    assert slips.diagnose_events_executor(node_file("executor = SingleThreadedExecutor()")) is None
