@@ -83,10 +83,12 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
         return failed(expected, f"with {given}: no message on {TOPIC}", cause, causes.output_tail(seen.trace))
     without = [text_of(sample) for sample in samples[-2:] if seen.prefix not in text_of(sample)]
     if without:
+        ignored = [RATE] if seen.rate is None or not seen.rate.agrees_with(LAUNCH_HZ) else []
+        ignored += [ENABLED] if seen.disabled.samples_on(TOPIC) else []
         return failed(
             expected,
             f'with {given}: "{without[-1]}"',
-            _diagnose_ignored(PREFIX, seen.trace),
+            _diagnose_ignored(PREFIX, seen.trace, *ignored),
             [text_of(s) for s in samples[:6]],
         )
     if seen.rate is None or not seen.rate.agrees_with(LAUNCH_HZ):
@@ -150,12 +152,16 @@ def _diagnose_other_rate(trace: Trace) -> Cause:
     )
 
 
-def _diagnose_ignored(name: str, trace: Trace) -> Cause:
+def _diagnose_ignored(name: str, trace: Trace, *others: str) -> Cause:
     dropped = parameter_slips.diagnose_dropped_arguments(started_node(trace))
     return (
         dropped
         or steps.diagnose_override(trace, name)
-        or Cause("parameter ignored", f"{name} given at start-up has no effect", steps.use_parameter(trace, name))
+        or Cause(
+            "parameter ignored",
+            f"{name} given at start-up has no effect",
+            steps.use_parameter(trace, name, *others),
+        )
     )
 
 

@@ -46,17 +46,20 @@ def add_publisher(trace: Trace) -> str:
     )
 
 
-def use_parameter(trace: Trace, name: str) -> str:
-    """Step: let the node use the parameter's value, which each message looks up."""
+def use_parameter(trace: Trace, name: str, *others: str) -> str:
+    """Step: let the node use the parameter's value, which each message looks up; `others`: more such parameters."""
     read = started_node(trace)
-    if name == RATE:
-        smallest = publishing.set_period(read, f"1.0 / {read.value(RATE)}")
-    elif name == PREFIX:
-        smallest = publishing.send_data(read, publishing.prefixed_text(read, PREFIX))
-    else:
-        smallest = publishing.pause_while_off(read, ENABLED)
+    smallest = [edit for each in (name, *others) for edit in _use_value(read, each)]
     advice = f"the timer's period is 1.0 / {RATE}" if name == RATE else f"look {name} up for each message"
     return read.step(smallest, *_larger(read, _all_callbacks)) or f"{advice}: {read.value(name)}"
+
+
+def _use_value(read: NodeFile, name: str) -> list[Edit]:
+    if name == RATE:
+        return publishing.set_period(read, f"1.0 / {read.value(RATE)}")
+    if name == PREFIX:
+        return publishing.send_data(read, publishing.prefixed_text(read, PREFIX))
+    return publishing.pause_while_off(read, ENABLED)
 
 
 def use_parameter_later(trace: Trace, name: str) -> str:

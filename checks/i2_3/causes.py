@@ -12,6 +12,7 @@ from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
 from tutor.judge.causes import late_binding, names
+from tutor.judge.causes.period_slips import diagnose_twin_timers
 from tutor.judge.causes.slips import diagnose_unserved_node
 from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.trace import CallAnswer, Trace
@@ -139,6 +140,8 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
                 or f"self.create_timer({1 / HZ:g}, self.tick, ...), and log every tenth tick's number at info",
             )
         )
+    if likely.hz > HZ and (twins := diagnose_twin_timers(source)) is not None:
+        return twins
     if likely.numbered or likely.hz > HZ:
         return Cause(
             "wrong timer period",

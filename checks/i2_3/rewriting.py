@@ -60,7 +60,9 @@ def rewrite_service_callback(file: NodeFile) -> list[Edit]:
         return [*edits, replace_node(file.text, given, "self.add_slowly")] if given is not None else edits
     names = [each.arg for each in found.args.args]
     is_method = file.class_of(found) is not None and not is_static(found)
-    if len(names) - is_method != 2 or found.args.kwonlyargs:
+    given = argument(made, 2, "callback") if made is not None else None
+    binds_others = isinstance(given, ast.Lambda | ast.Call) and len(names) - is_method > 2  # such as partial(add, node)
+    if (len(names) - is_method != 2 and not binds_others) or found.args.kwonlyargs:
         first = [*names[:1]] if is_method else []
         code = f"def {found.name}({', '.join([*first, 'request', 'response'])}):\n" + _indented(
             _work_code(sleep, "request", "response")

@@ -116,10 +116,10 @@ def separate_groups(file: NodeFile) -> str | None:
 
 
 def _add_threads(file: NodeFile) -> list[Edit]:
-    """More threads for a MultiThreadedExecutor that has only one, or a computed number if nothing else is wrong."""
+    """More threads for a MultiThreadedExecutor that has only one, or another number if nothing else is wrong."""
     made = next(iter(file.calls(_MULTI_THREADED)), None)
     given = argument(made, 0, "num_threads") if made is not None else None
-    if given is None or (ast.unparse(given) != "1" and (isinstance(given, ast.Constant) or _group_edits(file))):
+    if given is None or ast.unparse(given) == str(_THREADS) or (ast.unparse(given) != "1" and _group_edits(file)):
         return []
     return [replace_node(file.text, given, str(_THREADS))]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 
-from tutor.judge.edits import Edit, replace_lines, replace_pattern
+from tutor.judge.edits import Edit, remove_statement, replace_lines, replace_pattern
 from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.rewriting.program import SPINS, clean_ending, first_sound_step, guard_spin
 from tutor.judge.trace import Trace
@@ -51,10 +51,24 @@ def remove_line(trace: Trace, own: Frame | None) -> str:
             trace, lambda file: [replace_lines(own.line, "return")] if own.name == trace.file else []
         )
         return instead or f"write return in place of line {own.line}, {own.code}: Ctrl+C is a normal end, and no error"
-    return first_sound_step(trace, clean_ending) or (
-        "after Ctrl+C the node can neither publish nor log over ROS: stop before that, or catch the exception; print() "
-        "still works"
+    return (
+        first_sound_step(trace, clean_ending)
+        or _without_statement(trace, own)
+        or (
+            "after Ctrl+C the node can neither publish nor log over ROS: stop before that, or catch the exception; "
+            "print() still works"
+        )
     )
+
+
+def _without_statement(trace: Trace, own: Frame | None) -> str | None:
+    """The step that removes the statement on this line, if it is nothing but a call."""
+
+    def edits(file: NodeFile) -> list[Edit]:
+        statement = file.statement_at(own.line) if own is not None and own.name == trace.file else None
+        return [remove_statement(file.text, statement)] if isinstance(statement, ast.Expr) else []
+
+    return first_sound_step(trace, edits)
 
 
 def _with_interrupt_caught(file: NodeFile) -> list[Edit]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from itertools import pairwise
 
 from tutor.judge.edits import remove_statement, replace_node
 from tutor.judge.rewriting.node import NodeFile, argument
@@ -47,6 +48,24 @@ def diagnose_milliseconds(file: NodeFile) -> Cause | None:
                 step = file.step([replace_node(file.text, period, f"{number / 1000:g}")])
                 text = f"line {period.lineno}: a period of {number:g} seconds: create_timer takes seconds"
                 return Cause("wrong timer period", text, step) if step else None
+    return None
+
+
+def diagnose_twin_timers(file: NodeFile) -> Cause | None:
+    """Whether two timers with the same callback are made, with the same period: the first one is to go."""
+    for call, other in pairwise(file.timers):
+        given, same = (
+            [
+                ast.unparse(each)
+                for each in (argument(made, 0, "timer_period_sec"), argument(made, 1, "callback"))
+                if each
+            ]
+            for made in (call, other)
+        )
+        step = file.step([remove_statement(file.text, file.statement(call))]) if given == same and given else None
+        if step is not None:
+            text = f"lines {call.lineno} and {other.lineno} both make a timer with this period and callback"
+            return Cause("two timers", text, step)
     return None
 
 

@@ -241,6 +241,21 @@ def optional(text: str, words: Words) -> Sequence[Edit]:
     return edits.replace_nodes(text, *swaps)
 
 
+def rclcpp(text: str, words: Words) -> Sequence[Edit]:
+    """Replace what only rclcpp has: create_wall_timer, with a period in milliseconds, and create_callback_group."""
+    swaps: list[tuple[ast.expr, str]] = []
+    for call in (each for each in syntax_nodes(text) if isinstance(each, ast.Call) and each.args):
+        first = call.args[0]
+        if called_name(call) == "create_callback_group" and last_name(first).endswith("CallbackGroup"):
+            swaps.append((call, f"{ast.unparse(first)}()"))
+        elif called_name(call) == "create_wall_timer":
+            if isinstance(first, ast.Constant) and isinstance(first.value, int | float) and first.value >= 10:
+                first = ast.Constant(first.value / 1000)
+            given = ", ".join(map(ast.unparse, [first, *call.args[1:], *call.keywords]))
+            swaps.append((call, f"{_receiver(call)}.create_timer({given})"))
+    return edits.replace_nodes(text, *swaps)
+
+
 def utf8(text: str, words: Words) -> Sequence[Edit]:
     """Add the encoding to the first call in a statement that opens a file without one."""
     statement = SourceFile(text).statement_at(int(words["number"]))
@@ -262,7 +277,7 @@ def readable(text: str, words: Words) -> Sequence[Edit] | None:
 
 _REWRITERS = (
     *(log, severities, imported, types_first, readable, without, raised),
-    *(responses, service_parameters, optional, utf8),
+    *(responses, service_parameters, optional, rclcpp, utf8),
 )
 REWRITERS: Mapping[str, Callable[[str, Words], Sequence[Edit] | None]] = {each.__name__: each for each in _REWRITERS}
 """The edits by their names in the tables; each takes the file's text and the placeholders' values."""
