@@ -17,7 +17,9 @@ from checks.i1_2.summaries import (
     possible_totals,
 )
 from tutor.judge import causes, ending
-from tutor.judge.trace import LogRecord
+from tutor.judge.causes import slips
+from tutor.judge.rewriting.node import started_node
+from tutor.judge.trace import Level, LogRecord
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
 
 EXPECTED_SUMMARY = f"one summary for every {SUMMARY_EVERY} messages, with the first and the last message's content"
@@ -429,7 +431,8 @@ def diagnose_no_summary(trial: Trial) -> Cause:
     )
     if printed is not None:
         return printed
-    return Cause(
+    raised = None if trial.lines else slips.diagnose_raised_level(started_node(trace), Level.FATAL)
+    return raised or Cause(
         "no summary",
         "none of its log messages sums up the messages" if trial.lines else "no log message follows from a message",
         steps.summarise_every_ten(trace)

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tutor.judge import source
-from tutor.judge.source import Function, SourceFile, last_name, values_of
+from tutor.judge.source import Function, SourceFile, is_abstract, last_name, values_of
 from tutor.judge.trace import Trace
 
 COUNT, FIRST, LAST, START, NUMBER = "total_count", "first_message", "last_message", "start_time", "last_number"
@@ -97,7 +97,7 @@ def find_listener(trace: Trace) -> Listener | None:
 def _passed_functions(call: ast.Call, file: SourceFile) -> Iterator[Function]:
     """The functions of the file that are passed to a call, or called by a lambda that is passed to it."""
     own = file.class_of(call)
-    functions = sorted(file.functions, key=lambda each: own is None or each not in own.body)
+    functions = sorted(file.functions, key=lambda each: (is_abstract(each), own is None or each not in own.body))
     for value in (*call.args, *(each.value for each in call.keywords)):
         parts = ast.walk(value) if isinstance(value, ast.Lambda | ast.Call) else [value]
         named = [name for each in parts if (name := last_name(each))]

@@ -227,3 +227,29 @@ def test_the_experimental_executor_is_replaced() -> None:
     assert "executor = MultiThreadedExecutor()" in found.hint
     assert "from rclpy.executors import MultiThreadedExecutor" in found.hint
     assert slips.diagnose_events_executor(node_file("executor = SingleThreadedExecutor()")) is None
+
+
+@pytest.mark.parametrize(("number", "wrong"), [("100000000", True), ("1e9", False), ("1000000000", False)])
+def test_a_period_in_nanoseconds(number: str, wrong: bool) -> None:
+    found = period_slips.diagnose_nanoseconds(node_file(f"self.t.timer_period_ns = {number} // rate"))
+    assert (found.hint if found else None) == (
+        "line 1 becomes: self.t.timer_period_ns = 1_000_000_000 // rate" if wrong else None
+    )
+
+
+def test_of_two_equal_timers_the_first_one_goes() -> None:
+    twins = "self.t = self.create_timer(0.1, self.tick)\nself.t = self.create_timer(0.1, self.tick, callback_group=g)"
+    found = period_slips.diagnose_twin_timers(node_file(twins))
+    assert found is not None
+    assert found.hint == "remove line 1: self.t = self.create_timer(0.1, self.tick)"
+    assert period_slips.diagnose_twin_timers(node_file(twins.replace("tick, c", "tock, c"))) is None
+
+
+def test_an_overridden_method_that_does_nothing_is_no_callback() -> None:
+    text = (
+        "class A:\n  def f(self):\n    return 1\nclass B:\n  def f(self):\n    raise NotImplementedError\nx = y(self.f)"
+    )
+    file = node_file(text)
+    found = file.function(file.calls("y")[0].args[0])
+    assert found is not None
+    assert found.lineno == 2

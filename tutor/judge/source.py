@@ -89,11 +89,12 @@ class SourceFile:
     def function(self, callback: ast.expr | None) -> Function | None:
         """The function that a callback argument refers to, directly or within a lambda or partial().
 
-        If several have that name, the last one.
+        If several have that name, the last one that does something.
         """
         match callback:
             case ast.Attribute(attr=name) | ast.Name(id=name):
-                return next((each for each in reversed(self.functions) if each.name == name), None)
+                found = [each for each in reversed(self.functions) if each.name == name]
+                return next((each for each in found if not is_abstract(each)), next(iter(found), None))
             case ast.Lambda(body=ast.Call(func=inner)):
                 return self.function(inner)
             case ast.Call(args=[first, *_]):
@@ -212,6 +213,14 @@ def values_of(target: str, node: ast.AST) -> list[ast.expr]:
 def where(node: ast.stmt | ast.expr) -> str:
     """The line number and code of a syntax node, for use in a sentence."""
     return f"line {node.lineno}: {ast.unparse(node)}"
+
+
+def is_abstract(function: Function) -> bool:
+    """Whether a function has nothing but a docstring, `pass`, `...`, or `raise`."""
+    return all(
+        isinstance(each, ast.Pass | ast.Raise) or (isinstance(each, ast.Expr) and isinstance(each.value, ast.Constant))
+        for each in function.body
+    )
 
 
 def called_name(call: ast.Call) -> str:

@@ -40,6 +40,22 @@ def diagnose_period_unit(file: NodeFile) -> Cause | None:
     return None
 
 
+def diagnose_nanoseconds(file: NodeFile) -> Cause | None:
+    """Whether a timer's `timer_period_ns` is set to another number divided by the rate than 1e9."""
+    for node in file.nodes:
+        match node:
+            case ast.Assign(
+                targets=[ast.Attribute(attr="timer_period_ns")],
+                value=ast.BinOp(
+                    left=ast.Constant(value=int() | float() as number) as top, op=ast.Div() | ast.FloorDiv()
+                ),
+            ) if number != 1e9:
+                step = file.step([replace_node(file.text, top, "1_000_000_000")])
+                text = f"line {node.lineno}: {ast.unparse(node)}: there are 1_000_000_000 nanoseconds in a second"
+                return Cause("wrong timer period", text, step) if step else None
+    return None
+
+
 def diagnose_milliseconds(file: NodeFile) -> Cause | None:
     """Whether a timer's period is a plain number that must be meant in milliseconds, as in rclcpp's `500ms`."""
     for period in _periods(file):

@@ -140,11 +140,14 @@ def _diagnose_overwritten_attribute(file: NodeFile) -> Cause | None:
 def diagnose_raised_level(file: NodeFile, lowest: int) -> Cause | None:
     """Whether the program raises a logger's level, so that messages below it are left out.
 
-    `lowest`: the lowest level (see `Level`) of the messages that were logged.
+    `lowest`: the lowest level (see `Level`) of the messages that were logged; a level that is computed is raised if
+    there were none at all.
     """
     for call in file.calls("set_level", "set_logger_level"):
         given = [*call.args, *(each.value for each in call.keywords)]
         level = _LEVELS.get(source.last_name(given[-1])) if given else None
+        if level is None and given and isinstance(given[-1], ast.Name) and lowest == Level.FATAL:
+            level = Level.FATAL
         statement = file.statement(call)
         if level is None or lowest < level or not isinstance(statement, ast.Expr):
             continue

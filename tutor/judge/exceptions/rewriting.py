@@ -241,6 +241,18 @@ def optional(text: str, words: Words) -> Sequence[Edit]:
     return edits.replace_nodes(text, *swaps)
 
 
+def methods(text: str, words: Words) -> Sequence[Edit]:
+    """Turn static methods that take `self` into ordinary ones."""
+    found = [
+        decorator.lineno
+        for function in SourceFile(text).functions
+        if [each.arg for each in function.args.args[:1]] == ["self"]
+        for decorator in function.decorator_list
+        if ast.unparse(decorator) == "staticmethod"
+    ]
+    return [edits.remove_lines(text, number, number) for number in reversed(found)]
+
+
 def rclcpp(text: str, words: Words) -> Sequence[Edit]:
     """Replace what only rclcpp has: create_wall_timer, with a period in milliseconds, and create_callback_group."""
     swaps: list[tuple[ast.expr, str]] = []
@@ -277,7 +289,7 @@ def readable(text: str, words: Words) -> Sequence[Edit] | None:
 
 _REWRITERS = (
     *(log, severities, imported, types_first, readable, without, raised),
-    *(responses, service_parameters, optional, rclcpp, utf8),
+    *(responses, service_parameters, optional, methods, rclcpp, utf8),
 )
 REWRITERS: Mapping[str, Callable[[str, Words], Sequence[Edit] | None]] = {each.__name__: each for each in _REWRITERS}
 """The edits by their names in the tables; each takes the file's text and the placeholders' values."""
