@@ -76,6 +76,9 @@ def wait_for_answers(code: Code, trace: Trace) -> str | None:
     change = Changes(code, more=code.missing_imports("rclpy"))
     for call, client in find_requests(code):
         _wait_for_answer(code, call, client, change)
+    for call in code.calls("result"):  # of rclpy's Future, which takes no timeout
+        if call.args or call.keywords:
+            change.swaps.append((call, f"{ast.unparse(call.func)}()"))
     return change.as_step() if change.swaps or len(change.more) > len(code.missing_imports("rclpy")) else None
 
 

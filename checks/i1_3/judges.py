@@ -113,6 +113,10 @@ def _with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[
         return replace(cause, hint=services.compute_results(trace, [service], whole=True) or cause.hint)
     if cause.name == names.INCOMPATIBLE_QOS:
         return with_applicable_step(cause, trace, lambda: _first_step(trace, service_steps.use_default_qos))
+    if any("transient local' for service" in line.text for line in trace.output):  # a warning of rcl
+        step = _first_step(trace, service_steps.use_default_qos)
+        text = "its QoS is transient local, which no client with the default QoS offers: no request arrives"
+        return replace(cause, name="incompatible QoS", text=text, hint=step or cause.hint)
     return with_applicable_step(cause, trace, lambda: services.compute_results(trace, [service], whole=True))
 
 
@@ -227,6 +231,8 @@ def _with_guard_step(cause: Cause, trace: Trace) -> Cause:
     found = tracebacks.last_traceback(trace)
     if found is not None and found.frames[-1].function == "send_response":
         return replace(cause, hint=service_steps.return_response(trace, "/divide") or cause.hint)
+    if found is not None and found.type in ("AttributeError", "NameError"):  # of the error branch itself
+        return with_applicable_step(cause, trace, lambda: services.guard_division(trace))
     return replace(cause, hint=services.guard_division(trace) or cause.hint)
 
 
