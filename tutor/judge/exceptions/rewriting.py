@@ -241,6 +241,18 @@ def optional(text: str, words: Words) -> Sequence[Edit]:
     return edits.replace_nodes(text, *swaps)
 
 
+def items(text: str, words: Words) -> Sequence[Edit]:
+    """Give `launch_arguments` the items of each dict that is passed whole."""
+    given = [
+        each.value
+        for node in syntax_nodes(text)
+        if isinstance(node, ast.Call)
+        for each in node.keywords
+        if each.arg == "launch_arguments" and isinstance(each.value, ast.Name | ast.Attribute | ast.Dict)
+    ]
+    return edits.replace_nodes(text, *((each, f"{ast.unparse(each)}.items()") for each in given))
+
+
 def methods(text: str, words: Words) -> Sequence[Edit]:
     """Turn static methods that take `self` into ordinary ones."""
     found = [
@@ -289,7 +301,7 @@ def readable(text: str, words: Words) -> Sequence[Edit] | None:
 
 _REWRITERS = (
     *(log, severities, imported, types_first, readable, without, raised),
-    *(responses, service_parameters, optional, methods, rclcpp, utf8),
+    *(responses, service_parameters, optional, items, methods, rclcpp, utf8),
 )
 REWRITERS: Mapping[str, Callable[[str, Words], Sequence[Edit] | None]] = {each.__name__: each for each in _REWRITERS}
 """The edits by their names in the tables; each takes the file's text and the placeholders' values."""
