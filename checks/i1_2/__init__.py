@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from checks.i1_2 import continuity, judges, scenarios
+from checks.i1_2 import continuity, fast_stretch, judges, scenarios
 from checks.i1_2.deeper_causes import with_deeper_cause
 from tutor.judge.check import Check, Criterion
 from tutor.judge.exceptions import load
@@ -16,14 +16,14 @@ CHECK = Check(
             "count",
             with_deeper_cause(judges.judge_count),
             (scenarios.steady, scenarios.jump, scenarios.fast),
-            early=((scenarios.fast, with_deeper_cause(judges.judge_fast_count)),),
+            early=((scenarios.fast, with_deeper_cause(fast_stretch.judge_fast_count)),),
         ),
         Criterion("rate", with_deeper_cause(judges.judge_rate), (scenarios.steady, scenarios.jump)),
         Criterion(
             "summary",
             with_deeper_cause(judges.judge_summary),
             (scenarios.steady, scenarios.jump, scenarios.fast),
-            early=((scenarios.fast, with_deeper_cause(judges.judge_fast_summary)),),
+            early=((scenarios.fast, with_deeper_cause(fast_stretch.judge_fast_summary)),),
         ),
         Criterion(
             "restart",

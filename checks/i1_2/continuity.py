@@ -8,9 +8,10 @@ from itertools import accumulate
 
 from checks.i1_2 import gap_steps, steps
 from checks.i1_2.facts import OURS, SOON_S, SUMMARY_EVERY, Trial
-from checks.i1_2.judges import NO_SUMMARY, counts_truly, judge_slow_summary, true_total
+from checks.i1_2.judges import NO_SUMMARY, judge_slow_summary
 from checks.i1_2.reading import Line
 from checks.i1_2.summaries import Summary, find_summaries, last_due_count
+from checks.i1_2.totals import counts_truly, true_total
 from tutor.judge import causes
 from tutor.judge.causes import printing
 from tutor.judge.trace import Level

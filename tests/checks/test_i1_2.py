@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checks.i1_2 import CHECK, continuity, judges
+from checks.i1_2 import CHECK, continuity, fast_stretch, judges
 from checks.i1_2.facts import (
     FAST_HZ,
     FAST_MESSAGES,
@@ -165,7 +165,7 @@ def judge_trials(make: Callable[[], FakeStats], **more: object) -> dict[str, Ver
     count = judges.judge_count(steady_trial, jump_trial, fast_trial)
     summary = judges.judge_summary(steady_trial, jump_trial, fast_trial)
     gaps = continuity.judge_gaps(jump_trial, twice_trial, steady_trial)
-    early_count, early_summary = judges.judge_fast_count(fast_trial), judges.judge_fast_summary(fast_trial)
+    early_count, early_summary = fast_stretch.judge_fast_count(fast_trial), fast_stretch.judge_fast_summary(fast_trial)
     for early, verdict in ((early_count, count), (early_summary, summary)):
         assert early is None or verdict.status is early.status is Status.FAILED
         assert early is None or early.cause.split(":")[0] == verdict.cause.split(":")[0]
@@ -1131,7 +1131,7 @@ class NumberAsCount(FakeStats):
 
 def test_a_wrong_count_already_fails_in_the_fast_stretch() -> None:
     for make, cause in ((CountsFromOne, "off by one"), (NumberAsCount, "number taken for the count")):
-        early = judges.judge_fast_count(fast(make()))
+        early = fast_stretch.judge_fast_count(fast(make()))
         assert early is not None
         assert_failed(early, cause)
 
@@ -1143,7 +1143,7 @@ def test_surplus_or_incomplete_summaries_already_fail_in_the_fast_stretch() -> N
         (Swapped, "first and last swapped"),
     )
     for make, cause in cases:
-        early = judges.judge_fast_summary(fast(make()))
+        early = fast_stretch.judge_fast_summary(fast(make()))
         assert early is not None
         assert_failed(early, cause)
 
@@ -1154,8 +1154,8 @@ def test_a_slow_or_partial_fast_stretch_gives_no_early_verdict(make: type[FakeSt
     part = feed(make(), range(7, 7 + FAST_MESSAGES // 2), FAST_HZ)
     held_up = replace(fast(make()), cpu_wait_s=0.12)
     for seen in (slow, part, held_up):
-        assert judges.judge_fast_count(seen) is None
-        assert judges.judge_fast_summary(seen) is None
+        assert fast_stretch.judge_fast_count(seen) is None
+        assert fast_stretch.judge_fast_summary(seen) is None
 
 
 class RepeatsSummaryLater(FakeStats):
