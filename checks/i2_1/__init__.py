@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from checks.i2_1 import judges, runtime, scenarios, validation
+from checks.i2_1 import bad_values, changes, judges, runtime, scenarios, validation
 from tutor.judge.check import Check, Criterion
 
 CHECK = Check(
@@ -18,18 +18,18 @@ CHECK = Check(
         Criterion(
             "runtime-params",
             runtime.judge_runtime,
-            (scenarios.switch_at_runtime, scenarios.change_rate),
-            early=((scenarios.switch_at_runtime, runtime.judge_changes),),
+            (changes.switch_at_runtime, changes.change_rate),
+            early=((changes.switch_at_runtime, runtime.judge_changes),),
         ),
         Criterion(
             "validation",
             validation.judge_validation,
-            (scenarios.ask_for_bad_rates, scenarios.switch_at_runtime),
-            early=((scenarios.ask_for_bad_rates, validation.judge_validation_so_far),),
+            (bad_values.ask_for_bad_rates, changes.switch_at_runtime),
+            early=((bad_values.ask_for_bad_rates, validation.judge_validation_so_far),),
         ),
-        Criterion("timer", runtime.judge_timer, (scenarios.change_rate,)),
+        Criterion("timer", runtime.judge_timer, (changes.change_rate,)),
         Criterion(
-            "atomic", validation.judge_atomic, (scenarios.set_atomically, scenarios.switch_at_runtime), bonus=True
+            "atomic", validation.judge_atomic, (bad_values.set_atomically, changes.switch_at_runtime), bonus=True
         ),
         Criterion(
             "launch-validation",
