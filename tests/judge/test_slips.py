@@ -111,7 +111,10 @@ def test_an_overwritten_list_of_the_node_gets_another_name(name: str) -> None:
     }
 
 
-@pytest.mark.parametrize("text", [f"{CLASS}    self.services_ = []", "class A:\n  def f(self):\n    self._timers = 1"])
+@pytest.mark.parametrize(
+    "text",
+    [f"{CLASS}    self.services_ = []", "class A:\n  def f(self):\n    self._timers = 1", f"{CLASS}    timers = []"],
+)
 def test_other_attributes_and_classes_are_not_reported(text: str) -> None:
     assert slips.diagnose_unserved_node(node_file(text)) is None
 
@@ -161,6 +164,7 @@ def test_a_type_is_not_compared_with_a_number() -> None:
         ("self.n = self.get_parameter('name')", "line 1 becomes: self.n = self.get_parameter('name').value"),
         ("self.n = self.get_parameter('name').value", None),
         ("self.n = self.get_parameter('other')", None),
+        ("self.n = self.get_parameter('name')\nx = self.n.value", None),
     ],
 )
 def test_a_parameter_object_is_not_its_value(text: str, step: str | None) -> None:

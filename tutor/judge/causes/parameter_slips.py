@@ -7,6 +7,7 @@ None if the source does not explain the failure.
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Sequence
 
 from tutor.judge.edits import Edit, remove_statement, replace_node, replace_nodes
@@ -141,6 +142,9 @@ def diagnose_parameter_object(file: NodeFile, name: str) -> Cause | None:
     for call in file.calls("get_parameter", "declare_parameter"):
         around = next(file.ancestors(call), None)
         constants = [each.value for each in _constants([call])]
+        kept = ast.unparse(around.targets[0]) if isinstance(around, ast.Assign) else ""
+        if kept and re.search(rf"{re.escape(kept)}\.(value|get_parameter_value)\b", file.text):
+            continue
         if isinstance(around, ast.Assign | ast.FormattedValue) and name in constants[:1]:
             step = file.step([replace_node(file.text, call, f"{ast.unparse(call)}.value")])
             text = f"{where(call)} gives a Parameter object, and its value is in .value"

@@ -11,7 +11,7 @@ from tutor.judge.trace import Level, Trace
 from tutor.judge.verdict import Cause
 
 _LEVELS = {"WARN": Level.WARN, "WARNING": Level.WARN, "ERROR": Level.ERROR, "FATAL": Level.FATAL}
-_NODE_LISTS = ("timers", "subscriptions", "services", "clients", "waitables", "guards")
+_NODE_LISTS = tuple(f"self._{each}" for each in ("timers", "subscriptions", "services", "clients", "guards"))
 _TRUTH_VALUES = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
 
 
@@ -127,7 +127,7 @@ def _diagnose_overwritten_attribute(file: NodeFile) -> Cause | None:
         function = file.function_around(each)
         owner = file.class_of(function) if function is not None else None
         names = [ast.unparse(target) for target in targets]
-        taken = next((name for name in names if name.removeprefix("self._") in _NODE_LISTS), None)
+        taken = next((name for name in names if name in _NODE_LISTS), None)
         if taken is None or owner is None or owner.name not in file.node_classes:
             continue
         step = file.step(edits.replace_pattern(file.text, rf"\b{re.escape(taken)}\b", taken.replace("._", ".my_")))
