@@ -185,14 +185,26 @@ def test_a_period_in_milliseconds(text: str, step: str | None) -> None:
     assert (found.hint if found else None) == step
 
 
-TIMERS = "P = 0.5\nself.t = self.create_timer(P, self.tick)\nself.u = self.create_timer(1 / rate, self.{})"
+TIMERS = (
+    CLASS
+    + """\
+    self.t = self.create_timer(0.5, self.tick)
+    self.set_rate(2)
+  def set_rate(self, rate):
+    self.u = self.create_timer(1 / rate, self.tick)
+"""
+)
 
 
 def test_a_second_timer_with_a_fixed_period_is_removed() -> None:
-    found = period_slips.diagnose_second_timer(node_file(TIMERS.format("tick")))
+    found = period_slips.diagnose_second_timer(node_file(TIMERS))
     assert found is not None
-    assert found.hint == "remove line 2: self.t = self.create_timer(P, self.tick)"
-    assert period_slips.diagnose_second_timer(node_file(TIMERS.format("other"))) is None
+    assert found.hint == "remove line 4: self.t = self.create_timer(0.5, self.tick)"
+
+
+@pytest.mark.parametrize(("old", "new"), [("rate, self.tick", "rate, self.tock"), ("    self.set_rate(2)\n", "")])
+def test_a_timer_for_another_purpose_or_made_later_is_no_second_one(old: str, new: str) -> None:
+    assert period_slips.diagnose_second_timer(node_file(TIMERS.replace(old, new))) is None
 
 
 LOGGER = "{}class N(Node):\n  def f(self):\n    {}\n    {}.info('x')\n"

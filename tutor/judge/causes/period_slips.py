@@ -87,7 +87,12 @@ def diagnose_twin_timers(file: NodeFile) -> Cause | None:
 
 def diagnose_second_timer(file: NodeFile) -> Cause | None:
     """Whether a timer with a fixed period runs beside another one with the same callback and a computed period."""
-    made = [(call, argument(call, 0, "timer_period_sec"), argument(call, 1, "callback")) for call in file.timers]
+    at_start = file.reachable_from(file.setup) if file.setup is not None else []
+    made = [
+        (call, argument(call, 0, "timer_period_sec"), argument(call, 1, "callback"))
+        for call in file.timers
+        if file.function_around(call) in at_start
+    ]
     fixed = [each for each in made if each[1] is not None and _is_fixed(file, each[1])]
     for call, period, callback in fixed:
         others = [other for other, *given in made if (other, *given) not in fixed and _same(callback, given[1])]
