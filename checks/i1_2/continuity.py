@@ -9,11 +9,13 @@ from itertools import accumulate
 from checks.i1_2 import gap_steps, steps
 from checks.i1_2.facts import OURS, SOON_S, SUMMARY_EVERY, Trial
 from checks.i1_2.judges import NO_SUMMARY, judge_slow_summary
+from checks.i1_2.rates import sent_hz
 from checks.i1_2.reading import Line
 from checks.i1_2.summaries import Summary, find_summaries, last_due_count
 from checks.i1_2.totals import counts_truly, true_total
 from tutor.judge import causes
 from tutor.judge.causes import printing
+from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import Level
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
@@ -224,9 +226,11 @@ def _diagnose_rising_count(jump: Trial, jump_twice: Trial, steady: Trial) -> tup
             rose = [line.numbers[place].value for line in since]
             ends = [line.numbers[place].value for line in again[-1:]]
             whole = all(value.is_integer() for value in rose)
+            is_rate = _are_rates(values_before, steady) and _are_rates(rose, jump)  # over the last second, say
             if (
                 len(values_before) == 1
                 and whole
+                and not is_rate
                 and max(values_before) < rose[0] < rose[-1] < min(ends, default=rose[-1]) + between / 2
             ):
                 texts = [line.text for line in (since[0], since[-1])]
@@ -237,6 +241,12 @@ def _diagnose_rising_count(jump: Trial, jump_twice: Trial, steady: Trial) -> tup
                     steps.compare_numbers(jump.trace, texts) or gap_steps.COMPARE,
                 ), texts
     return None
+
+
+def _are_rates(values: Iterable[float], trial: Trial) -> bool:
+    """Whether the values are the rate at which the messages were sent, within the tolerance."""
+    hz = sent_hz(trial)
+    return all(abs(value - hz) <= TOLERANCE * hz for value in values)
 
 
 def _diagnose_end(trial: Trial, what: str) -> Cause:

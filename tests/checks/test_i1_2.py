@@ -1260,6 +1260,20 @@ def test_a_loss_that_keeps_rising_is_recognised_whatever_number_is_chosen(
     assert_failed(continuity.judge_gaps(*trials, steady(node(), late_s=late_s)), "false alarm")
 
 
+@dataclass
+class RateOverTheLastSecond(FakeStats):
+    """A node that counts the messages of each second, at 5 and then at 8 a second."""
+
+    def summary(self) -> Iterator[Log]:
+        hz = 5.0 if self.first.endswith(" 0") else {10: 5.0, 20: 7.0, 30: 8.0}[self.total]
+        yield 20, f"count {self.total} hz {hz} first {self.first} last {self.last}"
+
+
+def test_a_rate_that_rises_after_the_jump_is_no_loss() -> None:
+    trials = (jump(RateOverTheLastSecond()), jump_twice(RateOverTheLastSecond()))
+    assert_passed(continuity.judge_gaps(*trials, steady(RateOverTheLastSecond())))
+
+
 @pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])
 def test_a_warning_about_one_gap_does_not_cover_the_other(cpu_wait_s: float) -> None:
     jump_trial = jump_twice(SkipsTheFirstGap(), cpu_wait_s=cpu_wait_s)
