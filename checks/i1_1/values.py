@@ -35,7 +35,7 @@ async def collect_values(bench: Bench) -> CollectedValues:
     probed: list[asyncio.Task[list[list[float]]]] = []
 
     def all_constant(values: list[float]) -> bool:
-        if len(values) < 3 or len(set(values)) > 1:
+        if len(values) < MIN_VALUES or len(set(values)) > 1:
             return False
         if not probed:
             probed.append(asyncio.ensure_future(_probed_values(bench)))
@@ -60,8 +60,7 @@ async def collect_values(bench: Bench) -> CollectedValues:
             (decided and len(values) >= MIN_VALUES)
             or len(values) >= randomness.FULL_SAMPLE_SIZE
             or (
-                bool(values)
-                and (all_constant(values) or not suspicious)
+                (all_constant(values) or not suspicious)
                 and run.now() >= run.samples_on(TOPIC)[0].source_time + MIN_COLLECT_S
             )
         )

@@ -89,27 +89,10 @@ def spin_while_polling(code: Code) -> str | None:
     swaps = []
     for loop in code.nodes:
         if isinstance(loop, ast.While) and source.calls_in(loop.test, "done"):
-            spin = f"{code.local_name('rclpy')}.spin_once({_node_at(code, loop)}, timeout_sec=0.1)"
+            spin = f"{code.local_name('rclpy')}.spin_once({code.node_name(loop)}, timeout_sec=0.1)"
             sleeps = [each for each in source.calls_in(loop, "sleep") if isinstance(code.statement(each), ast.Expr)]
             swaps += [(each, spin) for each in sleeps[:1]]
     return code.as_step(edits.replace_nodes(code.text, *swaps), code.missing_imports("rclpy") if swaps else [])
-
-
-def _node_at(code: Code, at: ast.AST) -> str:
-    """The name of the ROS node here: in a class that is no node, of the attribute that keeps the one it was given."""
-    owners = [
-        ast.unparse(call.func.value) for call in code.calls("create_client") if isinstance(call.func, ast.Attribute)
-    ]
-    function = code.function_around(at)
-    around = code.class_of(function) if function is not None else None
-    if around is None or around.name in code.node_classes or not owners:
-        return code.node_name(at)
-    kept = (
-        ast.unparse(each.targets[0])
-        for each in ast.walk(around)
-        if isinstance(each, ast.Assign) and ast.unparse(each.value) in owners
-    )
-    return next(kept, owners[0])
 
 
 def _wait_for_answer(code: Code, call: ast.Call, client: str, change: Changes) -> None:

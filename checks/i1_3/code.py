@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 from tutor.judge import edits
@@ -52,12 +52,25 @@ class Code(SourceFile):
         return ""
 
     def node_name(self, at: ast.AST) -> str:
-        """The variable that holds the ROS node at this place in the code."""
+        """The variable that holds the ROS node at this place in the code.
+
+        In a class that is no node: the attribute that keeps the node by which it creates its clients, if there is one.
+        """
         if self_name := self.self_name(at):
-            return self_name
+            return self_name if self.node_method(at) is not None else next(self._kept_nodes(at), self_name)
         parents = [self._parents.get(each) for each in self.calls("create_node", "Node", *self.node_classes)]
         targets = [each.targets[0] for each in parents if isinstance(each, ast.Assign)]
         return next((each.id for each in targets if isinstance(each, ast.Name)), "node")
+
+    def _kept_nodes(self, at: ast.AST) -> Iterator[str]:
+        """The attributes of the class around `at` that keep an object by which clients are created."""
+        owners = {
+            ast.unparse(each.func.value) for each in self.calls("create_client") if isinstance(each.func, ast.Attribute)
+        }
+        around = next((each for each in self.ancestors(at) if isinstance(each, ast.ClassDef)), None)
+        for each in ast.walk(around) if around is not None else ():
+            if isinstance(each, ast.Assign) and ast.unparse(each.value) in owners:
+                yield ast.unparse(each.targets[0])
 
     def local_name(self, name: str) -> str:
         """The name in this file of something that may be imported `as` something else."""

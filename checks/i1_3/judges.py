@@ -116,7 +116,7 @@ def _with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[
     if any("transient local' for service" in line.text for line in trace.output):  # a warning of rcl
         step = _first_step(trace, service_steps.use_default_qos)
         text = "its QoS is transient local, which no client with the default QoS offers: no request arrives"
-        return replace(cause, name="incompatible QoS", text=text, hint=step or cause.hint)
+        return replace(cause, name=names.INCOMPATIBLE_QOS, text=text, hint=step or cause.hint)
     return with_applicable_step(cause, trace, lambda: services.compute_results(trace, [service], whole=True))
 
 

@@ -11,6 +11,7 @@ from checks.i1_3.facts import OPERATOR_SIGNS
 from checks.i1_3.services import Changes, argument_names, compute_results, find_callback, find_offer, new_callback
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
+from tutor.judge.exceptions.rewriting import instances
 from tutor.judge.rewriting.node import argument
 from tutor.judge.source import Function
 from tutor.judge.trace import Trace
@@ -149,9 +150,9 @@ def return_response(trace: Trace, service: str) -> str | None:
     If it is the callback that does not return it, the other services' callbacks in its file return theirs, too.
     """
     found = find_callback(trace, service)
-    instances = next((step for each in learner_files(trace) if (step := _make_instances(each)) is not None), None)
-    if instances is not None:
-        return instances
+    for code in learner_files(trace):
+        if (step := code.as_step(instances(code.text, {}))) is not None:
+            return step
     if found is None:
         return compute_results(trace, [service], whole=True)
     code, function = found
@@ -162,20 +163,6 @@ def return_response(trace: Trace, service: str) -> str | None:
         if changes and (step := code.as_step(changes)) is not None:
             return step
     return compute_results(trace, [service], whole=True)
-
-
-def _make_instances(code: Code) -> str | None:
-    """Step: make instances of AddTwoInts.Response where the class itself is returned, or filled and returned."""
-    returned = {ast.unparse(each.value) for each in code.nodes if isinstance(each, ast.Return) and each.value}
-    classes = [
-        each.value
-        for each in code.nodes
-        if isinstance(each, ast.Assign | ast.Return)
-        and isinstance(each.value, ast.Attribute)
-        and each.value.attr == "Response"
-        and (isinstance(each, ast.Return) or returned.intersection(map(ast.unparse, each.targets)))
-    ]
-    return code.as_step(edits.replace_nodes(code.text, *((each, f"{ast.unparse(each)}()") for each in classes)))
 
 
 def _fix_all_returns(trace: Trace, code: Code) -> list[Edit]:

@@ -9,6 +9,7 @@ from checks.i1_3.code import Code
 from checks.i1_3.facts import OPERATOR_SIGNS
 from checks.i1_3.services import Changes
 from tutor.judge import edits, source
+from tutor.judge.rewriting.program import make_daemon
 from tutor.judge.source import Function
 
 _DEFINITIONS = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
@@ -49,14 +50,12 @@ def join_thread(code: Code) -> str | None:
 
 def make_thread_daemon(code: Code, function: str) -> str | None:
     """Step: make the thread that runs this function a daemon, so that Python does not wait for it at exit."""
-    change = Changes(code)
-    for call in code.calls("Thread"):
-        targets = [each.value for each in call.keywords if each.arg == "target"]
-        if targets and source.last_name(targets[0]) == function:
-            kept = [each for each in call.keywords if each.arg != "daemon"]
-            daemon = ast.keyword("daemon", ast.Constant(True))
-            change.swaps.append((call, ast.unparse(ast.Call(call.func, call.args, [*kept, daemon]))))
-    return change.as_step()
+    made = [
+        call
+        for call in code.calls("Thread")
+        if function in [source.last_name(each.value) for each in call.keywords if each.arg == "target"]
+    ]
+    return code.as_step([make_daemon(code, call) for call in made])
 
 
 def _find_entry_point(code: Code) -> Function | None:

@@ -65,8 +65,8 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
         return broken
     if (unmatched := causes.diagnose_incompatible_service(_our_servers(seen.trace))) is not None:
         return unmatched
-    if (overwritten := diagnose_unserved_node(started_node(seen.trace))) is not None:
-        return overwritten
+    if (unserved := diagnose_unserved_node(started_node(seen.trace))) is not None:
+        return unserved
     if not seen.spins and (empty := steps.diagnose_node_not_added(started_node(seen.trace))) is not None:
         return empty
     if not seen.spins or causes.is_in_blocking_call(seen.stuck):

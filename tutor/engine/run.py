@@ -332,9 +332,8 @@ class RosRun:
             shown = await echoing
         finally:
             echoing.cancel()
-        # The real echo reads a graph that has long settled; our new participant may not have discovered all of it.
-        endpoints = (*self.graph.publishers, *self.graph.subscriptions)
-        settled = {endpoint.type for endpoint in endpoints if endpoint.topic == topic}
+        # The real echo reads a graph that has long settled; our new participant may not have discovered all publishers.
+        settled = {endpoint.type for endpoint in self.graph.publishers if endpoint.topic == topic}
         return replace(shown, types=tuple(sorted(settled.union(shown.types))))
 
     async def interrupt(self, limit_s: float = 5.0) -> Ending:

@@ -50,6 +50,12 @@ class SourceFile:
         """The innermost class that contains a function; for a method, its class."""
         return next((each for each in self.ancestors(function) if isinstance(each, ast.ClassDef)), None)
 
+    def node_method(self, node: ast.AST) -> Function | None:
+        """The method of a node class that contains a node of the syntax tree; None if none does."""
+        function = self.function_around(node)
+        owner = self.class_of(function) if function is not None else None
+        return function if owner is not None and owner.name in self.node_classes else None
+
     def statement(self, node: ast.AST) -> ast.stmt:
         """The innermost statement that contains, or is, a syntax node."""
         return next(each for each in (node, *self.ancestors(node)) if isinstance(each, ast.stmt))

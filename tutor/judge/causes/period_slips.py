@@ -70,15 +70,11 @@ def diagnose_milliseconds(file: NodeFile) -> Cause | None:
 def diagnose_twin_timers(file: NodeFile) -> Cause | None:
     """Whether two timers with the same callback are made, with the same period: the first one is to go."""
     for call, other in pairwise(file.timers):
-        given, same = (
-            [
-                ast.unparse(each)
-                for each in (argument(made, 0, "timer_period_sec"), argument(made, 1, "callback"))
-                if each
-            ]
-            for made in (call, other)
+        alike = all(
+            _same(argument(call, position, name), argument(other, position, name))
+            for position, name in enumerate(("timer_period_sec", "callback"))
         )
-        step = file.step([remove_statement(file.text, file.statement(call))]) if given == same and given else None
+        step = file.step([remove_statement(file.text, file.statement(call))]) if alike else None
         if step is not None:
             text = f"lines {call.lineno} and {other.lineno} both make a timer with this period and callback"
             return Cause("two timers", text, step)

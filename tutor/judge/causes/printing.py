@@ -66,13 +66,11 @@ def use_node_logger(file: NodeFile) -> str | None:
     made = [call for call in file.calls("get_logger") if call.args or call.keywords]
     names = {file.assigned_to(call) for call in made if file.function_around(call) is None}
     uses = [each for each in file.nodes if isinstance(each, ast.Name) and each.id in names]
-    node_classes = file.node_classes
-    swaps = []
-    for each in (*made, *uses):
-        function = file.function_around(each)
-        owner = file.class_of(function) if function is not None else None
-        if function is not None and function.args.args and owner is not None and owner.name in node_classes:
-            swaps.append((each, f"{function.args.args[0].arg}.get_logger()"))
+    swaps = [
+        (each, f"{method.args.args[0].arg}.get_logger()")
+        for each in (*made, *uses)
+        if (method := file.node_method(each)) is not None and method.args.args
+    ]
     return file.step(replace_nodes(file.text, *swaps))
 
 

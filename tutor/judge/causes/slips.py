@@ -124,11 +124,8 @@ def _diagnose_overwritten_attribute(file: NodeFile) -> Cause | None:
         if not isinstance(each, ast.Assign | ast.AnnAssign):
             continue
         targets = each.targets if isinstance(each, ast.Assign) else [each.target]
-        function = file.function_around(each)
-        owner = file.class_of(function) if function is not None else None
-        names = [ast.unparse(target) for target in targets]
-        taken = next((name for name in names if name in _NODE_LISTS), None)
-        if taken is None or owner is None or owner.name not in file.node_classes:
+        taken = next((name for name in map(ast.unparse, targets) if name in _NODE_LISTS), None)
+        if taken is None or file.node_method(each) is None:
             continue
         step = file.step(edits.replace_pattern(file.text, rf"\b{re.escape(taken)}\b", taken.replace("._", ".my_")))
         if step is not None:

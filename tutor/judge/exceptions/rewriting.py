@@ -205,6 +205,21 @@ def responses(text: str, words: Words) -> Sequence[Edit] | None:
     return sorted(made, key=lambda edit: -edit.first)
 
 
+def instances(text: str, words: Words) -> Sequence[Edit]:
+    """Make instances of a service's Response where the class itself is returned, or filled and returned."""
+    nodes = syntax_nodes(text)
+    returned = {ast.unparse(each.value) for each in nodes if isinstance(each, ast.Return) and each.value}
+    classes = [
+        each.value
+        for each in nodes
+        if isinstance(each, ast.Assign | ast.Return)
+        and isinstance(each.value, ast.Attribute)
+        and each.value.attr == "Response"
+        and (isinstance(each, ast.Return) or returned.intersection(map(ast.unparse, each.targets)))
+    ]
+    return edits.replace_nodes(text, *((each, f"{ast.unparse(each)}()") for each in classes))
+
+
 def service_parameters(text: str, words: Words) -> Sequence[Edit]:
     """Give every service callback a request and a response, after `self` if it is a method."""
     file, lines = SourceFile(text), text.splitlines()
@@ -301,7 +316,7 @@ def readable(text: str, words: Words) -> Sequence[Edit] | None:
 
 _REWRITERS = (
     *(log, severities, imported, types_first, readable, without, raised),
-    *(responses, service_parameters, optional, items, methods, rclcpp, utf8),
+    *(responses, instances, service_parameters, optional, items, methods, rclcpp, utf8),
 )
 REWRITERS: Mapping[str, Callable[[str, Words], Sequence[Edit] | None]] = {each.__name__: each for each in _REWRITERS}
 """The edits by their names in the tables; each takes the file's text and the placeholders' values."""

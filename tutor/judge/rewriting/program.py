@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 
-from tutor.judge.edits import Edit, add_import, insert_after, insert_below, replace_statement
+from tutor.judge.edits import Edit, add_import, insert_after, insert_below, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, first_line, node_file
-from tutor.judge.source import Function, called_name, calls_in, last_name
+from tutor.judge.source import Function, SourceFile, called_name, calls_in, last_name
 from tutor.judge.trace import Trace
 
 SPINS = ("spin", "spin_once", "spin_some", "spin_until_future_complete")
@@ -133,7 +133,7 @@ def _remove_obstacles(file: NodeFile) -> list[Edit]:
     found = []
     for each in [*file.calls("Thread"), *_thread_subclasses(file)]:
         if not any(given.arg == "daemon" for given in each.keywords):
-            found.append(_make_daemon(file, each))
+            found.append(make_daemon(file, each))
     for each in file.calls("signal", "register"):
         statement = file.statement(each)
         if isinstance(statement, ast.Expr) and ast.unparse(each.func) in ("signal.signal", "atexit.register"):
@@ -147,7 +147,10 @@ def _thread_subclasses(file: NodeFile) -> list[ast.Call]:
     return [call for each in classes for call in calls_in(each, "__init__")]
 
 
-def _make_daemon(file: NodeFile, call: ast.Call) -> Edit:
+def make_daemon(file: SourceFile, call: ast.Call) -> Edit:
+    """Turn the thread that this call makes into a daemon, for whose end Python does not wait."""
+    if (given := next((each.value for each in call.keywords if each.arg == "daemon"), None)) is not None:
+        return replace_node(file.text, given, "True")
     statement = file.statement(call)
     first, last = statement.lineno, statement.end_lineno or statement.lineno
     lines = file.text.splitlines()
