@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Collection
+from dataclasses import replace
 from typing import Any
 
 from checks.i1_1.facts import ECHO_LIMIT_S, FILE, TOPIC, TYPE, PlainStart, numeric_parameters
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.trace import Trace
+from tutor.judge.trace import Sample, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import RESENT_S, START_S, find_stuck_frames, wait_for_message
+from tutor.judge.waiting import MESSAGE_GAP_S, RESENT_S, START_S, find_stuck_frames, wait_for_message
 from tutor.ros_model import Parameter
 
 SILENT_S = 5.0
@@ -25,33 +26,47 @@ ANSWER_S = 2.0
 async def plain_start(bench: Bench) -> PlainStart:
     """Start without parameters: does it publish, does echo show the values, does Ctrl+C end it cleanly?"""
     looks: list[asyncio.Task[tuple[Frame, ...]]] = []
+    restarted = asyncio.Event()
     try:
         async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # goes first: it decides a lot alone
             bench.report_progress(0.1, f"waiting for the first message on {TOPIC}")
-            looks.append(asyncio.ensure_future(_look_at_silent_node(bench, run)))
-            echo = None
-            if await wait_for_message(run, TOPIC, TYPE):
+            looks.append(asyncio.ensure_future(_look_at_silent_node(bench, run, restarted)))
+            echo, counted_from = None, 0.0
+            published = await wait_for_message(run, TOPIC, TYPE)
+            if published and restarted.is_set():
+                await cancel(looks)
+                counted_from = run.now()
+                published = await run.until(lambda: bool(_samples_from(run, counted_from)), MESSAGE_GAP_S)
+            if published:
                 bench.report_progress(0.5, "watching as `ros2 topic echo` does")
                 echo = await run.echo(TOPIC, samples=1, limit_s=ECHO_LIMIT_S)
             parameters = await run.parameters(ANSWER_S)
             trace = run.trace()
+            trace = replace(trace, samples={**trace.samples, TOPIC: _samples_from(trace, counted_from)})
             bench.report_progress(0.8, "pressing Ctrl+C")
             ended = await run.interrupt() if run.exit is None else None
         silent = not trace.samples_on(TOPIC) and parameters is None and trace.exit is None and bool(trace.graph.nodes)
-        frames = (await looks[0] or await find_stuck_frames(bench, FILE)) if silent else ()
+        frames = (await looks[0] or await find_stuck_frames(bench, FILE)) if silent and not looks[0].cancelled() else ()
     finally:
         await cancel(looks)
     return PlainStart(trace, parameters, echo, ended, frames)
 
 
-async def _look_at_silent_node(bench: Bench, run: Run) -> tuple[Frame, ...]:
+def _samples_from(seen: Run | Trace, time: float) -> tuple[Sample, ...]:
+    """The temperatures that were sent at or after this time, in seconds since the epoch."""
+    return tuple(sample for sample in seen.samples_on(TOPIC) if sample.source_time >= time)
+
+
+async def _look_at_silent_node(bench: Bench, run: Run, restarted: asyncio.Event) -> tuple[Frame, ...]:
     """Once the node has sent nothing and answered nothing for a while, return the stack of another start; else ().
 
-    Meanwhile, its first message may still come.
+    Meanwhile, its first message may still come. `restarted` is set before the other start: a program that joins domains
+    other than its own may send a message to its first run from there, so only later ones count.
     """
     await run.until(lambda: bool(run.samples_on(TOPIC)), SILENT_S)
     if run.samples_on(TOPIC) or run.exit is not None or await run.parameters(ANSWER_S) is not None:
         return ()
+    restarted.set()
     return await find_stuck_frames(bench, FILE)
 
 
