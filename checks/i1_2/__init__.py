@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from checks.i1_2 import continuity, fast_stretch, judges, scenarios
+from checks.i1_2 import fast_stretch, judges, scenarios
 from checks.i1_2.deeper_causes import with_deeper_cause
+from checks.i1_2.gaps import judge_gaps
+from checks.i1_2.restart import judge_restart
 from tutor.judge.check import Check, Criterion
 from tutor.judge.exceptions import load
 
@@ -27,12 +29,12 @@ CHECK = Check(
         ),
         Criterion(
             "restart",
-            with_deeper_cause(continuity.judge_restart),
+            with_deeper_cause(judge_restart),
             (scenarios.restart, scenarios.steady, scenarios.jump),
         ),
         Criterion(
             "gaps",
-            with_deeper_cause(continuity.judge_gaps),
+            with_deeper_cause(judge_gaps),
             (scenarios.jump, scenarios.jump_twice, scenarios.steady),
         ),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.fast,), bonus=True),

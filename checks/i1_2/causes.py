@@ -16,6 +16,12 @@ from tutor.judge.trace import Level, LogRecord
 from tutor.judge.verdict import Cause
 
 
+def diagnose_end(trial: Trial, what: str) -> Cause:
+    """Why the node ended, having met `what`."""
+    ended = Cause("exit at once", f"the node does not survive {what}", "keep it running")
+    return steps.keep_node_up(trial.trace, causes.diagnose_process(trial.trace) or ended)
+
+
 def diagnose_count(summary: Summary, trial: Trial) -> Cause:
     """Why a summary does not state the true total."""
     name, text, words = _miscounted(summary, trial)

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checks.i1_2 import CHECK, continuity, fast_stretch, judges
+from checks.i1_2 import CHECK, fast_stretch, judges
 from checks.i1_2.facts import (
     FAST_HZ,
     FAST_MESSAGES,
@@ -26,7 +26,9 @@ from checks.i1_2.facts import (
     Sent,
     Trial,
 )
+from checks.i1_2.gaps import judge_gaps, judge_jumps
 from checks.i1_2.reading import parse_log, values
+from checks.i1_2.restart import judge_restart
 from checks.i1_2.scenarios import _logs_something_new
 from checks.i1_2.summaries import find_summaries
 from tests.checks.builders import (
@@ -164,7 +166,7 @@ def judge_trials(make: Callable[[], FakeStats], **more: object) -> dict[str, Ver
     restart_trial, fast_trial = restart(make(), **more), fast(make(), **more)
     count = judges.judge_count(steady_trial, jump_trial, fast_trial)
     summary = judges.judge_summary(steady_trial, jump_trial, fast_trial)
-    gaps = continuity.judge_gaps(jump_trial, twice_trial, steady_trial)
+    gaps = judge_gaps(jump_trial, twice_trial, steady_trial)
     early_count, early_summary = fast_stretch.judge_fast_count(fast_trial), fast_stretch.judge_fast_summary(fast_trial)
     for early, verdict in ((early_count, count), (early_summary, summary)):
         assert early is None or verdict.status is early.status is Status.FAILED
@@ -173,7 +175,7 @@ def judge_trials(make: Callable[[], FakeStats], **more: object) -> dict[str, Ver
         "count": count,
         "rate": judges.judge_rate(steady_trial, jump_trial),
         "summary": summary,
-        "restart": continuity.judge_restart(restart_trial, steady_trial, jump_trial),
+        "restart": judge_restart(restart_trial, steady_trial, jump_trial),
         "gaps": gaps,
     }
 
@@ -574,7 +576,7 @@ def test_correct_nodes_pass_whatever_numbers_are_chosen(node: type[FakeStats], f
     assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
     assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
     assert_passed(judges.judge_rate(steady_trial, jump_trial))
-    assert_passed(continuity.judge_gaps(jump_trial, jump_twice(node(), missed, first=first), steady_trial))
+    assert_passed(judge_gaps(jump_trial, jump_twice(node(), missed, first=first), steady_trial))
 
 
 @pytest.mark.parametrize("node", RIGHT)
@@ -628,8 +630,8 @@ def test_correct_nodes_pass_in_any_format(
     assert_passed(judges.judge_rate(steady_trial, jump_trial))
     assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
     twice = jump_twice(Formatted(), missed, late_s=late_s)
-    assert_passed(continuity.judge_gaps(jump_trial, twice, steady_trial))
-    assert_passed(continuity.judge_restart(restart(Formatted(), late_s=late_s), steady_trial, jump_trial))
+    assert_passed(judge_gaps(jump_trial, twice, steady_trial))
+    assert_passed(judge_restart(restart(Formatted(), late_s=late_s), steady_trial, jump_trial))
 
 
 # Faulty nodes.
@@ -1257,7 +1259,7 @@ def test_a_loss_that_keeps_rising_is_recognised_whatever_number_is_chosen(
     node: type[FakeStats], late_s: float, missed: int
 ) -> None:
     trials = (jump(node(), missed, late_s=late_s), jump_twice(node(), missed, late_s=late_s))
-    assert_failed(continuity.judge_gaps(*trials, steady(node(), late_s=late_s)), "false alarm")
+    assert_failed(judge_gaps(*trials, steady(node(), late_s=late_s)), "false alarm")
 
 
 @dataclass
@@ -1271,13 +1273,13 @@ class RateOverTheLastSecond(FakeStats):
 
 def test_a_rate_that_rises_after_the_jump_is_no_loss() -> None:
     trials = (jump(RateOverTheLastSecond()), jump_twice(RateOverTheLastSecond()))
-    assert_passed(continuity.judge_gaps(*trials, steady(RateOverTheLastSecond())))
+    assert_passed(judge_gaps(*trials, steady(RateOverTheLastSecond())))
 
 
 @pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])
 def test_a_warning_about_one_gap_does_not_cover_the_other(cpu_wait_s: float) -> None:
     jump_trial = jump_twice(SkipsTheFirstGap(), cpu_wait_s=cpu_wait_s)
-    assert_failed(continuity.judge_jumps(jump_trial, steady(SkipsTheFirstGap())), "gap not noticed")
+    assert_failed(judge_jumps(jump_trial, steady(SkipsTheFirstGap())), "gap not noticed")
 
 
 @pytest.mark.parametrize(
@@ -1289,8 +1291,8 @@ def test_one_message_may_cover_both_gaps_if_the_node_was_starved(text: str, pass
     assert len(logs) == len(jump_trial.trace.logs) - 2
     at = jump_trial.sent[SECOND_JUMP_AFTER].at + 0.1
     both = replace(jump_trial, trace=replace(jump_trial.trace, logs=(*logs, LogRecord(30, "node", text, at, at))))
-    assert_failed(continuity.judge_jumps(both, steady_trial), "gap not noticed")
-    verdict = continuity.judge_jumps(replace(both, cpu_wait_s=0.5), steady_trial)
+    assert_failed(judge_jumps(both, steady_trial), "gap not noticed")
+    verdict = judge_jumps(replace(both, cpu_wait_s=0.5), steady_trial)
     assert verdict.passed == passes, verdict
 
 
@@ -1304,7 +1306,7 @@ def test_an_alarm_next_to_a_summary_is_not_one_of_its_lines(first: int, late_s: 
     jump_trial = replace(jump_trial, trace=replace(jump_trial.trace, logs=tuple(logs)), cpu_wait_s=cpu_wait_s)
     assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
     assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
-    assert_failed(continuity.judge_jumps(jump_trial, steady_trial), "false alarm")
+    assert_failed(judge_jumps(jump_trial, steady_trial), "false alarm")
 
 
 @settings(max_examples=50, deadline=None)
@@ -1334,7 +1336,7 @@ def test_a_gap_that_is_only_printed_fails() -> None:
     printed = replace(jump_trial.trace, output=trace(out="gap: 5 messages lost").output)
     printed = replace(printed, output=tuple(replace(line, at=jump_trial.sent[-1].at) for line in printed.output))
     assert_failed(
-        continuity.judge_jumps(replace(jump_trial, trace=printed), steady(GapBlind())),
+        judge_jumps(replace(jump_trial, trace=printed), steady(GapBlind())),
         "printed, not logged",
         "5 messages lost",
     )
@@ -1369,8 +1371,8 @@ def test_without_a_summary_the_other_criteria_are_skipped() -> None:
     for verdict in (
         judges.judge_slow_count(nothing, nothing),
         judges.judge_rate(nothing, nothing),
-        continuity.judge_restart(restart(FakeStats()), nothing, nothing),
-        continuity.judge_gaps(nothing, nothing, nothing),
+        judge_restart(restart(FakeStats()), nothing, nothing),
+        judge_gaps(nothing, nothing, nothing),
     ):
         assert verdict.status is Status.SKIPPED
 
@@ -1378,11 +1380,11 @@ def test_without_a_summary_the_other_criteria_are_skipped() -> None:
 def test_a_node_that_exits_on_a_restart_or_a_jump_fails() -> None:
     steady_trial, jump_trial, restart_trial = steady(FakeStats()), jump(FakeStats()), restart(FakeStats())
     ended = replace(restart_trial, trace=replace(restart_trial.trace, exit=exited(0, after_s=4)))
-    assert_failed(continuity.judge_restart(ended, steady_trial, jump_trial), "exit at once")
+    assert_failed(judge_restart(ended, steady_trial, jump_trial), "exit at once")
     crashed = trace(graph=LISTENING, logs=jump_trial.trace.logs, err=CRASH, exit=exited(1))
-    assert_failed(continuity.judge_jumps(replace(jump_trial, trace=crashed), steady_trial), "unhandled exception")
+    assert_failed(judge_jumps(replace(jump_trial, trace=crashed), steady_trial), "unhandled exception")
     deaf = replace(restart_trial, sent=restart_trial.sent[:RESTART_AFTER], trace=trace(logs=restart_trial.trace.logs))
-    assert_failed(continuity.judge_restart(deaf, steady_trial, jump_trial), "no subscription")
+    assert_failed(judge_restart(deaf, steady_trial, jump_trial), "no subscription")
     assert find_summaries(replace(deaf, trace=restart_trial.trace))[0].messages == 10
 
 

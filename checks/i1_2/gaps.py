@@ -1,0 +1,176 @@
+"""I1.2: the verdict on jumps of N."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from checks.i1_2 import gap_steps, steps
+from checks.i1_2.causes import diagnose_end
+from checks.i1_2.facts import Trial
+from checks.i1_2.rates import sent_hz
+from checks.i1_2.reading import Line
+from checks.i1_2.reports import is_before_jump, new_lines
+from checks.i1_2.summaries import find_summaries
+from tutor.judge import causes
+from tutor.judge.causes import printing
+from tutor.judge.rates import TOLERANCE
+from tutor.judge.trace import Level
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+
+SETTLING_MESSAGES = 2
+"""An alarm about a jump is logged before this many more messages have been sent."""
+
+
+def judge_gaps(jump: Trial, jump_twice: Trial, steady: Trial) -> Verdict:
+    """Judge `gaps`."""
+    if not jump.sent or not jump_twice.sent or (not find_summaries(steady) and not steady.lines):
+        return skipped("not judged, because the node logs nothing about the messages: see `summary`")
+    verdict = judge_jumps(jump, steady, jump_twice)
+    return judge_jumps(jump_twice, steady) if verdict.passed else verdict
+
+
+def judge_jumps(jump: Trial, steady: Trial, jump_twice: Trial | None = None) -> Verdict:
+    """Judge `gaps` by one run in which N jumps.
+
+    `jump_twice`: another one, in which it jumps again where it rises by one in the first: with it, a count of lost
+    messages that keeps rising is told from a count of messages since the last jump.
+    """
+    expected = "when N jumps, a log message or a gap count in the next summary says so; while N rises by one, none does"
+    if jump.trace.exit is not None:
+        words = causes.output_tail(jump.trace)
+        return failed(
+            expected, f"the node ended after {len(jump.sent)} messages", diagnose_end(jump, "a jump of N"), words
+        )
+    reports = new_lines(jump, since=jump.sent[jump.before_break].at, usual=(steady,))
+    jumped = [f"from {jump.sent[index - 1].number} to {jump.sent[index].number}" for index in jump.jumps]
+    observed = f"N jumped {', and '.join(jumped)}"
+    if reports and (again := _find_repeated_alarms(reports, jump)):
+        texts = [line.text for line in again]
+        cause = gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
+            "false alarm",
+            f"it still says so when N rises by one again: {again[-1].text}",
+            steps.compare_numbers(jump.trace, texts) or gap_steps.COMPARE,
+        )
+        return failed(expected, observed, cause, texts[:6])
+    if jump_twice is not None and (rising := _diagnose_rising_count(jump, jump_twice, steady)) is not None:
+        return failed(expected, observed, *rising)
+    unused = list(reports)
+    for index, how in zip(jump.jumps, jumped, strict=True):
+        own = next((line for line in unused if _is_about_jump(line, index, jump)), None)
+        if own is not None:
+            unused.remove(own)
+        elif not any(_is_about_jump(line, index, jump) and _reports_all_jumps(line, jump) for line in reports):
+            since = [line.text for line in jump.lines if line.messages > index]
+            why = _diagnose_no_warning(index, jump, steady)
+            return failed(expected, f"N jumped {how}; nothing new was logged", why, since[:6])
+    return passed(expected, observed, [line.text for line in reports[:3]])
+
+
+def _is_about_jump(line: Line, index: int, jump: Trial) -> bool:
+    """Whether the line was logged after this jump and before the next one, allowing for delays by the machine."""
+    later = [jump.sent[after].at for after in jump.jumps if after > index]
+    return line.at >= jump.sent[index].at and all(line.at < at + jump.allowance_s for at in later)
+
+
+def _reports_all_jumps(line: Line, jump: Trial) -> bool:
+    """Whether the line reports all jumps so far: their number, or the total of missed messages."""
+    missed = jump.missed(line.messages)
+    return len(missed) > 1 and any(each.value in (len(missed), sum(missed)) for each in line.numbers)
+
+
+def _find_repeated_alarms(reports: Sequence[Line], jump: Trial) -> list[Line]:
+    """The alarms that are repeated for most messages after the jump: warnings, or growing counts of missed messages."""
+    later = [line for line in reports if line.messages > jump.before_break + SETTLING_MESSAGES]
+    expected = jump.sent[jump.before_break - 1].number + 1
+    growing = [
+        line
+        for line in later
+        if any(number.value == jump.sent[line.messages - 1].number - expected for number in line.numbers)
+    ]
+    for alarms in (growing, [line for line in later if line.level >= Level.WARN]):
+        if len({line.messages for line in alarms}) > 0.7 * (len(jump.sent) - jump.before_break - SETTLING_MESSAGES):
+            return alarms
+    return []
+
+
+def _diagnose_rising_count(jump: Trial, jump_twice: Trial, steady: Trial) -> tuple[Cause, list[str]] | None:
+    """Find a number that rises at the jump and keeps rising afterwards; also return the lines that show it.
+
+    It must have been constant before, and not be lower if N jumps twice, unlike a count of messages since the last
+    jump. A timer may report a jump late, so only a number that has already risen is considered.
+    """
+    between = jump_twice.before_second_jump - jump_twice.before_break
+    for kind in {line.kind for line in jump.lines if line.messages >= jump.before_break + SETTLING_MESSAGES}:
+        lines = [line for line in jump.lines if line.kind == kind]
+        starts = [
+            [line for line in trial.lines if line.kind == kind and is_before_jump(line, trial)]
+            for trial in (jump, steady)
+        ]
+        usual = [line for lines in starts for line in lines]
+        twice = [line for line in jump_twice.lines if line.kind == kind]
+        amount = {len(line.numbers) for line in (*lines, *usual, *twice)}
+        if max(map(len, starts)) < 2 or len(amount) > 1:  # a single line does not show what is constant
+            continue
+        since = [line for line in lines if line.messages >= jump.before_break + SETTLING_MESSAGES]
+        again = [line for line in twice if line.messages > jump_twice.before_second_jump]
+        for place in range(*amount):
+            values_before = {line.numbers[place].value for line in usual}
+            rose = [line.numbers[place].value for line in since]
+            ends = [line.numbers[place].value for line in again[-1:]]
+            whole = all(value.is_integer() for value in rose)
+            is_rate = _are_rates(values_before, steady) and _are_rates(rose, jump)  # over the last second, say
+            if (
+                len(values_before) == 1
+                and whole
+                and not is_rate
+                and max(values_before) < rose[0] < rose[-1] < min(ends, default=rose[-1]) + between / 2
+            ):
+                texts = [line.text for line in (since[0], since[-1])]
+                return gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
+                    "false alarm",
+                    f"the loss that it reports keeps rising while N rises by one again: {since[0].numbers[place].text} "
+                    f"after {since[0].messages} messages, {since[-1].numbers[place].text} after {since[-1].messages}",
+                    steps.compare_numbers(jump.trace, texts) or gap_steps.COMPARE,
+                ), texts
+    return None
+
+
+def _are_rates(values: Iterable[float], trial: Trial) -> bool:
+    """Whether the values are the rate at which the messages were sent, within the tolerance."""
+    hz = sent_hz(trial)
+    return all(abs(value - hz) <= TOLERANCE * hz for value in values)
+
+
+def _diagnose_no_warning(index: int, jump: Trial, steady: Trial) -> Cause:
+    """Why the jump to the message with this index is not reported.
+
+    A kind of line that came with the jump, and also with some, but not all, other messages, was a false alarm there.
+    """
+    in_summaries = {line.kind for summary in (*find_summaries(steady), *find_summaries(jump)) for line in summary.lines}
+    with_it = range(index + 1, index + 3)
+    since = {line.kind for line in jump.lines if line.messages in with_it} - in_summaries
+    calm = [line for trial in (steady, jump) for line in trial.lines if is_before_jump(line, trial)]
+    false = [line for line in calm if line.kind in since]
+    if 0 < len(false) < 0.7 * (len(steady.sent) + jump.before_break - 2):
+        texts = [line.text for line in false]
+        return gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
+            "false alarm",
+            f"it also says so where N rises by one: {false[0].text}",
+            steps.compare_numbers(jump.trace, texts)
+            or "compare numbers, not texts: int(msg.data.split(':')[1]) must be the last number + 1",
+        )
+    words = ("gap", "miss", "lost", "skip", "lücke", "jump")
+    after = [line for line in jump.trace.output if line.at >= jump.sent[index].at and line.stream == "stdout"]
+    printed = next((line.text for line in after if any(word in line.text.casefold() for word in words)), None)
+    if printed is not None:
+        call = printing.find_print(jump.trace, printed)
+        step = printing.log_instead_of_print(jump.trace, call) if call else steps.compare_numbers(jump.trace)
+        return Cause("printed, not logged", f"it is only printed: {printed}", step or "self.get_logger().warning(...)")
+    missed = jump.missed(index)[-1]
+    return gap_steps.diagnose_no_messages(jump.trace) or Cause(
+        "gap not noticed",
+        f"{missed} number{'s are' if missed > 1 else ' is'} missing, "
+        "and nothing distinguishes this from any other message",
+        steps.compare_numbers(jump.trace)
+        or "keep the last N; where the next one is not that + 1, self.get_logger().warning(...) how many are missing",
+    )

@@ -1,0 +1,122 @@
+"""I1.2: the lines with which a node reports a jump of N, told from those that it logs while N rises by one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import accumulate
+
+from checks.i1_2.facts import SOON_S, Trial
+from checks.i1_2.reading import Line
+from checks.i1_2.summaries import Summary, find_summaries, last_due_count
+from tutor.judge.trace import Level
+
+
+def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial]) -> list[Line]:
+    """The lines from `since` on that the node does not log while N rises by one.
+
+    These are lines of a new kind, or with a change in a number that was constant before. `usual`: other trials, used up
+    to their own jump. Lines logged with a first message are not alarms, and do not define usual kinds.
+    """
+    before = [line for line in trial.lines if line.at < since and not _is_about_first_message(line, trial)]
+    elsewhere = [[line for line in other.lines if is_before_jump(line, other)] for other in usual]
+    known = {line.kind for lines in (before, *elsewhere) for line in lines}
+    in_summaries = {line: summary for summary in find_summaries(trial) for line in summary.lines}
+    reports = []
+    for line in trial.lines:
+        if line.at < since:
+            continue
+        same_kind = [other for other in before if other.kind == line.kind]
+        others = [found for lines in elsewhere if (found := [other for other in lines if other.kind == line.kind])]
+        if line.kind not in known or _reports_jump(line, in_summaries.get(line), same_kind, others, trial):
+            reports.append(line)
+    return reports
+
+
+def is_before_jump(line: Line, trial: Trial) -> bool:
+    """Whether the line was logged before N first jumped, and is not about the first message."""
+    return not _is_about_first_message(line, trial) and not (trial.before_break and line.messages > trial.before_break)
+
+
+def _is_about_first_message(line: Line, trial: Trial) -> bool:
+    return line.at < trial.sent[0].at + SOON_S
+
+
+def _reports_jump(
+    line: Line, summary: Summary | None, before: Sequence[Line], elsewhere: Sequence[Sequence[Line]], trial: Trial
+) -> bool:
+    """Whether a number in the line reports the jump: as a count of gaps, of missed or of expected messages.
+
+    `summary`: the summary that contains the line, if any.
+    """
+    others = [other for lines in (before, *elsewhere) for other in lines]
+    missed = trial.missed(line.messages)
+    if not others or any(len(other.numbers) != len(line.numbers) for other in others):
+        return False
+    for place, number in enumerate(line.numbers):
+        values_before = {other.numbers[place].value for other in before or others}
+        usual_values = [{other.numbers[place].value for other in lines} for lines in elsewhere]
+        if summary is not None and _includes_missed(place, line, summary, others, missed):
+            return True
+        if len(values_before) > 1 or any(len(each) > 1 for each in usual_values):
+            continue
+        base = values_before.pop()
+        increase = number.value - base
+        from_zero = any(each == {0.0} for each in usual_values)
+        if summary is None:
+            # In a line that is logged with every message, a number is a report if it was 0 before, and no warning.
+            is_report = base == 0 and from_zero and line.level < Level.WARN and _is_count_of_jump(increase, missed)
+        else:
+            is_report = from_zero and (_is_count_of_jump(increase, missed) or _is_loss_share(increase, missed, trial))
+            is_report = is_report or (
+                all(each == {base} for each in usual_values) and _reflects_jump(increase, base, missed, trial)
+            )
+        if is_report:
+            return True
+    return False
+
+
+def _includes_missed(place: int, line: Line, summary: Summary, calm: Iterable[Line], missed: Sequence[int]) -> bool:
+    """Whether a number that equalled the count now also includes missed messages, beside the count itself."""
+    due = last_due_count(line.messages)
+    followed = all(other.numbers[place].value == last_due_count(other.messages) > 0 for other in calm)
+    greater = line.numbers[place].value - due in [each for each in _missed_totals(missed) if each > 0]
+    return followed and greater and summary.states(due)
+
+
+def _missed_totals(missed: Sequence[int]) -> set[int]:
+    """The messages missed by each single jump, and the running totals."""
+    return {*missed, *accumulate(missed)}
+
+
+def _is_count_of_jump(increase: float, missed: Sequence[int]) -> bool:
+    """Whether the increase is the number of jumps, or of missed messages."""
+    return increase in range(1, len(missed) + 1) or _is_count_of_missed(increase, missed)
+
+
+def _is_count_of_missed(increase: float, missed: Sequence[int]) -> bool:
+    """Whether the increase is the number of missed messages, or the step of N."""
+    return any(
+        increase in (abs(amount), abs(amount) + 1, abs(amount) + len(missed)) for amount in _missed_totals(missed)
+    )
+
+
+def _reflects_jump(increase: float, base: float, missed: Sequence[int], trial: Trial) -> bool:
+    """Whether a number that was `base` reflects the jump: as a run number, missed messages or the share received."""
+    if increase == 1 and any(each < 0 for each in missed):
+        return True
+    delivered = base in (1, 100) and _is_loss_share(-increase, missed, trial, scales=(base,))
+    return _is_count_of_missed(increase, missed) or delivered
+
+
+def _is_loss_share(increase: float, missed: Sequence[int], trial: Trial, *, scales: Sequence[float] = (1, 100)) -> bool:
+    """Whether the increase is the share of lost messages or of jumps, as a fraction or in percent, to two digits."""
+    if any(each < 0 for each in missed) or increase <= 0:
+        return False
+    jumps = range(1, len(missed) + 1)
+    shares = {
+        lost / (whole + more)
+        for lost in (*jumps, *_missed_totals(missed))
+        for whole in range(trial.before_break + 1, len(trial.sent) + 1)
+        for more in (0, *_missed_totals(missed), *(-each for each in jumps))
+    }
+    return any(abs(increase - scale * share) <= 0.0051 * scale for share in shares for scale in scales)
