@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from checks.i2_2 import steps
+from checks.i2_2 import source_causes, steps
 from checks.i2_2.causes import diagnose_launch, list_endpoints, list_nodes, with_imported_names
 from checks.i2_2.facts import (
     ARGUMENTS,
@@ -38,7 +38,7 @@ def diagnose_topic(default_run: LaunchRun, seen: LaunchRun, wanted: str) -> Caus
             _diagnose_altered_topic(launch_file, graph, wanted)
             or _diagnose_ignored_argument(seen, "topic", wanted, default_run)
             or _diagnose_remapping(seen, wanted)
-            or steps.diagnose_topic_argument(launch_file, name)
+            or source_causes.diagnose_topic_argument(launch_file, name)
             or Cause(
                 "topic hard-coded",
                 f"neither node uses {wanted}: the remappings do not depend on the argument",
@@ -96,7 +96,7 @@ def diagnose_namespace(default_run: LaunchRun, seen: LaunchRun) -> Cause:
     if not within:
         return (
             _diagnose_ignored_argument(seen, "namespace", namespace)
-            or steps.diagnose_namespace_argument(launch_file)
+            or source_causes.diagnose_namespace_argument(launch_file)
             or Cause(
                 "namespace not used",
                 f"{list_nodes(outside)}: no node is under {under[:-1]}",
@@ -105,7 +105,7 @@ def diagnose_namespace(default_run: LaunchRun, seen: LaunchRun) -> Cause:
             )
         )
     if outside and not _are_two_nodes(within):
-        return steps.diagnose_namespace_argument(launch_file) or Cause(
+        return source_causes.diagnose_namespace_argument(launch_file) or Cause(
             "namespace missing on one node",
             f"{list_nodes(within)} is under {under[:-1]}, {list_nodes(outside)} is not",
             steps.put_into_namespace(launch_file)
@@ -182,12 +182,12 @@ def _diagnose_ignored_argument(
             f"Node(...) {right}",
         )
     if argument == "namespace":
-        return steps.diagnose_namespace_argument(launch_file) or Cause(
+        return source_causes.diagnose_namespace_argument(launch_file) or Cause(
             "namespace not used",
             f"the argument {argument} is declared, but its value reaches no node",
             steps.put_into_namespace(launch_file) or f"give every Node(...) {right}",
         )
-    return steps.diagnose_topic_argument(launch_file, name) or Cause(
+    return source_causes.diagnose_topic_argument(launch_file, name) or Cause(
         "topic hard-coded",
         f"the argument {argument} is declared, but its value reaches no node",
         steps.remap_nodes(launch_file, name) or f"give every Node(...) {right}",

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Sequence
 from typing import cast
 
-from checks.i2_2 import steps
+from checks.i2_2 import declarations, source_causes, steps
 from checks.i2_2.facts import (
     FILE,
     LaunchRun,
@@ -76,9 +76,9 @@ def diagnose_launch(trace: Trace) -> Cause | None:
     if found := _UNSUPPORTED.search(text):
         raise NeedsInstalledRos(_line_of(text, found.start()))
     if found := _NO_VALUE.search(text):
-        return steps.diagnose_undeclared_argument(launch_file, found["name"])
+        return declarations.diagnose_undeclared_argument(launch_file, found["name"])
     if found := _NO_DEFAULT.search(text):
-        return steps.diagnose_missing_default(launch_file, found["name"])
+        return declarations.diagnose_missing_default(launch_file, found["name"])
     if found := _NOT_PAIRS.search(text):
         return Cause(
             "remappings not a list of pairs",
@@ -142,7 +142,7 @@ def diagnose_launch(trace: Trace) -> Cause | None:
     for process in writers(trace.output):
         if left := tracebacks.find_tracebacks(by_stream(written_by(trace.output, process))):
             return causes.diagnose_traceback(left[-1], trace)
-    if (piece := steps.diagnose_split_command(launch_file)) is not None:
+    if (piece := source_causes.diagnose_split_command(launch_file)) is not None:
         return piece
     if trace.exit is not None:
         return Cause(
@@ -190,7 +190,7 @@ def diagnose_missing(seen: LaunchRun) -> Cause:
         missing, present = ("subscriber", senders) if senders else ("publisher", receivers)
         verb = "subscribes" if senders else "publishes"
         launch_file = launch(trace)
-        if (cause := steps.diagnose_missing_node(launch_file, missing)) is not None:
+        if (cause := source_causes.diagnose_missing_node(launch_file, missing)) is not None:
             return cause
         return Cause(
             f"no {missing}",
