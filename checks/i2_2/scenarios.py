@@ -52,6 +52,9 @@ EXIT_REPORT_S = 3.0
 ANSWERS_S = 8.0
 """Timeout of a service request: most nodes answer at once, one with slow callbacks takes some seconds."""
 
+RESEND_S = 1.0
+"""A request that was not answered within this time may be lost, and is sent again."""
+
 LIST_PARAMETERS = "rcl_interfaces/srv/ListParameters"
 """The type of a service that every rclpy and rclcpp node offers by default."""
 
@@ -168,7 +171,10 @@ async def _find_answering(run: Run) -> frozenset[str]:
     able = set(run.graph.parameter_nodes)
     asked = sorted(able & {end.node for pair in pairs(run.graph) for end in pair})
     answers = await asyncio.gather(
-        *(run.call(f"{node}/list_parameters", LIST_PARAMETERS, {}, limit_s=ANSWERS_S) for node in asked)
+        *(
+            run.call(f"{node}/list_parameters", LIST_PARAMETERS, {}, limit_s=ANSWERS_S, resend_s=RESEND_S)
+            for node in asked
+        )
     )
     return frozenset(node for node, answer in zip(asked, answers, strict=True) if answer.response is not None)
 

@@ -291,7 +291,9 @@ class RosRun:
         )
         return answer or SetAnswer(values, False, False, "", asked, time.time())
 
-    async def call(self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float) -> CallAnswer:
+    async def call(
+        self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float, resend_s: float = math.inf
+    ) -> CallAnswer:
         # A new client needs a moment to discover the server, which is no part of the service's response time.
         asked = time.time()
         if matched := await self._while_alive(
@@ -302,7 +304,7 @@ class RosRun:
         with contextlib.suppress(AnswerTooLarge):
             if matched:
                 response = await self._while_alive(
-                    self._observer.call(service, type, request, NO_TIMEOUT_S), limit_s, None
+                    self._observer.call(service, type, request, NO_TIMEOUT_S, resend_s=resend_s), limit_s, None
                 )
         return CallAnswer(
             service=service,

@@ -6,6 +6,7 @@ in `tutor.engine`. Tests of judges need no bench, since judges take plain facts.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager
 from typing import Any, Protocol, TypeVar
@@ -128,8 +129,14 @@ class Run(Protocol):
     ) -> SetAnswer:
         """Set parameters as `ros2 param set` does; with `atomic`, all in one atomic request."""
 
-    async def call(self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float) -> CallAnswer:
-        """Call a service as `ros2 service call` does: with a new client, once it is matched with the server."""
+    async def call(
+        self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float, resend_s: float = math.inf
+    ) -> CallAnswer:
+        """Call a service as `ros2 service call` does: with a new client, once it is matched with the server.
+
+        `resend_s`: send the request again whenever this many seconds pass without a response. A busy machine may lose
+        one, so this is for requests without side effects.
+        """
 
     def publisher(self, topic: str, type: str) -> AbstractAsyncContextManager[Publisher]:
         """Create a publisher in a node and participant of our own; both leave the graph when the context exits.

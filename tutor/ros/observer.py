@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import functools
 import itertools
+import math
 import threading
 import time
 import warnings
@@ -17,6 +18,7 @@ from rclpy.client import Client
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.qos import qos_profile_services_default
 from rclpy.service import Service as ServiceServer
+from rclpy.task import Future
 
 from tutor.judge.trace import LogRecord, Sample
 from tutor.ros import memory_guard
@@ -128,11 +130,20 @@ class Observer:
         )
 
     async def call(
-        self, service: str, type_name: str, request: Mapping[str, Any], limit_s: float, *, large: bool = False
+        self,
+        service: str,
+        type_name: str,
+        request: Mapping[str, Any],
+        limit_s: float,
+        *,
+        large: bool = False,
+        resend_s: float = math.inf,
     ) -> Any | None:
         """Call a service once its server is matched. Return None if no response arrives within `limit_s` seconds.
 
-        `large`: the response may be of any size. Raises AnswerTooLarge.
+        `large`: the response may be of any size. `resend_s`: send the request again whenever this many seconds pass
+        without a response, for requests without side effects. The middleware drops the response to a client that the
+        server has not fully discovered within 0.1 s, which happens on a busy machine. Raises AnswerTooLarge.
         """
         deadline = self._loop.time() + limit_s
         if not await self.wait_for_server(service, type_name, limit_s):
@@ -140,19 +151,22 @@ class Observer:
         client = self._client(service, type_name)
         filled = set_fields(interface_class(type_name).Request(), request)
         answer: asyncio.Future[Any] = self._loop.create_future()
-        pending = client.call_async(filled)
-        pending.add_done_callback(lambda done: self._call_on_loop(_transfer_result, answer, done))
+        pending: list[Future] = []
         self._pending_answers.add(answer)
         self._pending_large_answers += large
         try:
-            return await asyncio.wait_for(answer, max(0.0, deadline - self._loop.time()))
-        except TimeoutError:
-            return None
+            while not answer.done() and (left_s := deadline - self._loop.time()) > 0:
+                sent = client.call_async(filled)
+                sent.add_done_callback(lambda done: self._call_on_loop(_transfer_result, answer, done))
+                pending.append(sent)
+                await asyncio.wait({answer}, timeout=min(left_s, resend_s))
+            return answer.result() if answer.done() else None
         finally:  # the caller may be cancelled
             self._pending_answers.discard(answer)
             self._pending_large_answers -= large
-            if not pending.done():
-                client.remove_pending_request(pending)
+            for sent in pending:
+                if not sent.done():
+                    client.remove_pending_request(sent)
 
     def discard_client(self, service: str, type_name: str) -> None:
         """Destroy our client of a service: it keeps the memory of its largest response. The next call makes another."""

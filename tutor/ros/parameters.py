@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 import time
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -39,6 +40,9 @@ TOO_LARGE = (0, "(too large to be read)")
 
 _FIXED_SIZE_TYPES = frozenset((1, 2, 3))
 """Type numbers of fixed-size values: bool, integer, double."""
+
+RESEND_S = 1.0
+"""A request for parameters that was not answered within this time is sent again."""
 
 _LARGE_BYTES = 1_000_000
 _ELEMENT_BYTES = 8
@@ -91,7 +95,9 @@ async def set_parameters(
 
 async def _get_node_parameters(observer: Observer, node: str, limit_s: float) -> tuple[Parameter, ...] | None:
     try:
-        listed = await observer.call(f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters", {}, limit_s)
+        listed = await observer.call(
+            f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters", {}, limit_s, resend_s=RESEND_S
+        )
     except AnswerTooLarge:
         return ()
     if listed is None:
@@ -102,7 +108,7 @@ async def _get_node_parameters(observer: Observer, node: str, limit_s: float) ->
     request = {"names": names}
     try:
         described = await observer.call(
-            f"{node}/describe_parameters", "rcl_interfaces/srv/DescribeParameters", request, limit_s
+            f"{node}/describe_parameters", "rcl_interfaces/srv/DescribeParameters", request, limit_s, resend_s=RESEND_S
         )
         if described is None:
             return None
@@ -147,7 +153,10 @@ class _ValueReader:
             return 0
         service, type_name = f"{self._node}/get_parameters", "rcl_interfaces/srv/GetParameters"
         try:
-            answer = await self._observer.call(service, type_name, {"names": names}, self._limit_s, large=large)
+            resend_s = math.inf if large else RESEND_S
+            answer = await self._observer.call(
+                service, type_name, {"names": names}, self._limit_s, large=large, resend_s=resend_s
+            )
         except AnswerTooLarge:
             # Wait until the rest of it is gone, so that it is not taken for part of the next response.
             await self._observer.wait_while_paused(self._limit_s)
