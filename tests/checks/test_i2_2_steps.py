@@ -6,7 +6,7 @@ import ast
 
 import pytest
 
-from checks.i2_2 import rewriting, steps
+from checks.i2_2 import declarations, rewriting, source_causes, steps
 from checks.i2_2.causes import diagnose_launch
 from checks.i2_2.reading import Source
 from checks.i2_2.rewriting import Launch
@@ -128,7 +128,7 @@ RIGHT = "remappings=[('chatter', name)]"
     ],
 )
 def test_causes_of_an_unused_topic_argument(launch: Launch, cause: str, step: str) -> None:
-    found = applicable_cause(launch, steps.diagnose_topic_argument(launch, "chatter"))
+    found = applicable_cause(launch, source_causes.diagnose_topic_argument(launch, "chatter"))
     assert found.name == cause, found
     assert step in found.hint
     assert "parameters=" not in found.hint
@@ -147,7 +147,7 @@ def test_causes_of_an_unused_topic_argument(launch: Launch, cause: str, step: st
     ],
 )
 def test_causes_of_an_unused_namespace_argument(launch: Launch, step: str) -> None:
-    found = applicable_cause(launch, steps.diagnose_namespace_argument(launch))
+    found = applicable_cause(launch, source_causes.diagnose_namespace_argument(launch))
     assert found.name == "namespace not used"
     assert step in found.hint
     assert "name=[" not in found.hint
@@ -175,7 +175,7 @@ def test_causes_of_an_unused_namespace_argument(launch: Launch, step: str) -> No
     ],
 )
 def test_a_node_that_is_not_started(launch: Launch, says: str, step: str) -> None:
-    found = applicable_cause(launch, steps.diagnose_missing_node(launch, "subscriber"))
+    found = applicable_cause(launch, source_causes.diagnose_missing_node(launch, "subscriber"))
     assert found.name == "no subscriber"
     assert says in found.text
     assert step in found.hint
@@ -204,7 +204,7 @@ def test_steps_that_change_single_lines() -> None:
         "line 8 becomes: name = LaunchConfiguration('topic')"
     )
     bare = changed(("'topic', default_value='chatter'", "'topic'"))
-    assert steps.diagnose_missing_default(bare, "topic").hint == (
+    assert declarations.diagnose_missing_default(bare, "topic").hint == (
         "line 13 becomes: DeclareLaunchArgument('topic', default_value='chatter'),"
     )
     unlisted = changed(("        talker,\n        listener,\n", ""))
@@ -255,9 +255,9 @@ def test_own_programs_are_kept_with_the_topic_in_their_code() -> None:
 
 
 def test_an_empty_file_leaves_only_generic_steps() -> None:
-    assert steps.diagnose_topic_argument(launch_of(""), "chatter") is None
-    assert steps.diagnose_namespace_argument(launch_of("")) is None
-    assert steps.diagnose_missing_node(launch_of(""), "publisher") is None
+    assert source_causes.diagnose_topic_argument(launch_of(""), "chatter") is None
+    assert source_causes.diagnose_namespace_argument(launch_of("")) is None
+    assert source_causes.diagnose_missing_node(launch_of(""), "publisher") is None
     assert steps.rewrite_launch_file(launch_of("")) is None
     assert steps.remapping(Source(), "chatter") == "remappings=[('chatter', LaunchConfiguration('topic'))]"
 
@@ -273,14 +273,14 @@ def generate_launch_description():
 
 
 def test_commands_instead_of_nodes_become_nodes() -> None:
-    found = applicable_cause(launch_of(COMMANDS), steps.diagnose_topic_argument(launch_of(COMMANDS), "chatter"))
+    found = applicable_cause(launch_of(COMMANDS), source_causes.diagnose_topic_argument(launch_of(COMMANDS), "chatter"))
     assert "executable='listener'," in found.hint
     assert "from launch_ros.actions import Node" in found.hint
-    assert steps.diagnose_split_command(launch_of(COMMANDS)) is None
+    assert source_causes.diagnose_split_command(launch_of(COMMANDS)) is None
 
 
 def test_a_command_in_one_string() -> None:
-    found = steps.diagnose_split_command(
+    found = source_causes.diagnose_split_command(
         launch_of(COMMANDS.replace("'ros2', 'run', 'demo_nodes_py', '", "'ros2 run demo_nodes_py "))
     )
     assert found is not None
@@ -303,7 +303,7 @@ MODULE = changed(
 
 @pytest.mark.parametrize(("launch", "own"), [(ALIAS, "LC"), (MODULE, "subs.LaunchConfiguration")])
 def test_import_aliases_are_understood_and_used(launch: Launch, own: str) -> None:
-    found = steps.diagnose_topic_argument(launch, "chatter")
+    found = source_causes.diagnose_topic_argument(launch, "chatter")
     assert found is not None
     assert found.name == "topic given as a parameter"
     assert f"parameters=[{{'topic': {own}('topic')}}]" in steps.with_own_names(launch.source, found).text
@@ -324,7 +324,7 @@ def test_arguments_in_a_shared_dict_are_not_given_twice() -> None:
         (REMAPPED, ", **common"),
         ("    talker =", "    common = dict(\n        parameters=[{'topic': name}],\n    )\n    talker ="),
     )
-    found = applicable_cause(shared, steps.diagnose_topic_argument(shared, "chatter"))
+    found = applicable_cause(shared, source_causes.diagnose_topic_argument(shared, "chatter"))
     assert "**common" not in found.hint
     assert "remappings=[('chatter', LaunchConfiguration('topic'))]," in found.hint
 
