@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from checks.i2_2 import source_causes, steps
 from checks.i2_2.causes import diagnose_launch, list_endpoints, list_nodes, with_imported_names
@@ -214,11 +214,19 @@ def _diagnose_remapping(seen: LaunchRun, wanted: str) -> Cause | None:
             f"{source} is remapped to {target}, so {target} keeps its name",
             steps.remap_nodes(launch(seen.trace), target) or "first the name in the node's code, then the new one",
         )
+    for earlier, (source, target) in _overridden_rules(seen):
+        if target.rsplit("/", 1)[-1] == base_name:
+            return Cause(
+                "remapping without effect",
+                f"{source} is remapped to {earlier} first, then to {target}; the first rule that fits is applied",
+                steps.remap_nodes(launch(seen.trace), source) or f"remove the rule from {source} to {earlier}",
+            )
+    remapped_to = {target.rsplit("/", 1)[-1] for _, target in _remappings(seen)}
     for source, target in _remappings(seen):
         if target.rsplit("/", 1)[-1] != base_name or source.startswith("__"):
             continue
         endpoints = [*publishers(seen.trace.graph), *subscriptions(seen.trace.graph)]
-        unremapped = [each for each in endpoints if not each.topic.endswith(f"/{base_name}")]
+        unremapped = [each for each in endpoints if each.topic.rsplit("/", 1)[-1] not in remapped_to]
         names = sorted({each.topic for each in unremapped})
         if not names:
             continue
@@ -242,6 +250,16 @@ def _diagnose_remapping(seen: LaunchRun, wanted: str) -> Cause | None:
 def _remappings(seen: LaunchRun) -> list[tuple[str, str]]:
     """The remappings on the nodes' command lines, as (source, target)."""
     return [(m["source"], m["target"]) for command in seen.command_lines for m in _REMAP.finditer(command)]
+
+
+def _overridden_rules(seen: LaunchRun) -> Iterator[tuple[str, tuple[str, str]]]:
+    """The remappings, as (source, target), that an earlier one of the same node overrides, each after its target."""
+    for command in seen.command_lines:
+        rules = [(m["source"], m["target"]) for m in _REMAP.finditer(command)]
+        for place, rule in enumerate(rules):
+            earlier = next((target for source, target in rules[:place] if source == rule[0]), rule[1])
+            if earlier != rule[1]:
+                yield earlier, rule
 
 
 def _are_two_nodes(endpoints: Sequence[TopicEndpoint]) -> bool:

@@ -29,6 +29,7 @@ _UNSUPPORTED = re.compile(r"(?<!\S)\S+ is not supported by the launch files that
 _NEEDS_ROS = re.compile(r"`ros2 \w+` needs an installed ROS 2")
 _NO_VALUE = re.compile(r"launch configuration '(?P<name>[^']*)' does not exist")
 _NO_DEFAULT = re.compile(r"missing required argument '(?P<name>[^']*)'")
+_INVALID_RULE = re.compile(r"Couldn't parse remap rule: '-r [^\s:=]+:=(?P<target>[^']+)'")
 _NOT_PAIRS = re.compile(r"TypeError: Expected 'remap_rule'|remap_rule.*(?:tuple|unpack)")
 _NOT_TEXT = re.compile(
     r"TypeError: (?:can only concatenate str|sequence item|unsupported operand)[^\n]*"
@@ -95,6 +96,13 @@ def diagnose_launch(trace: Trace) -> Cause | None:
             steps.step_for_early_text(launch_file, "chatter")
             or "give a list instead, whose parts are joined when the launch runs: "
             "[LaunchConfiguration('namespace'), '/', 'name']",
+        )
+    if found := _INVALID_RULE.search("\n".join(line.text for line in trace.output)):
+        name = found["target"].strip("/")
+        return Cause(
+            "invalid name",
+            f"'{name}' is no valid name in ROS: letters, digits and _ only, and no digit first",
+            steps.replace_default(launch_file, name) or f"choose another name than '{name}'",
         )
     if (found := _NOT_TEXT.search(text)) and (hint := steps.step_for_early_text(launch_file, "chatter")):
         return Cause("substitution is no text", _line_of(text, found.start()), hint)

@@ -52,6 +52,8 @@ _CLASSES_OF_MODULE = {
     "launch": ("LaunchDescription",),
 }
 """The modules of the classes that a launch file may import."""
+_VALID_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
+"""A relative name that ROS accepts for a topic or namespace."""
 _OWN_TOPIC = re.compile(r"create_(?:publisher|subscription)\([^'\"]*['\"]([\w/]+)['\"]")
 
 
@@ -121,8 +123,8 @@ class Launch:
     def _default(self, of: str) -> str:
         for call in self.declared(of):
             given = argument(call, 1, "default_value")
-            if isinstance(given, ast.Constant) and isinstance(given.value, str) and not given.value.startswith("/"):
-                return given.value or DEFAULTS[of] if of in DEFAULTS else given.value
+            if isinstance(given, ast.Constant) and _VALID_NAME.fullmatch(str(given.value)):
+                return str(given.value)
         return DEFAULTS.get(of, "")
 
     def declared(self, of: str) -> list[ast.Call]:

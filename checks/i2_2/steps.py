@@ -26,7 +26,8 @@ from checks.i2_2.rewriting import (
     return_opaque_actions,
     rewrite_description,
 )
-from tutor.judge.edits import Edit, replace_nodes
+from tutor.judge.edits import Edit, replace_node, replace_nodes
+from tutor.judge.rewriting.node import argument
 from tutor.judge.step_parsing import NotAnEdit, apply_step
 from tutor.judge.verdict import Cause
 
@@ -92,6 +93,15 @@ def step_for_empty_description(launch_file: Launch) -> str | None:
     )
 
 
+def replace_default(launch_file: Launch, wrong: str) -> str | None:
+    """The step that replaces a default that is no valid name by one that is, as `robot_news` for `robot-news`."""
+    right = re.sub(r"\W", "_", wrong, flags=re.ASCII).strip("_")
+    right = f"topic_{right}" if not right or right[0].isdigit() else right
+    defaults = [argument(call, 1, "default_value") for call in launch_file.calls("DeclareLaunchArgument")]
+    found = [each for each in defaults if isinstance(each, ast.Constant) and each.value == wrong]
+    return launch_file.step([replace_node(launch_file.file.text, each, repr(right)) for each in found])
+
+
 def add_return(launch_file: Launch) -> str | None:
     """The step that makes generate_launch_description() return the description."""
     return launch_file.step(return_description(launch_file))
@@ -115,8 +125,8 @@ def rename_argument_step(launch_file: Launch, other: str, right: str) -> str | N
 
 def remap_nodes(launch_file: Launch, name: str, *without: str) -> str | None:
     """The step that gives every node the remapping from `name`, and drops the arguments in `without`."""
-    same = _declares(launch_file, "topic") and len({each.topic for each in launch_file.programs()}) < 2
-    values = (value(launch_file.source, "topic"), launch_file.value("topic")) if same else ()
+    same = len({each.topic for each in launch_file.programs()}) < 2
+    values = _values(launch_file, "topic") if same else ()
     return launch_file.step(
         *(add_node_argument(launch_file, "remappings", f"[('{name}', {each})]", *without) for each in values)
     )
@@ -124,18 +134,21 @@ def remap_nodes(launch_file: Launch, name: str, *without: str) -> str | None:
 
 def put_into_namespace(launch_file: Launch, *without: str) -> str | None:
     """The step that puts every node into the namespace, and drops the arguments in `without`."""
-    values = (
-        (value(launch_file.source, "namespace"), launch_file.value("namespace"))
-        if _declares(launch_file, "namespace")
-        else ()
-    )
+    values = _values(launch_file, "namespace")
     return launch_file.step(*(add_node_argument(launch_file, "namespace", each, *without) for each in values))
 
 
-def _declares(launch_file: Launch, argument: str) -> bool:
-    return bool(launch_file.declared(argument)) and not launch_file.file.calls(
-        "PushRosNamespace", "PushROSNamespace", "SetRemap"
-    )
+def _values(launch_file: Launch, argument: str) -> tuple[str, ...]:
+    """The expressions for the argument's value in the description of a node, in the order of preference.
+
+    There are none where the argument is not declared, or a group passes its value to all nodes. A variable is not known
+    in another function: there, a parameter of the same name may have any value.
+    """
+    if not launch_file.declared(argument) or launch_file.file.calls("PushRosNamespace", "PushROSNamespace", "SetRemap"):
+        return ()
+    within = {launch_file.file.function_around(call) for call in launch_file.calls("Node")}
+    own = (value(launch_file.source, argument),) if within <= {launch_file.function} else ()
+    return (*own, launch_file.value(argument))
 
 
 def step_for_early_text(launch_file: Launch, name: str) -> str | None:

@@ -190,6 +190,14 @@ def test_a_command_that_needs_an_installed_ros_is_not_the_learners_fault() -> No
         judges.judge_starts(launched(Graph(nodes=(LISTENER,)), out=out))
 
 
+def test_a_default_that_is_no_valid_name() -> None:
+    raised = (
+        "rclpy._rclpy_pybind11.RCLError: failed to initialize rcl: Couldn't parse remap rule: '-r chatter:=my-topic'."
+    )
+    seen = launched(Graph(), out=f"[talker-1] {raised}")
+    assert_failed(judges.judge_starts(seen), "invalid name", "my-topic", "digits")
+
+
 def test_a_substitution_in_an_f_string() -> None:
     broken = (
         "[talker-1] Couldn't parse remap rule: '-r chatter:=<launch.substitutions.launch_configuration.LaunchConfig"
@@ -246,6 +254,7 @@ def test_a_suffix_is_added_to_the_topic() -> None:
         (["talker --ros-args -r chatter:=my_topic"], ("topic",), "topic hard-coded"),
         (["talker --ros-args -r topic:=news"], ("topic",), "remapping from an unused name"),
         (["talker --ros-args -r news:=chatter"], ("topic",), "remapping the wrong way round"),
+        (["talker --ros-args -r chatter:=x -r chatter:=news"], ("topic",), "remapping without effect"),
     ],
 )
 def test_causes_of_a_topic_that_no_node_uses(command_lines: list[str], declares: tuple[str, ...], cause: str) -> None:
@@ -253,6 +262,13 @@ def test_causes_of_a_topic_that_no_node_uses(command_lines: list[str], declares:
         pair("/chatter"), command_lines=["ros2 launch my_launch.py topic:=news", *command_lines], declares=declares
     )
     assert_failed(judges.judge_topic(DEFAULT_RUN, seen), cause)
+
+
+def test_a_remapping_of_another_node_does_not_show_that_the_name_is_unused() -> None:
+    swapped = pair("/news")
+    swapped = replace(swapped, subscriptions=(replace(swapped.subscriptions[0], topic="/news/bot"),))
+    seen = with_topic(swapped, command_lines=["talker -r chatter:=news", "listener -r __ns:=/news -r chatter:=bot"])
+    assert_failed(judges.judge_topic(DEFAULT_RUN, seen), "remapping missing on one node")
 
 
 def test_a_crash_that_only_the_argument_causes_is_reported() -> None:

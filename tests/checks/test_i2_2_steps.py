@@ -382,3 +382,35 @@ def test_a_class_imported_from_the_wrong_module_gets_its_own_import() -> None:
     assert step == (
         "line 2 becomes:\n    from launch.actions import DeclareLaunchArgument\n    from launch_ros.actions import Node"
     )
+
+
+def test_a_default_that_is_no_valid_name_is_replaced() -> None:
+    launch = changed(("default_value='chatter'", "default_value='my-topic'"))
+    found = str(steps.replace_default(launch, "my-topic"))
+    assert "DeclareLaunchArgument('topic', default_value='my_topic')" in found
+    assert "default_value='chatter'" in str(steps.rewrite_launch_file(launch))
+
+
+def test_a_helper_function_gets_the_value_itself_and_not_its_own_parameter() -> None:
+    launch = launch_of(
+        """from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+def program(executable, topic, namespace):
+    return Node(package='demo_nodes_py', executable=executable, namespace=namespace, remappings=[('chatter', topic)])
+
+def generate_launch_description():
+    topic = LaunchConfiguration('topic')
+    namespace = LaunchConfiguration('namespace')
+    return LaunchDescription([
+        DeclareLaunchArgument('topic', default_value='chatter'),
+        DeclareLaunchArgument('namespace', default_value=''),
+        program('talker', topic, namespace),
+        program('listener', namespace, topic),
+    ])
+"""
+    )
+    assert "('chatter', LaunchConfiguration('topic'))" in str(steps.remap_nodes(launch, "chatter"))
+    assert "namespace=LaunchConfiguration('namespace')" in str(steps.put_into_namespace(launch))

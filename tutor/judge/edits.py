@@ -277,7 +277,12 @@ def is_already_there(text: str, edit: Edit) -> bool:
 
 
 def differs_in_words(before: str, after: str) -> bool:
-    """Whether two texts differ in more than blank lines and the spacing within lines."""
+    """Whether two texts of Python code differ in more than layout, quotation marks and comments.
+
+    Text that is no valid Python differs in anything but blank lines and the spacing within lines.
+    """
+    if _parses(before) and _parses(after):
+        return ast.dump(ast.parse(before)) != ast.dump(ast.parse(after))
 
     def words(text: str) -> list[tuple[int, list[str]]]:
         return [(len(line) - len(line.lstrip()), line.split()) for line in text.splitlines() if line.strip()]
