@@ -6,12 +6,13 @@ Each function returns edits of the learner's own file that use its names; none i
 from __future__ import annotations
 
 import ast
+import re
 import textwrap
 from itertools import pairwise
 
 from checks.i2_3.facts import WORK_S
 from checks.i2_3.ticks import HZ
-from tutor.judge.edits import Edit, apply, insert_above, replace_node, replace_statement
+from tutor.judge.edits import Edit, apply, insert_above, replace_lines, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument, is_static, with_body
 from tutor.judge.rewriting.program import whole_program
 from tutor.judge.source import Function
@@ -50,7 +51,7 @@ def timer_callback(file: NodeFile, made: ast.Call | None = None) -> Function | N
 def rewrite_service_callback(file: NodeFile) -> list[Edit]:
     """Rewrite the whole service callback: it sleeps, and answers with the sum."""
     found, made = service_callback(file), service(file)
-    sleep, imported = _sleep_expression(file)
+    sleep, imported = sleep_expression(file)
     if found is None:
         if made is None or file.setup is None or file.class_of(file.setup) is None:
             return []
@@ -145,7 +146,18 @@ def rewrite_timer_callback(file: NodeFile) -> list[Edit]:
         if counter and _is_initialised(file, counter, found)
         else [insert_above(statement.lineno, f"{counter or f'{self_name}.ticks'} = 0")]
     )
-    return [*setup, with_body(found, _tick_code(counter or f"{self_name}.ticks", self_name))]
+    return [
+        *setup,
+        *_take_only_self(file, found),
+        with_body(found, _tick_code(counter or f"{self_name}.ticks", self_name)),
+    ]
+
+
+def _take_only_self(file: NodeFile, method: Function) -> list[Edit]:
+    """Take all other parameters, as of a callback in ROS 1, out of a timer's callback."""
+    line = file.text.splitlines()[method.lineno - 1].strip()
+    head = re.sub(r"\([^()]*\)", f"({method.args.args[0].arg})", line, count=1)
+    return [replace_lines(method.lineno, head)] if len(method.args.args) > 1 else []
 
 
 def _tick_code(counter: str, node: str) -> str:
@@ -165,7 +177,7 @@ def combine_edits(file: NodeFile, *parts: list[Edit]) -> list[Edit]:
     return [] if any(first <= last for (_, last), (first, _) in pairwise(lines)) else found
 
 
-def _sleep_expression(file: NodeFile) -> tuple[str, list[Edit]]:
+def sleep_expression(file: NodeFile) -> tuple[str, list[Edit]]:
     """The file's expression for time.sleep, and the import if it is missing."""
     name, edits = file.import_name("sleep", "time")
     taken = {node.id for node in ast.walk(file.tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}

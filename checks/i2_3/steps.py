@@ -17,7 +17,7 @@ from tutor.judge.causes.slips import diagnose_simulated_time
 from tutor.judge.edits import Edit, remove_statement, replace_lines, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.rewriting.program import whole_program
-from tutor.judge.source import calls_in, values_of
+from tutor.judge.source import called_name, calls_in, last_name, values_of
 from tutor.judge.verdict import Cause
 
 _GROUP = "callback_group"
@@ -72,7 +72,18 @@ def _fix_sleep(file: NodeFile) -> list[Edit]:
     naps = calls_in(found, "sleep", "wait")
     if len(naps) != 1 or len(naps[0].args) != 1:
         return []
+    if called_name(naps[0]) == "wait" and _seconds(file, naps[0].args[0]) == WORK_S:  # it may return at once
+        sleep, imported = rewriting.sleep_expression(file)
+        return [*imported, replace_node(file.text, naps[0], f"{sleep}({WORK_S})")]
     return [replace_node(file.text, naps[0].args[0], str(WORK_S))]
+
+
+def _seconds(file: NodeFile, expression: ast.expr) -> float | None:
+    """The value of a number, or of a variable or attribute that is assigned only one."""
+    name = last_name(expression)
+    assigned = [each for each in file.nodes if isinstance(each, ast.Assign) and name in map(last_name, each.targets)]
+    values = [each.value for each in assigned]
+    return _number(values[0] if len(values) == 1 else expression)
 
 
 def use_threads(file: NodeFile) -> str | None:
@@ -121,7 +132,14 @@ def _add_threads(file: NodeFile) -> list[Edit]:
     given = argument(made, 0, "num_threads") if made is not None else None
     if given is None or ast.unparse(given) == str(_THREADS) or (ast.unparse(given) != "1" and _group_edits(file)):
         return []
-    return [replace_node(file.text, given, str(_THREADS))]
+    return [] if _has_enough_threads(file) else [replace_node(file.text, given, str(_THREADS))]
+
+
+def _has_enough_threads(file: NodeFile) -> bool:
+    """Whether the executor has threads for the timer and a call, and one to spare."""
+    made = next(iter(file.calls(_MULTI_THREADED)), None)
+    given = argument(made, 0, "num_threads") if made is not None else None
+    return given is not None and (_number(given) or 0) >= 3
 
 
 def what_timer_waits_for(file: NodeFile) -> str:
@@ -129,6 +147,8 @@ def what_timer_waits_for(file: NodeFile) -> str:
     made = timer(file)
     if edits := _add_threads(file):
         return f"the executor has too few threads (line {edits[0].first})"
+    if made is not None and not _group_edits(file) and _has_enough_threads(file):
+        return "Python runs one thread at a time, and this work lets no other one run, unlike time.sleep()"
     if made is None or not _group_edits(file):
         return (
             "they are in one MutuallyExclusiveCallbackGroup (a node's default group is one), or the executor has too "

@@ -10,6 +10,7 @@ from tutor.judge import tracebacks
 from tutor.judge.causes import names, slips, spinning
 from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.exceptions import diagnose_known_exception, diagnose_traceback
+from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.edits import remove_statement
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.rewriting.program import call_main, first_sound_step, whole_program
@@ -64,8 +65,8 @@ def _diagnose_exit(trace: Trace) -> Cause:
         return Cause("killed", f"{ended} (SIGKILL)", step)
     if trace.exit.signal is not None:
         return Cause("killed", f"{ended} ({_signal_name(trace.exit.signal)})", "see the last lines of its output")
-    if (usage_error := _diagnose_usage(trace)) is not None:
-        return usage_error
+    if (found := _diagnose_usage(trace) or diagnose_logged_exception(trace)) is not None:
+        return found
     if trace.exit.code == 0 and (early_end := spinning.diagnose_early_end(trace, ended)) is not None:
         return early_end
     if trace.exit.code == 0 and trace.exit.after_s <= QUICK_S + 0.5:
@@ -131,7 +132,8 @@ def diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = Fa
     if broken is not None:
         return broken
     return (
-        slips.diagnose_unserved_node(started_node(trace))
+        diagnose_logged_exception(trace)
+        or slips.diagnose_unserved_node(started_node(trace))
         or diagnose_blocked(trace, stuck, spins=spins)
         or spinning.diagnose_not_spinning(trace, stuck, node_names(trace))
         or diagnose_no_spin(trace)

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from tutor.judge.causes import names, period_slips, slips
 from tutor.judge.causes.blocking import diagnose_blocked
+from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
 from tutor.judge.edits import (
     Edit,
@@ -58,9 +59,8 @@ def diagnose_no_messages(
 
 def _diagnose_idle_publisher(trace: Trace, topic: str, step: str) -> Cause:
     """Why an existing publisher never sends anything."""
-    return diagnose_unused_publisher(trace, topic, step) or Cause(
-        "no messages", f"there is a publisher on {topic}, but it sent nothing", step or _PUBLISH
-    )
+    found = diagnose_logged_exception(trace) or diagnose_unused_publisher(trace, topic, step)
+    return found or Cause("no messages", f"there is a publisher on {topic}, but it sent nothing", step or _PUBLISH)
 
 
 def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause | None:

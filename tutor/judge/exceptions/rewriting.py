@@ -237,6 +237,46 @@ def service_parameters(text: str, words: Words) -> Sequence[Edit]:
     return made
 
 
+def timer_parameters(text: str, words: Words) -> Sequence[Edit]:
+    """Let every timer callback take nothing but `self`, if it is a method."""
+    lines, made = text.splitlines(), list[Edit]()
+    for function in {each.lineno: each for each in _callbacks(text, "create_timer")}.values():
+        kept = [each.arg for each in function.args.args if each.arg == "self"]
+        head = re.sub(r"\([^()]*\)", f"({', '.join(kept)})", lines[function.lineno - 1].strip(), count=1)
+        if len(function.args.args) > len(function.args.defaults) + len(kept):
+            made.append(edits.replace_lines(function.lineno, head))
+    return sorted(made, key=lambda edit: -edit.first)
+
+
+def before_destroying(text: str, words: Words) -> Sequence[Edit] | None:
+    """Move a statement, or the call of the function that contains it, above what destroys the node or entity."""
+    file = SourceFile(text)
+    statement = file.statement_at(int(words["number"]))
+    function = file.function_at(statement.lineno) if statement is not None else None
+    calls = [
+        each for each in file.nodes if function and isinstance(each, ast.Call) and called_name(each) == function.name
+    ]
+    for moved in filter(None, [statement, *map(file.statement, calls)]):
+        block = next((each for each in _blocks(file.tree) if moved in each), [])
+        before = [each for each in block[: block.index(moved)] if _destroys(each)] if moved in block else []
+        if before and isinstance(moved, ast.Expr):
+            code = textwrap.dedent("\n".join(text.splitlines()[moved.lineno - 1 : moved.end_lineno]))
+            return [edits.remove_statement(text, moved), edits.insert_above(before[0].lineno, code)]
+    return None
+
+
+def _blocks(tree: ast.AST) -> Iterator[list[ast.stmt]]:
+    for node in ast.walk(tree):
+        for name in ("body", "orelse", "finalbody"):
+            if isinstance(block := getattr(node, name, None), list):
+                yield block
+
+
+def _destroys(statement: ast.stmt) -> bool:
+    calls = [each for each in ast.walk(statement) if isinstance(each, ast.Call)]
+    return any(called_name(each).startswith("destroy") for each in calls)
+
+
 def optional(text: str, words: Words) -> Sequence[Edit]:
     """Make every command line argument optional, and ignore those of ROS."""
     swaps: list[tuple[ast.expr, str]] = []
@@ -316,7 +356,18 @@ def readable(text: str, words: Words) -> Sequence[Edit] | None:
 
 _REWRITERS = (
     *(log, severities, imported, types_first, readable, without, raised),
-    *(responses, instances, service_parameters, optional, items, methods, rclcpp, utf8),
+    *(
+        responses,
+        instances,
+        service_parameters,
+        timer_parameters,
+        before_destroying,
+        optional,
+        items,
+        methods,
+        rclcpp,
+        utf8,
+    ),
 )
 REWRITERS: Mapping[str, Callable[[str, Words], Sequence[Edit] | None]] = {each.__name__: each for each in _REWRITERS}
 """The edits by their names in the tables; each takes the file's text and the placeholders' values."""
