@@ -15,6 +15,7 @@ from tutor.judge.causes import parameter_slips, period_slips
 from tutor.judge.edits import Edit, add_import, remove_statement, replace_node
 from tutor.judge.rewriting import parameters, publishing, whole
 from tutor.judge.rewriting.node import NodeFile, node_file, started_node
+from tutor.judge.source import last_name
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
@@ -104,7 +105,7 @@ def diagnose_name(trace: Trace, name: str) -> Cause:
     shows_object = any("<rclpy.parameter.Parameter object" in log.text for log in trace.logs)
     as_object = parameter_slips.diagnose_parameter_object(read, name) if shows_object else None
     dropped = parameter_slips.diagnose_dropped_arguments(read)
-    if (cause := as_object or dropped or _diagnose_log_level(read) or _diagnose_missing_f(read)) is not None:
+    if (cause := as_object or dropped or _diagnose_log_level(read, name) or _diagnose_missing_f(read)) is not None:
         return cause
     draw, imported = _draw(read)
     callback = [*publishing.whole_timer_callback(read, draw, log=name), *imported] if whole.is_usual(read) else []
@@ -122,15 +123,23 @@ def find_any_step(trace: Trace) -> str:
     return read.step(publishing.use_one_type(read, TOPIC, TYPE), whole_program(read)) or ""
 
 
-def _diagnose_log_level(read: NodeFile) -> Cause | None:
+def _diagnose_log_level(read: NodeFile, name: str) -> Cause | None:
     for call in read.calls("debug"):
-        contains_value = any(not isinstance(each, ast.Constant) for each in call.args)
-        if isinstance(call.func, ast.Attribute) and contains_value:
+        if isinstance(call.func, ast.Attribute) and _mentions(call, read, name):
             info = replace_node(read.text, call.func, f"{ast.unparse(call.func.value)}.info")
             if (step := read.step([info])) is not None:
                 text = f"line {call.lineno}: {ast.unparse(call)}: debug messages are not shown"
                 return Cause("logged at DEBUG", text, step)
     return None
+
+
+def _mentions(call: ast.Call, read: NodeFile, name: str) -> bool:
+    """Whether a call contains a parameter's name or the variable that holds its value; if there is none, any value."""
+    kept = parameters.find_kept_value(read, name)
+    if kept is None:
+        return any(not isinstance(each, ast.Constant) for each in call.args)
+    targets = kept.targets if isinstance(kept, ast.Assign) else [kept.target]
+    return any(re.search(rf"\b{word}\b", ast.unparse(call)) for word in (name, *map(last_name, targets)) if word)
 
 
 def _diagnose_missing_f(read: NodeFile) -> Cause | None:

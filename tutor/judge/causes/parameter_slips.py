@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from tutor.judge.edits import Edit, remove_statement, replace_node, replace_nodes
 from tutor.judge.rewriting import parameters
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.source import Function, called_name, where
+from tutor.judge.source import Function, called_name, values_of, where
 from tutor.judge.verdict import Cause
 
 _OVERWRITTEN = "value overwritten by the node"
@@ -160,6 +160,8 @@ def diagnose_dropped_arguments(file: NodeFile) -> Cause | None:
             edit = replace_node(file.text, given, "True")
         elif called_name(call) == "init" and (empty := _empty_list(file, argument(call, 0, "args"))) is not None:
             edit = replace_node(file.text, empty, "None")
+        elif called_name(call) == "init" and _has_no_ros_arguments(file, argument(call, 0, "args")):
+            edit = replace_node(file.text, call, f"{ast.unparse(call.func)}()")
         else:
             continue
         if (step := file.step([edit])) is not None:
@@ -178,6 +180,14 @@ def _empty_list(file: NodeFile, given: ast.expr | None) -> ast.expr | None:
         )
         given = defaults.get(given.id)
     return given if isinstance(given, ast.List | ast.Tuple) and not given.elts else None
+
+
+def _has_no_ros_arguments(file: NodeFile, given: ast.expr | None) -> bool:
+    """Whether the ROS arguments have been taken out of the list that is given, or out of what it is assigned."""
+    function = file.function_around(given) if given is not None else None
+    assigned = values_of(ast.unparse(given), function or file.tree) if isinstance(given, ast.Name) else []
+    found = [each for value in (given, *assigned) if value is not None for each in ast.walk(value)]
+    return any(isinstance(each, ast.Call) and called_name(each) == "remove_ros_args" for each in found)
 
 
 def diagnose_broken_callback(file: NodeFile) -> Cause | None:

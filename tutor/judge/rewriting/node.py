@@ -72,11 +72,21 @@ class NodeFile(SourceFile):
 
     @cached_property
     def first_timer(self) -> ast.Call | None:
-        """The call that creates the initial timer: the first one reached from the setup, else the first in the file."""
+        """The call that creates the initial timer: the first one reached from the setup, else the first in the file.
+
+        With several timers, the first one whose callback publishes.
+        """
         initial = [
             each for each in self.timers if self.setup and self.function_around(each) in self.reachable_from(self.setup)
         ]
-        return next(iter(initial or self.timers), None)
+        found = initial or self.timers
+        publishing = [each for each in found if self._publishes(argument(each, 1, "callback"))] if found[1:] else []
+        return next(iter(publishing or found), None)
+
+    def _publishes(self, callback: ast.expr | None) -> bool:
+        function = self.function(callback)
+        reached = self.reachable_from(function) if function is not None else []
+        return any(self.function_around(each) in reached for each in self.calls("publish"))
 
     @cached_property
     def timer_callback(self) -> Function | None:
