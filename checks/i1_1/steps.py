@@ -69,7 +69,10 @@ def make_float(trace: Trace | None) -> str:
     """Step: convert the published value to float."""
     read = file(trace)
     data = publishing.published_data(read)
-    edits = [replace_node(read.text, data, f"float({ast.unparse(data)})")] if data is not None else []
+    number = ast.unparse(data) if data is not None else ""
+    if number and (numpy := next((alias for _, alias in read.imports if alias.name == "numpy"), None)):
+        number = f"{numpy.asname or numpy.name}.ravel({number})[0]"  # it may be an array of one element
+    edits = [replace_node(read.text, data, f"float({number})")] if data is not None else []
     return read.step(edits, whole_program(read)) or "make it a float first: msg.data = float(value)"
 
 

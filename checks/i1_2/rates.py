@@ -10,7 +10,9 @@ from checks.i1_2 import steps
 from checks.i1_2.facts import STALL_S, SUMMARY_EVERY, Trial
 from checks.i1_2.reading import Number
 from checks.i1_2.summaries import Summary, find_summaries, last_due_count, possible_totals, slots
+from tutor.judge.causes import slips
 from tutor.judge.rates import TOLERANCE
+from tutor.judge.rewriting.node import started_node
 from tutor.judge.verdict import Cause
 
 DELAY_S = 0.01
@@ -177,7 +179,9 @@ def diagnose_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: T
         )
     if not found:
         return Cause("no rate", "it contains no number other than the count", hint)
-    return Cause("wrong rate", f"none of {', '.join(number.text for number in found)} is the rate", hint)
+    return slips.diagnose_never_none(started_node(trial.trace)) or Cause(
+        "wrong rate", f"none of {', '.join(number.text for number in found)} is the rate", hint
+    )
 
 
 def _find_whole_seconds(summary: Summary, trial: Trial) -> list[tuple[Number, int]]:

@@ -240,3 +240,26 @@ def test_a_timer_created_in_each_call_moves_next_to_the_service() -> None:
     code = apply_step(step, {"node.py": file.text})["node.py"]
     assert code.count("create_timer(") == 1
     assert code.index("create_timer(") < code.index("def add(")
+
+
+def test_a_wait_that_returns_at_once_becomes_a_sleep() -> None:
+    waits = changed(
+        ("        time.sleep(3.0)", "        self.running.wait(self.seconds)"),
+        ("= 0\n", "= 0\n        self.seconds = 3.0\n"),
+    )
+    assert "time.sleep(3.0)" in str(steps.fix_work_time(waits))
+    short = changed(("        time.sleep(3.0)", "        self.running.wait(1.0)"))
+    assert "self.running.wait(3.0)" in str(steps.fix_work_time(short))
+
+
+def test_work_that_stops_all_threads_is_not_put_down_to_the_executor() -> None:
+    separate = changed(("        time.sleep(3.0)", "        sum(range(10**9))"))
+    assert "one thread at a time" in steps.what_timer_waits_for(separate)
+    assert "time.sleep(3.0)" in str(steps.separate_groups(separate))
+
+
+def test_a_timer_callback_gets_no_event() -> None:
+    ported = changed(("def tick(self):", "def tick(self, event):"), (TICK, "        print(event.current_real)\n"))
+    after = apply_step(str(ported.step(rewriting.rewrite_timer_callback(ported))), {"my_node.py": ported.text})
+    assert "def tick(self):" in after["my_node.py"]
+    assert "event" not in after["my_node.py"]

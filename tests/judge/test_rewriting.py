@@ -347,3 +347,28 @@ def test_an_unparsable_file_yields_no_step() -> None:
             file.step(publishing.send_data(file, "1.0"), publishing.whole_publishing(file, "/a", "a/msg/B", "1", "1"))
             is None
         )
+
+
+def test_of_several_timers_the_one_that_publishes_is_the_first() -> None:
+    source = """from rclpy.node import Node
+from std_msgs.msg import Float64
+
+class Sensor(Node):
+    def __init__(self):
+        super().__init__('sensor')
+        self.publisher = self.create_publisher(Float64, '/sensor/temperature', 10)
+        self.sampling = self.create_timer(0.1, self.sample)
+        self.reporting = self.create_timer(0.5, self.report)
+
+    def sample(self):
+        self.latest = 20.0
+
+    def report(self):
+        self.publisher.publish(Float64(data=self.latest))
+"""
+    file = node_file(source)
+    assert file.timer_callback is not None
+    assert file.timer_callback.name == "report"
+    assert "line 9 becomes: self.reporting = self.create_timer(2.0, " in str(
+        file.step(publishing.set_period(file, "2.0"))
+    )

@@ -269,3 +269,39 @@ def test_an_overridden_method_that_does_nothing_is_no_callback() -> None:
     found = file.function(file.calls("y")[0].args[0])
     assert found is not None
     assert found.lineno == 2
+
+
+NEVER_NONE = """from rclpy.node import Node
+
+class Stats(Node):
+    def __init__(self):
+        super().__init__('stats')
+        self.start = {}
+        self.last = None
+
+    def callback(self, message):
+        if self.start is None:
+            self.start = self.get_clock().now()
+        if self.last is None:
+            self.last = 1
+"""
+
+
+def test_an_attribute_that_is_never_none() -> None:
+    found = slips.diagnose_never_none(node_file(NEVER_NONE.format("0.0")))
+    assert found is not None
+    assert "begins as 0.0" in found.text
+    assert found.hint == "line 6 becomes: self.start = None"
+    assert slips.diagnose_never_none(node_file(NEVER_NONE.format("None"))) is None
+    assert slips.diagnose_never_none(node_file(NEVER_NONE.format("self.stored()"))) is None
+
+
+def test_ros_arguments_that_were_taken_out() -> None:
+    source = (
+        "import rclpy\nimport sys\nfrom rclpy.utilities import remove_ros_args\n"
+        "def main():\n    argv = {}\n    rclpy.init(args=argv)\n    rclpy.spin(rclpy.create_node('n'))\n"
+    )
+    found = parameter_slips.diagnose_dropped_arguments(node_file(source.format("remove_ros_args(sys.argv)")))
+    assert found is not None
+    assert found.hint == "line 6 becomes: rclpy.init()"
+    assert parameter_slips.diagnose_dropped_arguments(node_file(source.format("sys.argv"))) is None

@@ -68,6 +68,29 @@ def _is_true(file: NodeFile, value: ast.expr) -> bool:
     return isinstance(value, ast.Constant) and value.value is True
 
 
+def diagnose_never_none(file: NodeFile) -> Cause | None:
+    """Whether an attribute is compared with None to set it for the first time, but never is None: it begins as 0."""
+    for test in file.nodes:
+        match test:
+            case ast.If(
+                test=ast.Compare(left=ast.Attribute() as left, ops=[ast.Is()], comparators=[ast.Constant(None)])
+            ):
+                pass
+            case _:
+                continue
+        given = source.values_of(name := ast.unparse(left), file.tree)
+        within = [each for statement in test.body for each in ast.walk(statement)]
+        initial = [each for each in given if each not in within]
+        is_set = any(isinstance(each, ast.Assign) and name in map(ast.unparse, each.targets) for each in within)
+        value = initial[0] if is_set and len(initial) == 1 else None
+        if not isinstance(value, ast.Constant) or value.value is None:
+            continue
+        if (step := file.step([edits.replace_node(file.text, value, "None")])) is not None:
+            text = f"{name} is never None (line {test.lineno}): it begins as {ast.unparse(value)} (line {value.lineno})"
+            return Cause("never None", text, step)
+    return None
+
+
 def diagnose_other_domain(file: NodeFile) -> Cause | None:
     """Whether the program chooses a domain of its own, where nobody sees its node."""
     for node in file.nodes:

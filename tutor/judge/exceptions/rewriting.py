@@ -49,6 +49,28 @@ def _format_message(text: str, call: ast.Call) -> str:
     return f"{ast.unparse(call.func)}({message}{keywords})"
 
 
+def logged_less(text: str, words: Words) -> Sequence[Edit]:
+    """Replace log methods of ROS 1, such as `warn_throttle(period, message)`, by the argument that rclpy has for it."""
+    swaps: list[tuple[ast.expr, str]] = []
+    for call in syntax_nodes(text):
+        if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
+            continue
+        level, _, how = call.func.attr.partition("_")
+        given = [ast.unparse(each) for each in (*call.args, *call.keywords)]
+        match how, given:
+            case "throttle", [period, message, *_]:
+                new = f"{message}, throttle_duration_sec={period}"
+            case "once", [message, *_]:
+                new = f"{message}, once=True"
+            case "skip_first" | "skipfirst", [message, *_]:
+                new = f"{message}, skip_first=True"
+            case _:
+                continue
+        if level in _LEVELS:
+            swaps.append((call, f"{ast.unparse(call.func.value)}.{level}({new})"))
+    return edits.replace_nodes(text, *swaps)
+
+
 def severities(text: str, words: Words) -> Sequence[Edit] | None:
     """Give each severity a log call of its own, in a statement whose only call logs with several.
 
@@ -355,7 +377,7 @@ def readable(text: str, words: Words) -> Sequence[Edit] | None:
 
 
 _REWRITERS = (
-    *(log, severities, imported, types_first, readable, without, raised),
+    *(log, logged_less, severities, imported, types_first, readable, without, raised),
     *(
         responses,
         instances,
