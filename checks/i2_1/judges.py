@@ -28,8 +28,9 @@ from checks.i2_1.failures import (
     show,
     with_steps,
 )
+from checks.i2_1.program import whole_program
 from tutor.judge import causes, ending, tracebacks
-from tutor.judge.causes import names, parameter_slips, period_slips
+from tutor.judge.causes import callback_slips, names, parameter_slips, period_slips
 from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import Level, Trace
@@ -138,6 +139,9 @@ def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
         return causes.diagnose_bursts(steps.send_once_per_tick(trace))
     if rate is not None and (rate.agrees_with(DEFAULT_HZ) or are_alike(rate, seen.slow_rate)):
         return _diagnose_ignored(RATE, trace)
+    read = started_node(trace)
+    if rate is None and (loop := callback_slips.diagnose_loop_in_callback(read, whole_program(read))) is not None:
+        return loop
     if rate is None or rate.agrees_with(1 / LAUNCH_HZ):
         return causes.diagnose_rate_as_period(RATE, steps.use_parameter(trace, RATE))
     return _diagnose_other_rate(trace)

@@ -26,8 +26,9 @@ from checks.i2_1.failures import (
     rate_is_unchanged,
     with_steps,
 )
+from checks.i2_1.program import whole_program
 from tutor.judge import causes
-from tutor.judge.causes import names, parameter_slips, period_slips, slips
+from tutor.judge.causes import callback_slips, names, parameter_slips, period_slips, slips
 from tutor.judge.rates import TOLERANCE, Rate, describe
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import Trace
@@ -182,7 +183,7 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     if seen.trace.exit and (cause := causes.diagnose_process(seen.trace)):
         return cause
     read, trace = started_node(seen.trace), seen.trace
-    integer_period = period_slips.diagnose_integer_period(read)
+    integer_period = period_slips.diagnose_integer_period(read) or period_slips.diagnose_nanoseconds(read)
     if rate is not None and rate.in_bursts:
         return integer_period or causes.diagnose_bursts(steps.send_once_per_tick(trace))
     if rate is not None and rate.hz < asked and (asleep := period_slips.diagnose_sleep(read, asked)) is not None:
@@ -198,6 +199,8 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
         return rounded
     if rate is not None and rate.hz > asked:
         return integer_period or causes.diagnose_old_timer(rate.hz, asked, steps.cancel_old_timer(trace))
+    if rate is None and (loop := callback_slips.diagnose_loop_in_callback(read, whole_program(read))) is not None:
+        return loop
     if rate is None or rate.agrees_with(1 / asked):
         return integer_period or causes.diagnose_rate_as_period(RATE, steps.follow_changes(trace))
     return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", steps.follow_changes(trace))

@@ -6,6 +6,7 @@ that Python cannot parse gets plain advice.
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Sequence
 
 from checks.i2_1.facts import DEFAULTS, ENABLED, PREFIX, RATE, TOPIC, TYPE
@@ -31,8 +32,16 @@ def declare_parameters(trace: Trace, names: Sequence[str]) -> str:
     ]
     name = names[0]
     return (
-        read.step(edits, whole_program(read))
+        read.step(whole_program(read) if _reads_rate_as_text(read) else None, edits, whole_program(read))
         or f"{read.name}.declare_parameter({name!r}, {DEFAULTS[name][1]!r}) in __init__"
+    )
+
+
+def _reads_rate_as_text(read: NodeFile) -> bool:
+    """Whether the file makes a number of a text or whole number where it reads the rate."""
+    return any(
+        isinstance(each, ast.Attribute) and each.attr in ("string_value", "integer_value") and RATE in ast.unparse(each)
+        for each in read.nodes
     )
 
 

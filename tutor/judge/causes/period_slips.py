@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from tutor.judge.edits import remove_statement, replace_node
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.source import values_of, where
+from tutor.judge.source import last_name, values_of, where
 from tutor.judge.verdict import Cause
 
 MIN_MILLISECONDS = 50.0
@@ -41,18 +41,16 @@ def diagnose_period_unit(file: NodeFile) -> Cause | None:
 
 
 def diagnose_nanoseconds(file: NodeFile) -> Cause | None:
-    """Whether a timer's `timer_period_ns` is set to another number divided by the rate than 1e9."""
+    """Whether a timer's `timer_period_ns` is computed with another number of nanoseconds in a second than 1e9."""
     for node in file.nodes:
-        match node:
-            case ast.Assign(
-                targets=[ast.Attribute(attr="timer_period_ns")],
-                value=ast.BinOp(
-                    left=ast.Constant(value=int() | float() as number) as top, op=ast.Div() | ast.FloorDiv()
-                ),
-            ) if number != 1e9:
-                step = file.step([replace_node(file.text, top, "1_000_000_000")])
-                text = f"line {node.lineno}: {ast.unparse(node)}: there are 1_000_000_000 nanoseconds in a second"
-                return Cause("wrong timer period", text, step) if step else None
+        if not isinstance(node, ast.Assign) or "timer_period_ns" not in map(last_name, node.targets):
+            continue
+        numbers = [each for each in ast.walk(node.value) if isinstance(each, ast.Constant)]
+        large = [each for each in numbers if isinstance(each.value, int | float) and each.value >= 1000]
+        if len(large) == 1 and large[0].value != 1e9:
+            step = file.step([replace_node(file.text, large[0], "1_000_000_000")])
+            text = f"line {node.lineno}: {ast.unparse(node)}: there are 1_000_000_000 nanoseconds in a second"
+            return Cause("wrong timer period", text, step) if step else None
     return None
 
 

@@ -7,7 +7,7 @@ import signal
 from collections.abc import Sequence
 
 from tutor.judge import tracebacks
-from tutor.judge.causes import names, slips, spinning
+from tutor.judge.causes import callback_slips, names, slips, spinning
 from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.exceptions import diagnose_known_exception, diagnose_traceback
 from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
@@ -69,6 +69,8 @@ def _diagnose_exit(trace: Trace) -> Cause:
         return found
     if trace.exit.code == 0 and (early_end := spinning.diagnose_early_end(trace, ended)) is not None:
         return early_end
+    if (exits := callback_slips.diagnose_exit_in_callback(started_node(trace), ended)) is not None:
+        return exits
     if trace.exit.code == 0 and trace.exit.after_s <= QUICK_S + 0.5:
         return Cause(
             names.EXIT_AT_ONCE,
