@@ -67,13 +67,17 @@ def _remove_calls(code: Code, _cause: Cause, _seen: ClientRun, names: Sequence[s
 _STEPS: Mapping[str, Sequence[_Step]] = {
     "service not waited for": [lambda code, *_: client_requests.wait_for_services(code)],
     "waits too short a time": [_remove_calls, lambda code, *_: client_requests.lengthen_waits(code)],
-    "non-zero exit": [lambda code, *_: steps.end_with_zero(code)],
+    "non-zero exit": [lambda code, *_: steps.remove_arguments(code) or steps.end_with_zero(code)],
     "coroutine not awaited": [
         lambda code, cause, _: client_requests.make_synchronous(code, cause.text.partition(" ")[0])
     ],
     "incompatible QoS": [lambda code, *_: service_steps.use_default_qos(code)],
     "thread still running": [lambda code, *_: steps.join_thread(code)],
-    "not called": [_remove_calls, lambda code, _, seen: steps.add_to_list(code, _missing(seen))],
+    "not called": [
+        lambda code, *_: steps.remove_arguments(code),
+        _remove_calls,
+        lambda code, _, seen: steps.add_to_list(code, _missing(seen)),
+    ],
 }
 """The smallest steps for each cause, by the cause's name."""
 

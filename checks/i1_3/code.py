@@ -62,6 +62,10 @@ class Code(SourceFile):
         targets = [each.targets[0] for each in parents if isinstance(each, ast.Assign)]
         return next((each.id for each in targets if isinstance(each, ast.Name)), "node")
 
+    def has_node(self, at: ast.AST) -> bool:
+        """Whether the node is known at this place in the code: not in a class that neither is a node nor keeps one."""
+        return not self.self_name(at) or self.node_method(at) is not None or any(self._kept_nodes(at))
+
     def _kept_nodes(self, at: ast.AST) -> Iterator[str]:
         """The attributes of the class around `at` that keep an object by which clients are created."""
         owners = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -13,6 +14,8 @@ from tutor.judge.source import Function
 from tutor.judge.trace import Trace
 
 _LOG_CALL = "error('division by zero')"
+_ZERO_DIVISION = {"ZeroDivisionError", "ArithmeticError"}
+_BROAD = {"Exception", "BaseException"}
 _DIVISION_FUNCTIONS = ("floordiv", "truediv", "divmod", "floor_divide", "Fraction")
 
 
@@ -36,20 +39,23 @@ class _Division:
 
 def log_division_by_zero(trace: Trace) -> str | None:
     """Step: log an error where a server that answers a division by zero handles it."""
-    divisions = [each for each in _find_divisions(trace) if f".{_LOG_CALL}" not in each.code.text]
+    divisions = [
+        each
+        for each in _find_divisions(trace)
+        if f".{_LOG_CALL}" not in each.code.text and each.code.has_node(each.node)
+    ]
     for propose in (_log_in_handler, _log_in_zero_branch, _insert_test):
         for division in divisions:
             edit = propose(division, f"{division.code.node_name(division.node)}.get_logger()")
             if edit is not None and (step := division.code.as_step(edit)) is not None:
                 return step
-    for code in learner_files(trace):
-        for handler in (each for each in code.nodes if isinstance(each, ast.ExceptHandler)):
-            if handler.type is not None and "ZeroDivision" in ast.unparse(handler.type):
-                step = code.as_step(
-                    _insert_above(handler.body[0], f"{code.node_name(handler)}.get_logger().{_LOG_CALL}")
-                )
-                if step is not None:
-                    return step
+    for kinds in (_ZERO_DIVISION, _BROAD):
+        for code in learner_files(trace):
+            for handler in (each for each in code.nodes if isinstance(each, ast.ExceptHandler) and code.has_node(each)):
+                if kinds & set(re.findall(r"\w+", ast.unparse(handler.type) if handler.type else "BaseException")):
+                    log = f"{code.node_name(handler)}.get_logger().{_LOG_CALL}"
+                    if (step := code.as_step(_insert_above(handler.body[0], log))) is not None:
+                        return step
     return None
 
 

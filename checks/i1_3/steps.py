@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import textwrap
 from collections.abc import Iterator, Sequence
 
 from checks.i1_3.code import Code
@@ -116,6 +117,38 @@ def remove_input(code: Code) -> str | None:
         else:
             change.swaps.append((call, repr("8" if not change.swaps else "2")))
     return change.as_step() if change.swaps or change.more else None
+
+
+def remove_arguments(code: Code) -> str | None:
+    """Step: replace the numbers of the command line by fixed ones, and remove the test that ends without them.
+
+    None where the command line also says which service to call.
+    """
+    change, numbers = Changes(code), 0
+    tests = [each for each in code.nodes if isinstance(each, ast.If) and "argv" in ast.unparse(each.test)]
+    for test in tests:
+        kept = test.orelse if any(map(_ends, test.body)) else test.body if any(map(_ends, test.orelse)) else [test]
+        if kept:
+            return None if kept == [test] else code.as_step(edits.replace_statement(test, _code_of(code, kept)))
+        change.more.append(edits.remove_statement(code.text, test))
+    for node in code.nodes:
+        match node:
+            case ast.Call(func=ast.Name(id="int" | "float"), args=[ast.Subscript(value=value)]) if (
+                "argv" in ast.unparse(value)
+            ):
+                numbers += 1
+                change.swaps.append((node, "12" if numbers % 2 else "4"))
+    used = [each for each in code.nodes if isinstance(each, ast.Subscript) and "argv" in ast.unparse(each.value)]
+    return change.as_step() if change.more and len(used) == numbers else None
+
+
+def _ends(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Return | ast.Raise) or bool(source.calls_in(statement, *_EXITS))
+
+
+def _code_of(code: Code, statements: Sequence[ast.stmt]) -> str:
+    lines = code.text.splitlines()[statements[0].lineno - 1 : statements[-1].end_lineno]
+    return textwrap.dedent("\n".join(lines))
 
 
 def move_return(code: Code) -> tuple[ast.For, ast.Return, str] | None:

@@ -129,7 +129,8 @@ def _spin_at_end(trace: Trace, node: str, line: int) -> str | None:
 def _as_spin(call: ast.Call) -> str:
     """Rewrite a call such as spin_once(node, timeout_sec=0.1) as rclpy.spin(node)."""
     spin = f"{ast.unparse(call.func).rpartition('.')[0]}.spin" if isinstance(call.func, ast.Attribute) else "rclpy.spin"
-    positional = ast.unparse(call.args[0]) if call.args and spin == "rclpy.spin" else ""
+    first = call.args[0] if call.args else None  # of an executor's, it is a time
+    positional = ast.unparse(first) if first is not None and not isinstance(first, ast.Constant) else ""
     named = next((ast.unparse(each.value) for each in call.keywords if each.arg == "node"), "")
     return f"{spin}({positional or named})"
 
