@@ -206,6 +206,25 @@ def test_a_program_that_did_all_its_work_exits_with_0(text: str, after: str | No
     assert follow_step(text, steps.end_with_zero) == after
 
 
+@pytest.mark.parametrize(
+    ("text", "after"),
+    [
+        (
+            "if len(sys.argv) != 3:\n    print('usage')\n    sys.exit(1)\ncall(int(sys.argv[1]), int(sys.argv[2]))\n",
+            "call(12, 4)\n",
+        ),
+        (
+            "if len(sys.argv) == 3:\n    call()\nelse:\n    sys.exit(1)\n",
+            "call()\n",
+        ),
+        ("if len(sys.argv) < 4:\n    sys.exit(1)\ncall(sys.argv[1], int(sys.argv[2]))\n", None),
+        ("call(1, 2)\n", None),
+    ],
+)
+def test_a_client_that_wants_arguments_gets_fixed_numbers(text: str, after: str | None) -> None:
+    assert follow_step(text, steps.remove_arguments) == after
+
+
 WAITS = """\
 node = rclpy.create_node("client")
 {spins}client = node.create_client(AddTwoInts, "add")

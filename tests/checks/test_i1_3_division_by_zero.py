@@ -81,6 +81,22 @@ def test_where_the_error_is_logged(text: str, step: str | None) -> None:
     assert log_division_by_zero(trace(sources={"node.py": text + MAIN})) == step
 
 
+def test_a_class_that_is_no_node_does_not_log() -> None:
+    """The callback's broad handler does: it has the node."""
+    divider = "class Divider:\n    def divide(self, a, b):\n        return a // b\n"
+    body = (
+        "try:",
+        "    resp.sum = Divider().divide(req.a, req.b)",
+        "except Exception:",
+        "    resp.sum = 0",
+        "return resp",
+    )
+    text = divider + method(*body)
+    line = text[: text.index("    resp.sum = 0")].count("\n") + 1
+    step = log_division_by_zero(trace(sources={"node.py": text + MAIN}))
+    assert step == f"in node.py, write above line {line}, with the same indentation: {LOG}"
+
+
 def test_a_lambda_becomes_a_method() -> None:
     text = HEAD + LAMBDA + MAIN
     step = guard_division(trace(sources={"node.py": text}))

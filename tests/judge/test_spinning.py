@@ -126,7 +126,9 @@ def test_a_program_that_spins_is_not_told_to_spin() -> None:
     [
         (["rclpy.spin_once(talker)"], "line 13 becomes: rclpy.spin(talker)"),
         (["rclpy.spin_once(talker, timeout_sec=0.1)"], "line 13 becomes: rclpy.spin(talker)"),
+        (["import rclpy as rp", "rp.spin_once(talker)"], "line 14 becomes: rp.spin(talker)"),
         (["ex = SingleThreadedExecutor()", "ex.spin_once()"], "line 14 becomes: ex.spin()"),
+        (["ex = SingleThreadedExecutor()", "ex.spin_once(0.1)"], "line 14 becomes: ex.spin()"),
         (["talker.tick()"], "write below line 13, with the same indentation: rclpy.spin(talker)"),
     ],
 )
