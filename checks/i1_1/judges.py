@@ -111,7 +111,7 @@ def _diagnose_range(wrong: Sequence[float], values: Sequence[float], trace: Trac
     if all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
         return Cause(
             "an int in a float field",
-            "a Python int was put into Float64.data: its bits are sent as if they were a float",
+            "Float64.data got a Python int, or an array: its bits are sent as if they were a float",
             steps.make_float(trace),
         )
     if all(map(_is_fahrenheit, values)):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from checks.i2_3 import judges, scenarios
+from checks.i2_3.single_calls import call_singly
 from tutor.judge.check import Check, Criterion
 
 CHECK = Check(
@@ -11,33 +12,36 @@ CHECK = Check(
         Criterion(
             "blocks",
             judges.judge_blocks,
-            (scenarios.call_singly, scenarios.call_concurrently),
-            early=((scenarios.call_singly, judges.judge_blocks_so_far),),
+            (call_singly, scenarios.call_concurrently),
+            early=((call_singly, judges.judge_blocks_so_far),),
         ),
         Criterion(
             "timer",
             judges.judge_timer,
-            (scenarios.run_idle, scenarios.call_singly),
-            early=((scenarios.run_idle, judges.judge_idle_timer), (scenarios.call_singly, judges.judge_timer_so_far)),
+            (scenarios.run_idle, call_singly),
+            early=(
+                (scenarios.run_idle, judges.judge_idle_timer),
+                (call_singly, judges.judge_timer_so_far),
+            ),
         ),
         Criterion(
             "concurrent",
             judges.judge_concurrent,
-            (scenarios.call_concurrently, scenarios.call_singly),
+            (scenarios.call_concurrently, call_singly),
             early=((scenarios.call_concurrently, judges.judge_concurrent_so_far),),
         ),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.run_idle,)),
         Criterion(
             "parallel",
             judges.judge_parallel,
-            (scenarios.call_singly, scenarios.call_concurrently),
+            (call_singly, scenarios.call_concurrently),
             after=("blocks", "concurrent"),
             bonus=True,
         ),
         Criterion(
             "shutdown-busy",
             judges.judge_shutdown_busy,
-            (scenarios.interrupt_during_call, scenarios.call_singly),
+            (scenarios.interrupt_during_call, call_singly),
             bonus=True,
         ),
     ),

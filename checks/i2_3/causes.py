@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
-from checks.i2_3 import steps
+from checks.i2_3 import steps, tick_steps
 from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, CallBatch, IdleRun, SingleCalls, right_sum
 from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series
@@ -132,11 +132,11 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
         )
         return (
             printed
-            or steps.diagnose_no_ticks(source)
+            or tick_steps.diagnose_no_ticks(source)
             or Cause(
                 "no timer messages",
                 "no log message is repeated while nobody calls (debug messages are not shown)",
-                steps.rewrite_ticking(source)
+                tick_steps.rewrite_ticking(source)
                 or f"self.create_timer({1 / HZ:g}, self.tick, ...), and log every tenth tick's number at info",
             )
         )
@@ -146,12 +146,12 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
         return Cause(
             "wrong timer period",
             f"the timer ticks {likely.hz:.1f} times per second, not {HZ:g}",
-            steps.fix_period(source) or f"create_timer takes the period in seconds: {1 / HZ:g}",
+            tick_steps.fix_period(source) or f"create_timer takes the period in seconds: {1 / HZ:g}",
         )
     return Cause(
         "wrong timer period",
         f"{likely.hz:.1f} messages per second, without a number that counts the ticks",
-        steps.fix_period(source)
+        tick_steps.fix_period(source)
         or f"give the timer a period of {1 / HZ:g} s; if it logs every tenth tick only, put the tick's number in",
     )
 

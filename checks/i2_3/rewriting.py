@@ -219,3 +219,14 @@ def _is_initialised(file: NodeFile, counter: str, callback: Function) -> bool:
 
 def _indented(code: str) -> str:
     return textwrap.indent(code, "    ")
+
+
+def number(expression: ast.expr) -> float | None:
+    """The value of a number, or of a quotient of two."""
+    match expression:
+        case ast.Constant(value=int() | float() as value):
+            return float(value)
+        case ast.BinOp(left=left, op=ast.Div(), right=right):
+            one, other = number(left), number(right)
+            return one / other if one is not None and other else None
+    return None

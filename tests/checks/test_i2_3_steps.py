@@ -6,7 +6,7 @@ import ast
 
 import pytest
 
-from checks.i2_3 import rewriting, steps
+from checks.i2_3 import rewriting, steps, tick_steps
 from tests.checks.builders import trace
 from tests.judging import find_cases
 from tutor.content.submissions import Case
@@ -141,7 +141,7 @@ def test_calls_are_allowed_to_overlap(file: NodeFile, step: str) -> None:
     ],
 )
 def test_causes_of_no_timer_messages(file: NodeFile, cause: str, step: str) -> None:
-    found = steps.diagnose_no_ticks(file)
+    found = tick_steps.diagnose_no_ticks(file)
     assert found is not None
     assert found.name == cause
     assert step in found.hint
@@ -149,7 +149,7 @@ def test_causes_of_no_timer_messages(file: NodeFile, cause: str, step: str) -> N
 
 def test_steps_that_change_single_lines() -> None:
     assert steps.fix_work_time(changed(("sleep(3.0)", "sleep(1)"))) == "line 18 becomes: time.sleep(3.0)"
-    assert steps.fix_period(changed(("timer(0.1", "timer(1.0"))) == (
+    assert tick_steps.fix_period(changed(("timer(0.1", "timer(1.0"))) == (
         "line 14 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=self.other)"
     )
     waits = changed(("time.sleep(3.0)", "threading.Event().wait()"), ("import time", "import threading"))
@@ -217,8 +217,8 @@ def test_an_empty_file_yields_no_steps() -> None:
         steps.use_threads,
         steps.allow_overlap,
         steps.fix_work_time,
-        steps.fix_period,
-        steps.diagnose_no_ticks,
+        tick_steps.fix_period,
+        tick_steps.diagnose_no_ticks,
         steps.fix_service,
     ):
         assert step(NodeFile("")) is None, step
@@ -234,7 +234,7 @@ def test_a_timer_created_in_each_call_moves_next_to_the_service() -> None:
     made = "        self.timer = self.create_timer(0.1, self.tick, callback_group=self.other)\n"
     file = changed((made, ""), ("        time.sleep(3.0)\n", f"{made}        time.sleep(3.0)\n"))
 
-    step = steps.rewrite_ticking(file)
+    step = tick_steps.rewrite_ticking(file)
 
     assert step is not None
     code = apply_step(step, {"node.py": file.text})["node.py"]
