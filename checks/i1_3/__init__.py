@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from checks.i1_3 import client, judges, scenarios
+from checks.i1_3.division import judge_division
 from tutor.judge.check import Check, Criterion
 
 CHECK = Check(
@@ -10,7 +11,7 @@ CHECK = Check(
     (
         Criterion("services", judges.judge_services, (scenarios.call_each_service,)),
         Criterion("operations", judges.judge_operations, (scenarios.call_with_random_operands,)),
-        Criterion("divide-by-zero", judges.judge_division, (scenarios.divide_by_zero,), after=("services",)),
+        Criterion("divide-by-zero", judge_division, (scenarios.divide_by_zero,), after=("services",)),
         Criterion("client", client.judge_client, (scenarios.run_client,)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.call_each_service,), bonus=True),
     ),

@@ -6,16 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from checks.i1_3 import division_by_zero, late_binding, service_steps, services, steps
+from checks.i1_3 import late_binding, service_steps, services, steps
 from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import (
     OPERATOR_SIGNS,
-    SAYS_ERROR,
     TYPE,
-    Division,
     ServiceCalls,
     correct_result,
-    find_complaints,
     missing_services,
 )
 from checks.i1_3.rewriting import with_applicable_steps
@@ -40,7 +37,7 @@ def judge_services(seen: ServiceCalls) -> Verdict:
         cause = causes.diagnose_incompatible_service(silent) or causes.diagnose_no_answer(
             seen.trace, seen.stuck, spins=seen.spins
         )
-        cause = _with_answer_step(cause, seen.trace, unanswered.service, seen.stuck)
+        cause = with_answer_step(cause, seen.trace, unanswered.service, seen.stuck)
         return failed(expected, observed, cause, causes.output_tail(seen.trace))
     return passed(
         expected, "all four answer", [f"{name} = {result}" for name, result in _operands_and_results(seen.answers)]
@@ -100,7 +97,7 @@ def _first_step(trace: Trace, step: Callable[[Code], str | None]) -> str | None:
     return next((found for code in learner_files(trace) if (found := step(code)) is not None), None)
 
 
-def _with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame] = ()) -> Cause:
+def with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame] = ()) -> Cause:
     """Give a cause the step that lets a service answer."""
     found, at = tracebacks.last_traceback(trace), tracebacks.own_frame(stuck, trace.folder)
     if found is not None and found.frames[-1].function == "send_response":
@@ -133,7 +130,7 @@ def judge_operations(seen: ServiceCalls) -> Verdict:
             return failed(
                 f"{question} = {right}",
                 causes.describe_no_answer(seen.trace, answer.took_s),
-                _with_answer_step(
+                with_answer_step(
                     causes.diagnose_process(seen.trace)
                     or Cause(
                         "no answer",
@@ -224,97 +221,6 @@ def _diagnose_result(answer: CallAnswer, right: int) -> Cause:
     if got == 0:
         return Cause("wrong result", "the result is 0: is it put into resp.sum?", "set resp.sum before you return resp")
     return Cause("wrong result", f"{got} instead of {right}", f"look at the callback of {name}")
-
-
-def _with_guard_step(cause: Cause, trace: Trace) -> Cause:
-    """Give a cause the step that lets /divide answer and log an error if b is 0."""
-    found = tracebacks.last_traceback(trace)
-    if found is not None and found.frames[-1].function == "send_response":
-        return replace(cause, hint=service_steps.return_response(trace, "/divide") or cause.hint)
-    if found is not None and found.type in ("AttributeError", "NameError"):  # of the error branch itself
-        return with_applicable_step(cause, trace, lambda: services.guard_division(trace))
-    return replace(cause, hint=services.guard_division(trace) or cause.hint)
-
-
-@with_applicable_steps
-def judge_division(seen: Division) -> Verdict:
-    expected = "a division by zero gets an answer, the node reports it as an error, and the next calls succeed"
-    if seen.before is None or seen.before.response is None or seen.by_zero is None:
-        return failed(
-            expected,
-            "/divide does not answer even 84 ÷ 7",
-            _with_answer_step(
-                causes.diagnose_process(seen.trace)
-                or Cause("no answer", "the service does not answer", "see `services`"),
-                seen.trace,
-                "/divide",
-            ),
-            causes.output_tail(seen.trace),
-        )
-    if seen.by_zero.response is None:
-        cause = causes.diagnose_process(seen.trace) or Cause(
-            "no answer", "the callback does not answer when b is 0", "return the response in that case too"
-        )
-        cause = _with_guard_step(cause, seen.trace)
-        return failed(
-            expected,
-            f"10 ÷ 0: {causes.describe_no_answer(seen.trace, seen.by_zero.took_s)}",
-            cause,
-            causes.output_tail(seen.trace),
-        )
-    complaints = find_complaints(seen.ordinary, seen.logged)
-    # The last log messages of a node that exits may never reach us: in that case, report the exit instead.
-    has_exited = seen.trace.exit is not None and any(answer.response is None for answer in seen.after)
-    if not complaints and not has_exited:
-        if seen.before.response["sum"] != correct_result("/divide", **seen.before.request):
-            cause = Cause(
-                "no error message",
-                "no error is reported, since /divide does not divide: 84 ÷ 7 is answered "
-                f"{seen.before.response['sum']}",
-                services.compute_results(seen.trace, ["/divide"]) or "let /divide divide first: see `operations`",
-            )
-            observed = f"answered {seen.by_zero.response['sum']}, without a word about an error"
-            return failed(expected, observed, cause, [str(log) for log in seen.logged])
-        printed = causes.diagnose_printed(seen.trace, SAYS_ERROR.search, "the error", after=seen.at_end)
-        cause = printed or Cause(
-            "no error message",
-            "nothing that the node logs reports an error",
-            "in the callback of /divide, where b is 0, log an error before you return the response",
-        )
-        trace = seen.trace
-        cause = with_applicable_step(
-            cause, trace, lambda: division_by_zero.log_division_by_zero(trace), lambda: services.guard_division(trace)
-        )
-        return failed(
-            expected,
-            f"answered {seen.by_zero.response['sum']}, without a word about an error",
-            cause,
-            [str(log) for log in seen.logged],
-        )
-    divides = seen.before.response["sum"] == correct_result("/divide", **seen.before.request)
-    for answer in seen.after:
-        a, b = answer.request["a"], answer.request["b"]
-        if answer.response is None:
-            cause = causes.diagnose_process(seen.trace) or Cause(
-                "no answer",
-                "the node no longer answers after a division by zero",
-                "let the node go on: only log, and answer, whatever a is",
-            )
-            cause = _with_guard_step(cause, seen.trace)
-            return failed(expected, f"after it, {a} ÷ {b} got no answer", cause, causes.output_tail(seen.trace))
-        if b and divides and answer.response["sum"] != correct_result("/divide", a, b):
-            cause = Cause(
-                "wrong result",
-                "the node divides correctly until it is asked to divide by zero",
-                "let a division by zero change nothing: only log, and answer",
-            )
-            cause = _with_guard_step(cause, seen.trace)
-            return failed(expected, f"after it, {a} ÷ {b} was answered {answer.response['sum']}", cause)
-    return passed(
-        expected,
-        f"answered {seen.by_zero.response['sum']}, and {len(seen.after)} calls after it",
-        [str(complaints[0])],
-    )
 
 
 def judge_shutdown(seen: ServiceCalls) -> Verdict:

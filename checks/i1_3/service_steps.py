@@ -11,7 +11,7 @@ from checks.i1_3.facts import OPERATOR_SIGNS
 from checks.i1_3.services import Changes, argument_names, compute_results, find_callback, find_offer, new_callback
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
-from tutor.judge.exceptions.rewriting import instances
+from tutor.judge.exceptions.callback_rewriting import instances
 from tutor.judge.rewriting.node import argument
 from tutor.judge.source import Function
 from tutor.judge.trace import Trace

@@ -14,7 +14,7 @@ from checks.i2_1.program import whole_program
 from tutor.judge import causes
 from tutor.judge.causes import parameter_slips
 from tutor.judge.edits import Edit
-from tutor.judge.rewriting import parameters, publishing, whole
+from tutor.judge.rewriting import parameter_callbacks, parameters, publishing, whole
 from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
@@ -75,7 +75,7 @@ def use_parameter_later(trace: Trace, name: str) -> str:
     """Step: use a parameter's current value; rewrite the whole callback if it ignores the other parameter as well."""
     read = started_node(trace)
     others = {PREFIX, ENABLED} - {name}
-    if all(parameters.is_followed(read, other) for other in others):
+    if all(parameter_callbacks.is_followed(read, other) for other in others):
         return use_parameter(trace, name)
     return read.step(*_larger(read, _timer_callback, _all_callbacks)) or use_parameter(trace, name)
 
@@ -107,7 +107,7 @@ def send_once_per_tick(trace: Trace) -> str:
 def cancel_old_timer(trace: Trace) -> str:
     """Step: cancel the old timer before creating a new one."""
     read = started_node(trace)
-    return read.step(parameters.cancel_old_timer(read)) or follow_changes(trace)
+    return read.step(parameter_callbacks.cancel_old_timer(read)) or follow_changes(trace)
 
 
 def remove_waits(trace: Trace, stuck: Sequence[Frame]) -> str:
@@ -123,7 +123,7 @@ def remove_waits(trace: Trace, stuck: Sequence[Frame]) -> str:
 def refuse_bad_rates(trace: Trace) -> str:
     """Step: reject bad rates before doing anything else."""
     read = started_node(trace)
-    smallest = [*parameters.remove_pre_set_callback(read), *parameters.refuse_bad_rates(read, RATE)]
+    smallest = [*parameter_callbacks.remove_pre_set_callback(read), *parameter_callbacks.refuse_bad_rates(read, RATE)]
     return read.step(smallest, *_larger(read, _parameter_callbacks)) or (
         "return SetParametersResult(successful=False, reason='...') from an on-set-parameters callback"
     )
@@ -179,7 +179,7 @@ def _larger(read: NodeFile, *parts: Callable[[NodeFile], list[Edit]]) -> list[li
 
 
 def _parameter_callbacks(read: NodeFile) -> list[Edit]:
-    return parameters.follow_parameters(read, RATE, PREFIX, ENABLED)
+    return parameter_callbacks.follow_parameters(read, RATE, PREFIX, ENABLED)
 
 
 def _timer_callback(read: NodeFile) -> list[Edit]:

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checks.i1_3.client import judge_client
+from checks.i1_3.division import judge_division
 from checks.i1_3.facts import (
     DIVISIONS_AFTER_ZERO,
     OPERATOR_SIGNS,
@@ -21,7 +22,7 @@ from checks.i1_3.facts import (
     find_complaints,
     missing_services,
 )
-from checks.i1_3.judges import judge_division, judge_operations, judge_services, judge_shutdown
+from checks.i1_3.judges import judge_operations, judge_services, judge_shutdown
 from checks.i1_3.scenarios import random_operands
 from tests.checks.builders import (
     CRASH,

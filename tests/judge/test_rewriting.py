@@ -7,7 +7,7 @@ import pytest
 from tests.repairs import apply_step
 from tutor.judge.causes import parameter_slips, period_slips
 from tutor.judge.edits import Edit
-from tutor.judge.rewriting import parameters, publishing
+from tutor.judge.rewriting import parameter_callbacks, parameters, publishing
 from tutor.judge.rewriting.node import NodeFile, node_file
 
 RATE, PREFIX, ENABLED = "publish_rate", "message_prefix", "enabled"
@@ -72,7 +72,7 @@ def apply_edits(file: NodeFile, edits: list[Edit]) -> str:
 
 
 def test_the_callback_refuses_bad_rates_and_applies_the_others() -> None:
-    after = apply_edits(changed(), parameters.follow_parameters(changed(), RATE, PREFIX, ENABLED))
+    after = apply_edits(changed(), parameter_callbacks.follow_parameters(changed(), RATE, PREFIX, ENABLED))
     assert (
         """\
     def changed(self, params):
@@ -131,7 +131,7 @@ def test_the_callback_refuses_bad_rates_and_applies_the_others() -> None:
     ],
 )
 def test_the_step_includes_everything_that_the_callback_needs(file: NodeFile, words: list[str]) -> None:
-    after = apply_edits(file, parameters.follow_parameters(file, RATE, PREFIX, ENABLED))
+    after = apply_edits(file, parameter_callbacks.follow_parameters(file, RATE, PREFIX, ENABLED))
     for word in words:
         assert word in after, after
 
@@ -141,34 +141,35 @@ def test_a_timer_whose_attribute_is_set_to_none_is_stored_there() -> None:
         ("self.timer = self.create_timer(1.0 / self.rate, self.tick)", "self.create_timer(1.0, self.tick)"),
         (REGISTERED, f"        self.timer = None\n{REGISTERED}"),
     )
-    after = apply_edits(file, parameters.follow_parameters(file, RATE))
+    after = apply_edits(file, parameter_callbacks.follow_parameters(file, RATE))
     assert "self.timer = self.create_timer(1.0, self.tick)\n" + REGISTERED in after
 
 
 def test_is_followed() -> None:
-    assert not parameters.is_followed(changed(), PREFIX)
-    assert parameters.is_followed(
+    assert not parameter_callbacks.is_followed(changed(), PREFIX)
+    assert parameter_callbacks.is_followed(
         changed(("data=self.prefix", "data=self.get_parameter('message_prefix').value")), PREFIX
     )
     asking = "for p in params:\n            if p.name == 'message_prefix':\n                self.prefix = p.value\n"
-    assert parameters.is_followed(changed(("        return Set", f"        {asking}        return Set")), PREFIX)
+    asked = changed(("        return Set", f"        {asking}        return Set"))
+    assert parameter_callbacks.is_followed(asked, PREFIX)
 
 
 def test_a_stored_period_is_computed_from_the_new_rate() -> None:
     file = changed(("self.rate = self", "self.period = 1.0 / self"), ("1.0 / self.rate,", "self.period,"))
-    assert "self.period = 1.0 / p.value\n" in apply_edits(file, parameters.follow_parameters(file, RATE))
+    assert "self.period = 1.0 / p.value\n" in apply_edits(file, parameter_callbacks.follow_parameters(file, RATE))
 
 
 def test_an_old_timer_that_is_left_running_is_cancelled() -> None:
     making = "self.timer = self.create_timer(1.0 / params[0].value, self.tick)"
     file = changed(("        return Set", f"        {making}\n        return Set"))
     right = changed(("        return Set", f"        self.timer.cancel()\n        {making}\n        return Set"))
-    assert apply_edits(file, parameters.cancel_old_timer(file)) == right.text
-    assert parameters.cancel_old_timer(right) == parameters.cancel_old_timer(changed()) == []
+    assert apply_edits(file, parameter_callbacks.cancel_old_timer(file)) == right.text
+    assert parameter_callbacks.cancel_old_timer(right) == parameter_callbacks.cancel_old_timer(changed()) == []
 
 
 def test_bad_rates_are_refused_before_anything_else() -> None:
-    after = apply_edits(changed(), parameters.refuse_bad_rates(changed(), RATE))
+    after = apply_edits(changed(), parameter_callbacks.refuse_bad_rates(changed(), RATE))
     assert "    def changed(self, params):\n        for p in params:\n            if p.name == 'publish_rate'" in after
 
 
@@ -341,7 +342,8 @@ def test_an_unparsable_file_yields_no_step() -> None:
     for text in ("", "def f(:\n"):
         file = node_file(text)
         assert (
-            file.step(parameters.follow_parameters(file, RATE), parameters.declare_parameter(file, RATE, 1.0)) is None
+            file.step(parameter_callbacks.follow_parameters(file, RATE), parameters.declare_parameter(file, RATE, 1.0))
+            is None
         )
         assert (
             file.step(publishing.send_data(file, "1.0"), publishing.whole_publishing(file, "/a", "a/msg/B", "1", "1"))

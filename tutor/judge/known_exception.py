@@ -9,6 +9,9 @@ from dataclasses import dataclass, field
 WORD = re.compile(r"\{([a-z]\w*)\}")
 """A placeholder in braces, filled in from the exception or from the learner's own line."""
 
+type Words = Mapping[str, str]
+"""The values of an entry's placeholders, by their names."""
+
 
 @dataclass(frozen=True, slots=True)
 class Replace:

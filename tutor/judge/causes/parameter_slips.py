@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from tutor.judge.edits import Edit, remove_statement, replace_node, replace_nodes
-from tutor.judge.rewriting import parameters
+from tutor.judge.rewriting import parameter_callbacks, parameters
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import Function, called_name, values_of, where
 from tutor.judge.verdict import Cause
@@ -56,11 +56,11 @@ def diagnose_callback_order(file: NodeFile) -> Cause | None:
 
     rclpy calls them in turn until one refuses, the last one added first (`Node.add_on_set_parameters_callback`).
     """
-    calls = file.calls(parameters.ON_SET)
+    calls = file.calls(parameter_callbacks.ON_SET)
     functions = [file.function(argument(call, 0, "callback")) for call in calls]
     refusing = [_may_refuse(file, each) for each in functions]
     changes = [
-        replace_node(file.text, call.func, f"{ast.unparse(call.func.value)}.{parameters.POST_SET}")
+        replace_node(file.text, call.func, f"{ast.unparse(call.func.value)}.{parameter_callbacks.POST_SET}")
         for call, may_refuse in zip(calls, refusing, strict=True)
         if not may_refuse and isinstance(call.func, ast.Attribute)
     ]
@@ -213,7 +213,7 @@ def _diagnose_compared_type(file: NodeFile) -> Cause | None:
 
 def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
     """Whether an existing parameter callback is never called, or another function than the intended one is."""
-    for call in file.calls(parameters.ON_SET, parameters.POST_SET):
+    for call in file.calls(parameter_callbacks.ON_SET, parameter_callbacks.POST_SET):
         given = argument(call, 0, "callback")
         if isinstance(given, ast.Call) and file.function(given.func) is not None:
             step = file.step([replace_node(file.text, given, ast.unparse(given.func))])
@@ -226,10 +226,10 @@ def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
             step = file.step([*file.append_to_setup(ast.unparse(call))])
             text = f"{where(call)} is in {function.name}, which nothing calls when the node starts"
             return Cause("callback not registered", text, step) if step else None
-    if file.calls(parameters.ON_SET, parameters.POST_SET, parameters.PRE_SET):
+    if file.calls(parameter_callbacks.ON_SET, parameter_callbacks.POST_SET, parameter_callbacks.PRE_SET):
         return None
     unused = _find_unused_callback(file)
-    step = file.step(parameters.register_on_set(file, unused)) if unused is not None else None
+    step = file.step(parameter_callbacks.register_on_set(file, unused)) if unused is not None else None
     if unused is None or step is None:
         return None
     return Cause("callback not registered", f"there is {_name_and_line(unused)}, but nothing ever calls it", step)
@@ -264,7 +264,7 @@ def diagnose_old_value_read(file: NodeFile, name: str) -> Cause | None:
 
     The hint is for a callback that loops over the list of parameters; for any other, it is empty.
     """
-    checker = parameters.registered_callback(file, parameters.ON_SET)
+    checker = parameter_callbacks.registered_callback(file, parameter_callbacks.ON_SET)
     if checker is None:
         return None
     timer_callbacks = [file.function(argument(each, 1, "callback")) for each in file.timers]
@@ -285,9 +285,9 @@ def diagnose_old_value_read(file: NodeFile, name: str) -> Cause | None:
 
 def why_accepted(file: NodeFile, bad: float) -> str:
     """Why a bad number is not refused, judging by the parameter callbacks."""
-    checker = parameters.registered_callback(file, parameters.ON_SET)
+    checker = parameter_callbacks.registered_callback(file, parameter_callbacks.ON_SET)
     if checker is None:
-        later = parameters.registered_callback(file, parameters.POST_SET)
+        later = parameter_callbacks.registered_callback(file, parameter_callbacks.POST_SET)
         if later is not None:
             return f"{_name_and_line(later)} is called when the value is already set: it cannot reject any"
         return "nothing can reject a value: no on-set-parameters callback is registered"
