@@ -1,4 +1,4 @@
-"""Rewrite how a learner's node declares its parameters and follows their changes."""
+"""Rewrite how a learner's node declares its parameters, and find where it reads them."""
 
 from __future__ import annotations
 
