@@ -28,7 +28,7 @@ from checks.i2_1.failures import (
 )
 from checks.i2_1.program import whole_program
 from tutor.judge import causes
-from tutor.judge.causes import callback_slips, names, parameter_slips, period_slips, slips
+from tutor.judge.causes import callback_slips, names, parameter_callback_slips, parameter_slips, period_slips, slips
 from tutor.judge.rates import TOLERANCE, Rate, describe
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import Trace
@@ -144,10 +144,9 @@ def _diagnose_ignored_change(name: str, trace: Trace) -> Cause:
     if compared is not None:
         return Cause("parameter ignored", f"{name} is accepted, but compared with a text", compared)
     read = started_node(trace)
-    old = parameter_slips.diagnose_old_value_read(read, name)
-    if (
-        cause := parameter_slips.diagnose_override(read, name) or parameter_slips.diagnose_broken_callback(read)
-    ) is not None:
+    old = parameter_callback_slips.diagnose_old_value_read(read, name)
+    override = parameter_slips.diagnose_override(read, name)
+    if (cause := override or parameter_callback_slips.diagnose_broken_callback(read)) is not None:
         return cause
     if old is not None:
         return replace(old, hint=old.hint or steps.use_parameter_later(trace, name))
@@ -211,9 +210,9 @@ def _diagnose_old_period(trace: Trace) -> Cause:
     read = started_node(trace)
     if (cause := parameter_slips.diagnose_override(read, RATE)) is not None:
         return cause
-    if (old := parameter_slips.diagnose_old_value_read(read, RATE)) is not None:
+    if (old := parameter_callback_slips.diagnose_old_value_read(read, RATE)) is not None:
         return replace(old, hint=old.hint or steps.follow_changes(trace))
     text = "the parameter changes, but the timer keeps its old period"
-    return parameter_slips.diagnose_broken_callback(read) or Cause(
+    return parameter_callback_slips.diagnose_broken_callback(read) or Cause(
         names.TIMER_NOT_REPLACED, text, steps.follow_changes(trace)
     )

@@ -20,7 +20,7 @@ from checks.i2_1.failures import (
     with_steps,
 )
 from tutor.judge import causes, tracebacks
-from tutor.judge.causes import parameter_slips
+from tutor.judge.causes import parameter_callback_slips
 from tutor.judge.rates import describe
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import Trace
@@ -93,7 +93,7 @@ def _fail_if_crashed(bad: float, expected: str, trace: Trace) -> Verdict | None:
 
 
 def _diagnose_change(trace: Trace, text: str) -> Cause:
-    return parameter_slips.diagnose_callback_order(started_node(trace)) or Cause(
+    return parameter_callback_slips.diagnose_callback_order(started_node(trace)) or Cause(
         "value changed all the same", text, steps.refuse_bad_rates(trace)
     )
 
@@ -101,8 +101,8 @@ def _diagnose_change(trace: Trace, text: str) -> Cause:
 def _diagnose_no_validation(trace: Trace, bad: float) -> Cause:
     """Diagnose a node that accepts a bad rate."""
     read = started_node(trace)
-    return parameter_slips.diagnose_broken_callback(read) or Cause(
-        "no validation", parameter_slips.why_accepted(read, bad), steps.refuse_bad_rates(trace)
+    return parameter_callback_slips.diagnose_broken_callback(read) or Cause(
+        "no validation", parameter_callback_slips.why_accepted(read, bad), steps.refuse_bad_rates(trace)
     )
 
 
@@ -132,7 +132,7 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
         return failed(
             expected,
             f"rejected, but {now}",
-            parameter_slips.diagnose_callback_order(started_node(seen.trace))
+            parameter_callback_slips.diagnose_callback_order(started_node(seen.trace))
             or Cause(
                 "partial change", "the callback applies the first parameter before it looks at the second", partial
             ),

@@ -17,8 +17,8 @@ from checks.i2_2.facts import (
     subscriptions,
     topics_in_use,
 )
+from checks.i2_2.launch_file import Launch, launch
 from checks.i2_2.processes import ended_processes
-from checks.i2_2.rewriting import Launch, launch
 from tutor.judge.verdict import Cause
 from tutor.ros_model import Graph, TopicEndpoint
 

@@ -14,9 +14,9 @@ from checks.i2_2.facts import (
     publishers,
     subscriptions,
 )
+from checks.i2_2.launch_file import PACKAGES, PROGRAMS, launch, nearest
 from checks.i2_2.loading import find_refusal
 from checks.i2_2.processes import EndedProcess, by_stream, ended_processes, writers, written_by
-from checks.i2_2.rewriting import PACKAGES, PROGRAMS, launch, nearest
 from tutor.judge import causes, tracebacks
 from tutor.judge.bench import NeedsInstalledRos
 from tutor.judge.trace import Trace

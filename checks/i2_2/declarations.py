@@ -8,8 +8,9 @@ from __future__ import annotations
 import ast
 
 from checks.i2_2 import steps
+from checks.i2_2.launch_file import Launch
 from checks.i2_2.reading import Call, Source
-from checks.i2_2.rewriting import Launch, prepend_to_list
+from checks.i2_2.rewriting import prepend_to_list
 from tutor.judge.edits import replace_node
 from tutor.judge.rewriting.node import argument as argument_of
 from tutor.judge.verdict import Cause

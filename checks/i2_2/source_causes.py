@@ -7,8 +7,9 @@ import re
 from collections.abc import Sequence
 
 from checks.i2_2 import steps
+from checks.i2_2.launch_file import Launch
 from checks.i2_2.reading import Call, Source
-from checks.i2_2.rewriting import Launch, prepend_to_list
+from checks.i2_2.rewriting import prepend_to_list
 from tutor.judge.verdict import Cause
 
 _OWN_GROUP = "it only affects what comes after it in the same list"

@@ -10,11 +10,9 @@ import re
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
+from checks.i2_2.launch_file import DEFAULTS, Launch, Program
 from checks.i2_2.reading import Call, Source, summands
 from checks.i2_2.rewriting import (
-    DEFAULTS,
-    Launch,
-    Program,
     add_node_argument,
     fix_imports,
     prepend_to_list,

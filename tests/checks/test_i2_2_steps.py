@@ -8,8 +8,8 @@ import pytest
 
 from checks.i2_2 import declarations, rewriting, source_causes, steps
 from checks.i2_2.causes import diagnose_launch
+from checks.i2_2.launch_file import Launch
 from checks.i2_2.reading import Source
-from checks.i2_2.rewriting import Launch
 from tests.checks.builders import trace
 from tests.judging import find_cases
 from tutor.content.submissions import Case

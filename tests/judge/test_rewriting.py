@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.repairs import apply_step
-from tutor.judge.causes import parameter_slips, period_slips
+from tutor.judge.causes import parameter_callback_slips, parameter_slips, period_slips
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting import parameter_callbacks, parameters, publishing
 from tutor.judge.rewriting.node import NodeFile, node_file
@@ -323,17 +323,17 @@ def test_a_value_that_the_node_overwrites(file: NodeFile, right: str) -> None:
     ],
 )
 def test_a_callback_that_is_never_called(file: NodeFile, cause: str, line: str) -> None:
-    found = parameter_slips.diagnose_uncalled_callback(file)
+    found = parameter_callback_slips.diagnose_uncalled_callback(file)
     assert found is not None
     assert found.name == cause
     assert line in apply_step(found.hint, {"node.py": file.text})["node.py"]
-    assert parameter_slips.diagnose_uncalled_callback(changed()) is None
+    assert parameter_callback_slips.diagnose_uncalled_callback(changed()) is None
 
 
 def test_an_on_set_callback_that_reads_the_old_value() -> None:
     reading = "for p in params:\n            self.prefix = self.get_parameter('message_prefix').value\n        return"
     file = changed(("        return Set", f"        {reading} Set"))
-    found = parameter_slips.diagnose_old_value_read(file, PREFIX)
+    found = parameter_callback_slips.diagnose_old_value_read(file, PREFIX)
     assert found is not None
     assert "self.prefix = p.value" in found.hint
 

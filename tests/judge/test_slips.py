@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from tests.checks.builders import trace
-from tutor.judge.causes import late_binding, parameter_slips, period_slips, slips
+from tutor.judge.causes import late_binding, parameter_callback_slips, parameter_slips, period_slips, slips
 from tutor.judge.causes.printing import use_node_logger
 from tutor.judge.rewriting.node import node_file
 from tutor.judge.trace import Level, Trace
@@ -151,11 +151,11 @@ def test_arguments_that_do_not_reach_the_node_are_named(text: str, step: str | N
 
 def test_a_type_is_not_compared_with_a_number() -> None:
     text = "def f(p):\n  if p.type_ == ParameterType.PARAMETER_BOOL:\n    pass\nn.add_on_set_parameters_callback(f)"
-    found = parameter_slips.diagnose_broken_callback(node_file(text))
+    found = parameter_callback_slips.diagnose_broken_callback(node_file(text))
     assert found is not None
     assert found.hint == "line 2 becomes: if p.type_.value == ParameterType.PARAMETER_BOOL:"
     right = text.replace("ParameterType.PARAMETER_BOOL", "Parameter.Type.BOOL")
-    assert parameter_slips.diagnose_broken_callback(node_file(right)) is None
+    assert parameter_callback_slips.diagnose_broken_callback(node_file(right)) is None
 
 
 @pytest.mark.parametrize(
