@@ -107,6 +107,8 @@ def diagnose_incomplete_summary(summary: Summary, trial: Trial) -> Cause | None:
     first = trial.sent[0]
     recent = trial.sent[last_due_count(summary.messages) - 1 : summary.messages_at_end]
     if first.number not in summary.quoted:
+        if (shared := slips.diagnose_shared_object(started_node(trial.trace))) is not None:
+            return shared
         others = [number for number in summary.quoted if number not in {each.number for each in recent}]
         if others:
             return Cause(

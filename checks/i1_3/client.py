@@ -110,6 +110,7 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
     if "input(" in raised or (own is not None and "input(" in own.code):
         fixes, fix_first = [lambda code, *_: steps.remove_input(code)], True
     each_file = [partial(step, code, cause, seen) for step in fixes for code in learner_files(trace)]
+    each_file = [*(partial(client_requests.negate_waits, code) for code in learner_files(trace)), *each_file]
     not_sent = cause.name in ("wrong service name", "wrong type", "not called", "waits too short a time")
     waits = (
         []

@@ -82,6 +82,16 @@ def wait_for_answers(code: Code, trace: Trace) -> str | None:
     return change.as_step() if change.swaps or len(change.more) > len(code.missing_imports("rclpy")) else None
 
 
+_WAITS = "wait_for_service", "service_is_ready"
+
+
+def negate_waits(code: Code) -> str | None:
+    """Step: repeat a wait while the service is not there, in place of while it is."""
+    tests = [each.test for each in code.nodes if isinstance(each, ast.While)]
+    waits = [each for each in tests if isinstance(each, ast.Call) and source.called_name(each) in _WAITS]
+    return code.as_step(edits.replace_nodes(code.text, *((each, f"not {ast.unparse(each)}") for each in waits)))
+
+
 def spin_while_polling(code: Code) -> str | None:
     """Step: spin in each loop that waits for a future to be done, instead of sleeping, if nothing in the file spins."""
     if code.calls("spin", "spin_once", "spin_until_future_complete"):

@@ -14,7 +14,7 @@ from checks.i2_2.facts import (
     publishers,
     subscriptions,
 )
-from checks.i2_2.launch_file import PACKAGES, PROGRAMS, launch, nearest
+from checks.i2_2.launch_file import launch
 from checks.i2_2.loading import find_refusal
 from checks.i2_2.processes import EndedProcess, by_stream, ended_processes, writers, written_by
 from tutor.judge import causes, tracebacks
@@ -110,14 +110,14 @@ def diagnose_launch(trace: Trace) -> Cause | None:
         return Cause(
             "package not found",
             _line_of(text, found.start()),
-            steps.rename_program(launch_file, "package", found["name"], nearest(found["name"], PACKAGES))
+            steps.rename_package(launch_file, found["name"])
             or "check the spelling of package=; demo_nodes_py, demo_nodes_cpp and my_package are there",
         )
     if found := _NO_PROGRAM.search(text):
         return Cause(
             "executable not found",
             _line_of(text, found.start()),
-            steps.rename_program(launch_file, "executable", found["name"], nearest(found["name"], PROGRAMS))
+            steps.rename_programs(launch_file, found["name"])
             or "check executable=: talker and listener in the demo packages, minimal_publisher and "
             "minimal_subscriber in my_package",
         )

@@ -10,7 +10,7 @@ import re
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
-from checks.i2_2.launch_file import DEFAULTS, Launch, Program
+from checks.i2_2.launch_file import DEFAULTS, PACKAGES, PROGRAMS, Launch, Program, constant_text, nearest
 from checks.i2_2.reading import Call, Source, summands
 from checks.i2_2.rewriting import (
     add_node_argument,
@@ -76,9 +76,22 @@ def declaration(argument: str) -> str:
     return f"DeclareLaunchArgument('{argument}', default_value='{DEFAULTS.get(argument, '')}')"
 
 
-def rename_program(launch_file: Launch, keyword: str, wrong: str, right: str) -> str | None:
-    """The step that replaces the name of a package or an executable by `right`."""
-    return launch_file.step(replace_keyword(launch_file, keyword, wrong, right))
+def rename_package(launch_file: Launch, wrong: str) -> str | None:
+    """The step that replaces the name of a package by the nearest one that exists."""
+    return launch_file.step(replace_keyword(launch_file, "package", wrong, nearest(wrong, PACKAGES)))
+
+
+def rename_programs(launch_file: Launch, wrong: str) -> str | None:
+    """The step that replaces the name of an executable, and all others that do not exist, by the nearest one."""
+    given = {constant_text(argument(call, 1, "executable")) for call in launch_file.calls("Node")}
+    unknown = {each for each in given if each and each not in PROGRAMS and f"{each}.py" not in launch_file.others}
+    return launch_file.step(
+        [
+            edit
+            for each in sorted({wrong, *unknown})
+            for edit in replace_keyword(launch_file, "executable", each, nearest(each, PROGRAMS))
+        ]
+    )
 
 
 def step_for_empty_description(launch_file: Launch) -> str | None:
@@ -113,7 +126,18 @@ def rename_launch_function(launch_file: Launch) -> str | None:
 def rename_similar_argument(launch_file: Launch, argument: str, others: Sequence[str]) -> str | None:
     """The step that renames a similar argument among `others` to `argument`."""
     near = [other for other in others if len(others) == 1 or argument[:2] in other]
+    if len(near) > 1:  # one for each node
+        return launch_file.step(
+            [*rename_argument(launch_file, near[0], argument), *_read(launch_file, near[1:], argument)]
+        )
     return next((step for each in near if (step := rename_argument_step(launch_file, each, argument))), None)
+
+
+def _read(launch_file: Launch, others: Sequence[str], argument: str) -> list[Edit]:
+    """Read `argument` wherever one of the other arguments is read."""
+    reads = [each.args[0] for each in launch_file.calls("LaunchConfiguration") if each.args]
+    found = [each for each in reads if isinstance(each, ast.Constant) and each.value in others]
+    return [replace_node(launch_file.file.text, each, repr(argument)) for each in found]
 
 
 def rename_argument_step(launch_file: Launch, other: str, right: str) -> str | None:

@@ -225,6 +225,12 @@ def test_a_client_that_wants_arguments_gets_fixed_numbers(text: str, after: str 
     assert follow_step(text, steps.remove_arguments) == after
 
 
+def test_a_wait_that_goes_on_while_the_service_is_there() -> None:
+    text = "while client.wait_for_service(1.0):\n    print('waiting')\n"
+    assert follow_step(text, client_requests.negate_waits) == text.replace("while client", "while not client")
+    assert follow_step(text.replace("while client", "while not client"), client_requests.negate_waits) is None
+
+
 WAITS = """\
 node = rclpy.create_node("client")
 {spins}client = node.create_client(AddTwoInts, "add")

@@ -209,7 +209,7 @@ def test_steps_that_change_single_lines() -> None:
     )
     unlisted = changed(("        talker,\n        listener,\n", ""))
     assert "talker, listener, Declare" in str(steps.step_for_empty_description(unlisted))
-    assert steps.rename_program(changed(("'talker'", "'taker'")), "executable", "taker", "talker") == (
+    assert steps.rename_programs(changed(("'talker'", "'taker'")), "taker") == (
         "line 10 becomes: talker = Node(package='demo_nodes_py', executable='talker', namespace=space, "
         "remappings=[('chatter', name)])"
     )
@@ -414,3 +414,27 @@ def generate_launch_description():
     )
     assert "('chatter', LaunchConfiguration('topic'))" in str(steps.remap_nodes(launch, "chatter"))
     assert "namespace=LaunchConfiguration('namespace')" in str(steps.put_into_namespace(launch))
+
+
+def test_all_executables_that_do_not_exist_are_renamed() -> None:
+    launch = changed(("'talker'", "'talker.py'"), ("'listener'", "'listener.py'"))
+    found = str(steps.rename_programs(launch, "talker.py"))
+    assert "executable='talker'" in found
+    assert "executable='listener'" in found
+
+
+def test_two_arguments_for_one_topic_become_one() -> None:
+    launch = launch_of(
+        "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"
+        "from launch.substitutions import LaunchConfiguration\n\ndef generate_launch_description():\n"
+        "    DeclareLaunchArgument('pub_topic', default_value='chatter')\n"
+        "    DeclareLaunchArgument('sub_topic', default_value='chatter')\n"
+        "    sent = LaunchConfiguration('pub_topic')\n    heard = LaunchConfiguration('sub_topic')\n"
+    )
+    found = str(steps.rename_similar_argument(launch, "topic", ["pub_topic", "sub_topic"]))
+    for line in (
+        "line 6 becomes: DeclareLaunchArgument('topic', ",
+        "line 8 becomes: sent = LaunchConfiguration('topic')",
+        "line 9 becomes: heard = LaunchConfiguration('topic')",
+    ):
+        assert line in found

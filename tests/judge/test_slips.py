@@ -305,3 +305,20 @@ def test_ros_arguments_that_were_taken_out() -> None:
     assert found is not None
     assert found.hint == "line 6 becomes: rclpy.init()"
     assert parameter_slips.diagnose_dropped_arguments(node_file(source.format("sys.argv"))) is None
+
+
+@pytest.mark.parametrize("text", ["main", "__init__", "__name__"])
+def test_a_main_guard_that_is_never_true(text: str) -> None:
+    source = f"def main():\n    pass\n\nif __name__ == '{text}':\n    main()\n"
+    found = slips.diagnose_main_guard(node_file(source))
+    assert found is not None
+    assert found.hint == "line 4 becomes: if __name__ == '__main__':"
+    assert slips.diagnose_main_guard(node_file(source.replace(f"'{text}'", "'__main__'"))) is None
+
+
+def test_two_names_for_one_object() -> None:
+    source = "class Stats:\n    def __init__(self):\n        self.first = self.last = {'text': ''}\n"
+    found = slips.diagnose_shared_object(node_file(source))
+    assert found is not None
+    assert found.hint == "line 3 becomes:\n    self.first = {'text': ''}\n    self.last = {'text': ''}"
+    assert slips.diagnose_shared_object(node_file(source.replace("{'text': ''}", "None"))) is None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import signal
 from collections.abc import Sequence
+from dataclasses import replace
 
 from tutor.judge import tracebacks
 from tutor.judge.causes import callback_slips, names, slips, spinning
@@ -58,6 +59,8 @@ def _diagnose_exit(trace: Trace) -> Cause:
             f"{ended}: main() is defined, but nothing calls it",
             first_sound_step(trace, call_main) or 'end the file with: if __name__ == "__main__": main()',
         )
+    if trace.exit.code == 0 and (guard := slips.diagnose_main_guard(started_node(trace))) is not None:
+        return replace(guard, text=f"{ended}: {guard.text}")
     if (torn := diagnose_torn_thread(trace.exit, trace.output)) is not None:
         return torn
     if trace.exit.signal == signal.SIGKILL:

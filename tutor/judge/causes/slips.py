@@ -91,6 +91,35 @@ def diagnose_never_none(file: NodeFile) -> Cause | None:
     return None
 
 
+def diagnose_main_guard(file: NodeFile) -> Cause | None:
+    """Whether the program compares `__name__` with another text than "__main__", and so calls nothing."""
+    for node in file.nodes:
+        match node:
+            case ast.If(
+                test=ast.Compare(left=ast.Name("__name__"), comparators=[ast.Constant(value=str() as text) as compared])
+            ) if text != "__main__":
+                step = file.step([edits.replace_node(file.text, compared, "'__main__'")])
+                if step is not None:
+                    return Cause("no main call", f"line {node.lineno}: __name__ is never {text!r}", step)
+    return None
+
+
+def diagnose_shared_object(file: NodeFile) -> Cause | None:
+    """Whether two variables are given one and the same dict, list or other object: `first = last = {}`."""
+    for node in file.nodes:
+        if (
+            isinstance(node, ast.Assign)
+            and len(node.targets) > 1
+            and isinstance(node.value, ast.Dict | ast.List | ast.Set | ast.Call)
+        ):
+            targets = [ast.unparse(each) for each in node.targets]
+            code = "\n".join(f"{target} = {ast.unparse(node.value)}" for target in targets)
+            if (step := file.step([edits.replace_statement(node, code)])) is not None:
+                text = f"line {node.lineno}: {' and '.join(targets)} are one object: a change of one changes the other"
+                return Cause("one object, two names", text, step)
+    return None
+
+
 def diagnose_other_domain(file: NodeFile) -> Cause | None:
     """Whether the program chooses a domain of its own, where nobody sees its node."""
     for node in file.nodes:
