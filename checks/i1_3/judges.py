@@ -104,7 +104,7 @@ def with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[F
         return replace(cause, hint=service_steps.return_response(trace, service) or cause.hint)
     if cause.name == names.NO_SPIN:
         return with_applicable_step(cause, trace)
-    if at is not None and "sleep(" in at.code:
+    if at is not None and "sleep(" in at.code and found is None:
         return replace(cause, hint=_first_step(trace, lambda code: steps.remove_calls(code, "sleep")) or cause.hint)
     if any("was never awaited" in line.text for line in trace.output):
         return replace(cause, hint=services.compute_results(trace, [service], whole=True) or cause.hint)

@@ -173,7 +173,8 @@ def _replace_callback(change: Changes, offer: Offer, service: str) -> None:
         self_name = code.self_name(call)
         lines = _common_callback(self_name)
         if any(
-            ast.unparse(each) == ast.unparse(ast.parse("\n".join(lines))) for each in code.functions_named("calculate")
+            ast.unparse(each) == ast.unparse(source.parse("\n".join(lines)))
+            for each in code.functions_named("calculate")
         ):
             return  # the file has it already, so the fault must be elsewhere
         name, edit = _add_function(code, call, lines)

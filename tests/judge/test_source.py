@@ -8,7 +8,8 @@ import pytest
 
 from tests.checks.builders import trace
 from tutor.engine.source import read_sources
-from tutor.judge import source
+from tutor.judge import edits, source
+from tutor.judge.rewriting.syntax import make_readable
 
 CLIENT = """
 class Client(Node):
@@ -72,3 +73,13 @@ def test_files_imported_from_the_same_folder_are_included(tmp_path: Path) -> Non
     assert "\xe9" in read_sources(tmp_path / "node.py")["node.py"]
     (tmp_path / "node.py").write_bytes(b"\xff\xfe")
     assert read_sources(tmp_path / "node.py") == {}
+
+
+def test_warnings_about_the_learners_code_are_not_ours(tmp_path: Path, recwarn: pytest.WarningsRecorder) -> None:
+    text = 'import re\nDIGITS = re.compile("\\d+")\nif 1 is 1:\n    pass\n'
+    (tmp_path / "node.py").write_text(text)
+    assert read_sources(tmp_path / "node.py")["node.py"] == text
+    assert len(source.syntax_nodes(text)) > 1
+    assert edits.describe_edits(text, edits.replace_lines(4, "print()")) == "line 4 becomes: print()"
+    assert make_readable(text.replace("is 1:", "is 1")) is not None
+    assert not list(recwarn)

@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
+from tutor.judge.source import parse
 from tutor.judge.tracebacks import Frame
 from tutor.workspace.regular import read_regular
 
@@ -118,7 +119,7 @@ def _read_source(path: Path) -> str | None:
 def _parse(text: str) -> ast.Module:
     """Return the syntax tree; an empty one on a syntax error. Raises RecursionError and MemoryError."""
     try:
-        return ast.parse(text)
+        return parse(text)
     except (SyntaxError, ValueError):
         return ast.Module([], [])
 

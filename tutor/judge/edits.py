@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from pyflakes import checker, messages
 
-from tutor.judge.source import Function, SourceFile
+from tutor.judge.source import Function, SourceFile, compile_quietly, parse
 
 _NODE_ATTRIBUTES = {
     "add_on_set_parameters_callback",
@@ -282,7 +282,7 @@ def differs_in_words(before: str, after: str) -> bool:
     Text that is no valid Python differs in anything but blank lines and the spacing within lines.
     """
     if _parses(before) and _parses(after):
-        return ast.dump(ast.parse(before)) != ast.dump(ast.parse(after))
+        return ast.dump(parse(before)) != ast.dump(parse(after))
 
     def words(text: str) -> list[tuple[int, list[str]]]:
         return [(len(line) - len(line.lstrip()), line.split()) for line in text.splitlines() if line.strip()]
@@ -305,7 +305,7 @@ def _describe_edit(text: str, edit: Edit) -> str:
 
 def _undefined_names(text: str) -> Iterator[str]:
     """The names that a file uses without defining them, attributes of `self` included ("self.publisher")."""
-    tree = ast.parse(text) if _parses(text) else ast.Module([], [])
+    tree = parse(text) if _parses(text) else ast.Module([], [])
     for found in checker.Checker(tree).messages:
         if isinstance(found, messages.UndefinedName | messages.UndefinedLocal):
             yield str(found.message_args[0])
@@ -321,7 +321,7 @@ def _undefined_names(text: str) -> Iterator[str]:
 
 def _parses(text: str) -> bool:
     try:
-        compile(text, "<edited>", "exec", dont_inherit=True)
+        compile_quietly(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return False
     return True

@@ -6,6 +6,7 @@ It only shapes the wording of a diagnosis, never a verdict. A file that Python c
 from __future__ import annotations
 
 import ast
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -242,9 +243,21 @@ def last_name(expression: ast.AST | None) -> str:
     return ""
 
 
+def parse(text: str) -> ast.Module:
+    """Parse Python code as `ast.parse` does, but without Python's warnings: the code is the learner's."""
+    with warnings.catch_warnings(action="ignore", category=SyntaxWarning):
+        return ast.parse(text)
+
+
+def compile_quietly(text: str) -> None:
+    """Compile Python code, to see whether that raises SyntaxError, without Python's warnings."""
+    with warnings.catch_warnings(action="ignore", category=SyntaxWarning):
+        compile(text, "<learner>", "exec", dont_inherit=True)
+
+
 @lru_cache(maxsize=32)
 def _parsed(text: str) -> ast.Module:
     try:
-        return ast.parse(text)
+        return parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return ast.Module([], [])

@@ -10,7 +10,7 @@ from itertools import takewhile
 
 from tutor.judge.edits import Edit, add_import, insert_after, insert_below, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, first_line, node_file
-from tutor.judge.source import Function, SourceFile, called_name, calls_in, last_name
+from tutor.judge.source import Function, SourceFile, called_name, calls_in, last_name, parse
 from tutor.judge.trace import Trace
 
 SPINS = ("spin", "spin_once", "spin_some", "spin_until_future_complete")
@@ -305,7 +305,7 @@ def _code(file: NodeFile, statement: ast.stmt) -> str:
     lines = file.text.splitlines()[first_line(statement) - 1 : statement.end_lineno]
     code = textwrap.dedent("\n".join(lines))
     try:
-        is_alone = len(ast.parse(code).body) == 1
+        is_alone = len(parse(code).body) == 1
     except SyntaxError:
         is_alone = False
     return code if is_alone else ast.unparse(statement)

@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from tutor.judge.edits import Edit, describe_edits, replace_lines
+from tutor.judge.source import compile_quietly
 
 _LINES_ABOVE = 6
 """How many lines above the one at which Python stops are searched for the mistake."""
@@ -50,7 +51,7 @@ def repair(text: str) -> list[Edit] | None:
 def _find_error(lines: Sequence[str]) -> tuple[int, str] | None:
     """The line number and message of the first syntax error; None if there is none."""
     try:
-        compile("\n".join(lines) + "\n", "<read>", "exec", dont_inherit=True)
+        compile_quietly("\n".join(lines) + "\n")
     except SyntaxError as error:
         return max(1, min(error.lineno or 1, len(lines))), error.msg
     except (ValueError, RecursionError, MemoryError):
