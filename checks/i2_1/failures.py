@@ -19,7 +19,9 @@ from checks.i2_1.facts import (
     RuntimeChanges,
 )
 from tutor.judge import causes
+from tutor.judge.causes import parameter_slips
 from tutor.judge.rates import Rate
+from tutor.judge.rewriting.node import started_node
 from tutor.judge.rewriting.whole import with_applicable_steps
 from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
@@ -59,6 +61,8 @@ def fail_not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence
         observed = f"setting {what}: {causes.describe_no_answer(trace, answer.took_s)}"
         return failed(expected, observed, cause, causes.output_tail(trace))
     cause = causes.diagnose_refusal(answer.reason, steps.accept_value(trace, answer))
+    if "read-only" in answer.reason:
+        cause = parameter_slips.diagnose_read_only(started_node(trace)) or cause
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
 
 

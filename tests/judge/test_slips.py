@@ -322,3 +322,46 @@ def test_two_names_for_one_object() -> None:
     assert found is not None
     assert found.hint == "line 3 becomes:\n    self.first = {'text': ''}\n    self.last = {'text': ''}"
     assert slips.diagnose_shared_object(node_file(source.replace("{'text': ''}", "None"))) is None
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "descriptor = ParameterDescriptor(read_only={})",
+        "descriptor.read_only = {}",
+        "def declare(name, default, read_only={}): pass",
+    ],
+)
+def test_a_read_only_parameter(line: str) -> None:
+    found = parameter_slips.diagnose_read_only(node_file(line.format("True")))
+    assert found is not None
+    assert found.hint == f"line 1 becomes: {line.format('False')}"
+    assert parameter_slips.diagnose_read_only(node_file(line.format("False"))) is None
+
+
+SETS_UNDECLARED = """from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+class Talker(Node):
+    def __init__(self):
+        super().__init__('talker', allow_undeclared_parameters=True)
+        rate = Parameter('publish_rate', Parameter.Type.DOUBLE, 1.0)
+        self.set_parameters([rate])
+"""
+
+
+def test_parameters_that_are_set_instead_of_declared() -> None:
+    found = parameter_slips.diagnose_override(node_file(SETS_UNDECLARED), "publish_rate")
+    assert found is not None
+    assert found.hint == "line 8 becomes: self.declare_parameter('publish_rate', 1.0)"
+
+
+def test_arguments_that_the_node_gives_itself() -> None:
+    source = (
+        "class Talker(Node):\n    def __init__(self):\n"
+        "        super().__init__('talker', cli_args=['--ros-args', '-p', 'publish_rate:=1.0'])\n"
+    )
+    found = parameter_slips.diagnose_override(node_file(source), "publish_rate")
+    assert found is not None
+    assert found.hint == "line 3 becomes: super().__init__('talker')"
+    assert parameter_slips.diagnose_override(node_file(source), "enabled") is None

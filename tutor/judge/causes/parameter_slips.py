@@ -10,7 +10,7 @@ import ast
 import re
 from collections.abc import Iterator, Sequence
 
-from tutor.judge.edits import Edit, remove_statement, replace_node, replace_nodes
+from tutor.judge.edits import Edit, remove_statement, replace_node, replace_nodes, replace_statement
 from tutor.judge.rewriting import parameters
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import called_name, values_of, where
@@ -27,6 +27,7 @@ def diagnose_override(file: NodeFile, name: str, *whole: list[Edit]) -> Cause | 
     return (
         _diagnose_own_set(file, name)
         or _diagnose_ignored_overrides(file, name)
+        or _diagnose_own_arguments(file, name)
         or _diagnose_parameter_overrides(file, name, *whole)
         or _diagnose_reassignment(file, name)
     )
@@ -56,6 +57,11 @@ def _diagnose_own_set(file: NodeFile, name: str) -> Cause | None:
         function = file.function_around(call)
         code = ast.unparse(call) if "[" in ast.unparse(call) or function is None else ast.unparse(function)
         statement = file.statement(call)
+        declared = [] if file.calls("declare_parameter", "declare_parameters") else _declarations(file)
+        if any(repr(name) in each for each in declared):
+            step = file.step([replace_statement(statement, "\n".join(declared))])
+            text = f"{where(call)} sets {name}, which was not declared, so a value given at start-up is ignored"
+            return Cause("parameter not declared", text, step) if step else None
         step = file.step([remove_statement(file.text, statement)])
         if name in code and step is not None:
             return Cause(
@@ -71,6 +77,45 @@ def _diagnose_own_set(file: NodeFile, name: str) -> Cause | None:
                 text = f"{where(call)} sets the defaults again, so a value given at start-up does not last"
                 return Cause(_OVERWRITTEN, text, step)
     return None
+
+
+def _declarations(file: NodeFile) -> list[str]:
+    """The code that declares each parameter of which the file makes a Parameter object with a value."""
+    found = []
+    for call in file.calls("Parameter"):
+        name, value = argument(call, 0, "name"), argument(call, 2, "value")
+        if isinstance(name, ast.Constant) and value is not None:
+            found.append(f"{file.name}.declare_parameter({ast.unparse(name)}, {ast.unparse(value)})")
+    return found
+
+
+def _diagnose_own_arguments(file: NodeFile, name: str) -> Cause | None:
+    for call in file.calls("create_node", "Node", "__init__", *file.node_classes):
+        kept = [each for each in call.keywords if each.arg != "cli_args" or f"{name}:=" not in ast.unparse(each)]
+        if len(kept) < len(call.keywords):
+            step = file.step([replace_node(file.text, call, ast.unparse(ast.Call(call.func, call.args, kept)))])
+            text = f"line {call.lineno}: cli_args of the node takes precedence over the value given at start-up"
+            return Cause(_OVERWRITTEN, text, step) if step else None
+    return None
+
+
+def diagnose_read_only(file: NodeFile) -> Cause | None:
+    """Whether parameters are declared read-only, by an argument, an attribute or a function's default value."""
+    found: list[ast.expr] = []
+    for node in file.nodes:
+        match node:
+            case ast.keyword(arg="read_only", value=value):
+                found.append(value)
+            case ast.Assign(targets=[ast.Attribute(attr="read_only")], value=value):
+                found.append(value)
+            case ast.arguments(args=given, defaults=defaults) if defaults:
+                named = zip(given[-len(defaults) :], defaults, strict=True)
+                found += [default for each, default in named if each.arg == "read_only"]
+    true = [each for each in found if isinstance(each, ast.Constant) and each.value is True]
+    step = file.step(replace_nodes(file.text, *((each, "False") for each in true)))
+    if not true or step is None:
+        return None
+    return Cause("read-only parameter", f"{where(true[0])}: a read-only parameter keeps the value of the start", step)
 
 
 def _diagnose_ignored_overrides(file: NodeFile, name: str) -> Cause | None:
