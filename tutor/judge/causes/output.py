@@ -21,6 +21,9 @@ _ROS_LIBRARY_OUTPUT = re.compile(
 )
 """Messages of the ROS C and C++ libraries themselves, mostly when something is used after the shutdown."""
 
+_PYTHON_WARNING = re.compile(r":\d+: \w*Warning: ")
+"""A warning of Python or of a library, such as numpy's about a division by zero."""
+
 _ROS_LOGGER = re.compile(r"^(?:rcl|rclcpp|rmw_\w+)(?:\.|$)")
 
 
@@ -89,10 +92,13 @@ def _diagnose_python_logging(trace: Trace, call: ast.Call, what: str) -> Cause:
 
 
 def _printed_lines(output: Sequence[OutputLine]) -> list[str]:
-    """The lines that the learner's code printed, without log messages, exceptions and messages of ROS itself."""
+    """The lines that the learner's code printed, without log messages, exceptions, and what ROS or Python writes."""
     raised = {each.raised for each in tracebacks.find_tracebacks(output)}
     return [
         text
         for text in tracebacks.lines_without_tracebacks(output)
-        if text not in raised and not _LOG_LINE.match(text) and not _ROS_LIBRARY_OUTPUT.search(text)
+        if text not in raised
+        and not _LOG_LINE.match(text)
+        and not _ROS_LIBRARY_OUTPUT.search(text)
+        and not _PYTHON_WARNING.search(text)
     ]

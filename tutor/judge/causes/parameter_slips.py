@@ -115,7 +115,8 @@ def diagnose_read_only(file: NodeFile) -> Cause | None:
     step = file.step(replace_nodes(file.text, *((each, "False") for each in true)))
     if not true or step is None:
         return None
-    return Cause("read-only parameter", f"{where(true[0])}: a read-only parameter keeps the value of the start", step)
+    text = f"line {true[0].lineno} makes a parameter read-only, and such a one keeps the value that it has at the start"
+    return Cause("read-only parameter", text, step)
 
 
 def _diagnose_ignored_overrides(file: NodeFile, name: str) -> Cause | None:
