@@ -115,7 +115,7 @@ def diagnose_read_only(file: NodeFile) -> Cause | None:
     step = file.step(replace_nodes(file.text, *((each, "False") for each in true)))
     if not true or step is None:
         return None
-    text = f"line {true[0].lineno} makes a parameter read-only, and such a one keeps the value that it has at the start"
+    text = f"line {true[0].lineno} makes a parameter read-only, so it keeps its initial value"
     return Cause("read-only parameter", text, step)
 
 
