@@ -339,6 +339,29 @@ def test_a_read_only_parameter(line: str) -> None:
     assert parameter_slips.diagnose_read_only(node_file(line.format("False"))) is None
 
 
+CLASS_ATTRIBUTE = """from rclpy.node import Node
+
+class Talker(Node):
+    prefix = 'Hello'
+    def __init__(self):
+        super().__init__('talker')
+        self.prefix = self.get_parameter('message_prefix').value
+        self.add_on_set_parameters_callback(self.changed)
+
+    def changed(self, params):
+        for p in params:
+            Talker.prefix = p.value
+"""
+
+
+def test_a_class_attribute_that_the_nodes_own_one_hides() -> None:
+    found = parameter_callback_slips.diagnose_broken_callback(node_file(CLASS_ATTRIBUTE))
+    assert found is not None
+    assert found.hint == "line 12 becomes: self.prefix = p.value"
+    used = CLASS_ATTRIBUTE.replace("        self.prefix = self.get", "        Talker.prefix = self.get")
+    assert parameter_callback_slips.diagnose_broken_callback(node_file(used)) is None
+
+
 SETS_UNDECLARED = """from rclpy.node import Node
 from rclpy.parameter import Parameter
 

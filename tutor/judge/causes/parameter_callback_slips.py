@@ -42,8 +42,28 @@ def _may_refuse(file: NodeFile, function: Function | None) -> bool:
 
 
 def diagnose_broken_callback(file: NodeFile) -> Cause | None:
-    """Whether a parameter callback is never called, or compares a parameter's type with what it never equals."""
-    return diagnose_uncalled_callback(file) or _diagnose_compared_type(file)
+    """Whether a parameter callback is never called, compares types that are never equal, or sets a hidden attribute."""
+    return diagnose_uncalled_callback(file) or _diagnose_compared_type(file) or _diagnose_class_attribute(file)
+
+
+def _diagnose_class_attribute(file: NodeFile) -> Cause | None:
+    own = {
+        ast.unparse(each) for each in file.nodes if isinstance(each, ast.Attribute) and isinstance(each.ctx, ast.Store)
+    }
+    stored = [
+        each
+        for each in file.nodes
+        if isinstance(each, ast.Attribute)
+        and isinstance(each.ctx, ast.Store)
+        and ast.unparse(each.value) in file.node_classes
+        and f"{file.name}.{each.attr}" in own
+        and file.node_method(each) is not None
+    ]
+    step = file.step(replace_nodes(file.text, *((each, f"{file.name}.{each.attr}") for each in stored)))
+    if not stored or step is None:
+        return None
+    text = f"{where(stored[0])} is the attribute of the class, and {file.name}.{stored[0].attr} hides it"
+    return Cause("class attribute set", text, step)
 
 
 def _diagnose_compared_type(file: NodeFile) -> Cause | None:
