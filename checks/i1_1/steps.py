@@ -11,7 +11,7 @@ import re
 
 from checks.i1_1.facts import HIGHEST, LOWEST, SUGGESTED_NAME, SUGGESTED_RATE, TOPIC, TYPE
 from checks.i1_1.program import whole_program
-from tutor.judge.causes import parameter_slips, period_slips
+from tutor.judge.causes import parameter_slips, period_slips, slips
 from tutor.judge.edits import Edit, add_import, remove_statement, replace_node
 from tutor.judge.rewriting import parameters, publishing, whole
 from tutor.judge.rewriting.node import NodeFile, node_file, started_node
@@ -107,8 +107,13 @@ def diagnose_name(trace: Trace, name: str) -> Cause:
     read = file(trace)
     shows_object = any("<rclpy.parameter.Parameter object" in log.text for log in trace.logs)
     as_object = parameter_slips.diagnose_parameter_object(read, name) if shows_object else None
-    dropped = parameter_slips.diagnose_dropped_arguments(read)
-    if (cause := as_object or dropped or _diagnose_log_level(read, name) or _diagnose_missing_f(read)) is not None:
+    cause = (
+        as_object
+        or parameter_slips.diagnose_dropped_arguments(read)
+        or _diagnose_log_level(read, name)
+        or slips.diagnose_missing_f(read, [log.text for log in trace.logs])
+    )
+    if cause is not None:
         return cause
     draw, imported = _draw(read)
     callback = [*publishing.whole_timer_callback(read, draw, log=name), *imported] if whole.is_usual(read) else []
@@ -143,16 +148,6 @@ def _mentions(call: ast.Call, read: NodeFile, name: str) -> bool:
         return any(not isinstance(each, ast.Constant) for each in call.args)
     targets = kept.targets if isinstance(kept, ast.Assign) else [kept.target]
     return any(re.search(rf"\b{word}\b", ast.unparse(call)) for word in (name, *map(last_name, targets)) if word)
-
-
-def _diagnose_missing_f(read: NodeFile) -> Cause | None:
-    for call in read.calls("info", "warning", "warn", "error"):
-        match call.args:
-            case [ast.Constant(value=str() as literal) as text, *_] if re.search(r"\{(?:self\.)?\w+", literal):
-                if (step := read.step([replace_node(read.text, text, f"f{literal!r}")])) is not None:
-                    why = f"line {call.lineno}: {ast.unparse(call)} logs these words as they are, not the value"
-                    return Cause("no f in front of the text", why, step)
-    return None
 
 
 def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:

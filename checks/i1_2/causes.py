@@ -24,8 +24,14 @@ def diagnose_end(trial: Trial, what: str) -> Cause:
 
 def diagnose_count(summary: Summary, trial: Trial) -> Cause:
     """Why a summary does not state the true total."""
+    if (unformatted := _diagnose_missing_f(summary, trial)) is not None:
+        return unformatted
     name, text, words = _miscounted(summary, trial)
     return Cause(name, text, steps.count_messages(trial.trace) or words)
+
+
+def _diagnose_missing_f(summary: Summary, trial: Trial) -> Cause | None:
+    return slips.diagnose_missing_f(started_node(trial.trace), [line.text for line in summary.lines])
 
 
 def _miscounted(summary: Summary, trial: Trial) -> tuple[str, str, str]:
@@ -105,6 +111,8 @@ def every_ten(trial: Trial) -> str:
 def diagnose_incomplete_summary(summary: Summary, trial: Trial) -> Cause | None:
     """What is missing from a summary, or in the wrong place; None if nothing is."""
     first = trial.sent[0]
+    if first.number not in summary.quoted and (unformatted := _diagnose_missing_f(summary, trial)) is not None:
+        return unformatted
     recent = trial.sent[last_due_count(summary.messages) - 1 : summary.messages_at_end]
     if first.number not in summary.quoted:
         if (shared := slips.diagnose_shared_object(started_node(trial.trace))) is not None:

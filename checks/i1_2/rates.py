@@ -146,6 +146,8 @@ def diagnose_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: T
     """Which mistake explains the numbers in `summary`, which states no true rate."""
     found = _numbers_except_count(summary, trial)
     texts, numbers = [line.text for line in summary.lines], [number.text for number in found]
+    if (unformatted := slips.diagnose_missing_f(started_node(trial.trace), texts)) is not None:
+        return unformatted
     hint = steps.measure_rate(trial.trace, texts, numbers) or (
         "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
@@ -9,6 +10,7 @@ from checks.i1_2.facts import SOON_S, Trial
 from checks.i1_2.reading import Line
 from checks.i1_2.summaries import Summary, find_summaries, last_due_count
 from tutor.judge.trace import Level
+from tutor.judge.wording import shape
 
 
 def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial]) -> list[Line]:
@@ -20,6 +22,7 @@ def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial]) -> list[Lin
     before = [line for line in trial.lines if line.at < since and not _is_about_first_message(line, trial)]
     elsewhere = [[line for line in other.lines if is_before_jump(line, other)] for other in usual]
     known = {line.kind for lines in (before, *elsewhere) for line in lines}
+    warnings = {_with_short_lists(line) for lines in (before, *elsewhere) for line in lines if line.level >= Level.WARN}
     in_summaries = {line: summary for summary in find_summaries(trial) for line in summary.lines}
     reports = []
     for line in trial.lines:
@@ -27,9 +30,20 @@ def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial]) -> list[Lin
             continue
         same_kind = [other for other in before if other.kind == line.kind]
         others = [found for lines in elsewhere if (found := [other for other in lines if other.kind == line.kind])]
-        if line.kind not in known or _reports_jump(line, in_summaries.get(line), same_kind, others, trial):
+        is_longer = line.level >= Level.WARN and _with_short_lists(line) in warnings
+        if (line.kind not in known and not is_longer) or _reports_jump(
+            line, in_summaries.get(line), same_kind, others, trial
+        ):
             reports.append(line)
     return reports
+
+
+def _with_short_lists(line: Line) -> str:
+    """The line's shape, with one number for each list of numbers.
+
+    A node that warns about each message, with a list of numbers, does not report a jump by a longer list.
+    """
+    return re.sub(r"#(?:, ?#)+", "#", shape(line.text))
 
 
 def is_before_jump(line: Line, trial: Trial) -> bool:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from checks.i1_1 import steps
 from tests.repairs import apply_step
-from tutor.judge.trace import Trace
+from tutor.judge.trace import LogRecord, Trace
 
 NODE = """\
 import random
@@ -131,7 +133,13 @@ def test_the_step_sets_the_timer_period(unit: str, code: str) -> None:
     ("trace", "cause", "line"),
     [
         (changed((".info(", ".debug(")), "logged at DEBUG", ".info(f'{self.sensor}: {msg.data}')"),
-        (changed(("info(f'", "info('")), "no f in front of the text", ".info(f'{self.sensor}: {msg.data}')"),
+        (
+            replace(
+                changed(("info(f'", "info('")), logs=(LogRecord(20, "sensor", "{self.sensor}: {msg.data}", 1.0, 1.0),)
+            ),
+            "no f in front of the text",
+            ".info(f'{self.sensor}: {msg.data}')",
+        ),
         (
             changed(("{self.sensor}: ", "")),
             "parameter ignored",

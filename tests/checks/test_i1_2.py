@@ -834,6 +834,14 @@ class AlarmPerMessage(FakeStats):
         yield from ()
 
 
+class ListsFromThePrevious(AlarmPerMessage):
+    """Lists the missing numbers from the last received one on, so that each message is a gap."""
+
+    def log_received(self, data: str) -> Iterator[Log]:
+        if self.number is not None:
+            yield 30, f"missing: {list(range(self.number, int(data.split(':')[1])))}"
+
+
 class ComparesTexts(FakeStats):
     """Compares the messages as texts, so that 10 is less than 9."""
 
@@ -1177,6 +1185,7 @@ class RepeatsSummaryLater(FakeStats):
         (StarvedAfterRestart, "restart", "summary for every message"),
         (PerMinuteLater, "rate", "rate per minute"),
         (AlarmPerMessage, "gaps", "gap not noticed"),
+        (ListsFromThePrevious, "gaps", "gap not noticed"),
         (ComparesTexts, "gaps", "false alarm"),
         *((node, "gaps", "gap not noticed") for node in (
             GapBlind, GapBlindNoisy, GapBlindOccasionalMessages, GapBlindWithIds, GapBlindRounded, GapBlindWithClock,

@@ -339,6 +339,21 @@ def test_a_read_only_parameter(line: str) -> None:
     assert parameter_slips.diagnose_read_only(node_file(line.format("False"))) is None
 
 
+JOINED = """def report(log, total):
+    rate = total / 2.0
+    log(f"total {total}, "
+        "rate {rate:.2f}")
+    log("first {}".format(total))
+"""
+
+
+def test_a_string_without_its_f() -> None:
+    found = slips.diagnose_missing_f(node_file(JOINED), ["total 10, rate {rate:.2f}"])
+    assert found is not None
+    assert found.hint == 'line 4 becomes: f"rate {rate:.2f}")'
+    assert slips.diagnose_missing_f(node_file(JOINED), ["total 10, rate 5.00"]) is None
+
+
 CLASS_ATTRIBUTE = """from rclpy.node import Node
 
 class Talker(Node):

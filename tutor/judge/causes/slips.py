@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import ast
+import contextlib
+import io
 import re
+import tokenize
+from collections.abc import Iterable
 
 from tutor.judge import edits, source
 from tutor.judge.rewriting.node import NodeFile
@@ -88,6 +92,23 @@ def diagnose_never_none(file: NodeFile) -> Cause | None:
         if (step := file.step([edits.replace_node(file.text, value, "None")])) is not None:
             text = f"{name} is never None (line {test.lineno}): it begins as {ast.unparse(value)} (line {value.lineno})"
             return Cause("never None", text, step)
+    return None
+
+
+def diagnose_missing_f(file: NodeFile, texts: Iterable[str]) -> Cause | None:
+    """Whether a placeholder stands in a logged text as it is, since the string in the file has no f in front."""
+    lines, seen = file.text.splitlines(), "\n".join(texts)
+    with contextlib.suppress(tokenize.TokenError, SyntaxError):
+        for token in tokenize.generate_tokens(io.StringIO(file.text).readline):
+            if token.type != tokenize.STRING or token.string[0].lower() in "bu":
+                continue
+            placeholders = re.findall(r"\{[A-Za-z_][^{}\n]*\}", token.string)
+            if any(each in seen for each in placeholders):
+                row, column = token.start
+                code = f"{lines[row - 1][:column]}f{lines[row - 1][column:]}".strip()
+                if (step := file.step([edits.replace_lines(row, code)])) is not None:
+                    text = f"line {row}: {token.string} is logged as it is, with {placeholders[0]}, and not the value"
+                    return Cause("no f in front of the text", text, step)
     return None
 
 
