@@ -12,6 +12,7 @@ from tutor.judge.known_exception import Words
 from tutor.judge.source import SourceFile, called_name, syntax_nodes, values_of
 
 _LEVELS = ("debug", "info", "warn", "warning", "error", "fatal")
+_ROSPY_LOGS = {"logdebug": "debug", "loginfo": "info", "logwarn": "warning", "logerr": "error", "logfatal": "fatal"}
 _PLACEHOLDER = re.compile(r"%[-+ #0-9.]*[sdifrgxe]")
 
 
@@ -33,6 +34,8 @@ def receiver(call: ast.Call) -> str:
 
 
 def _format_message(text: str, call: ast.Call) -> str:
+    if len(call.args) == 1:
+        return ast.unparse(call)
     first, *rest = (ast.get_source_segment(text, each) or ast.unparse(each) for each in call.args)
     template = call.args[0].value if isinstance(call.args[0], ast.Constant) else ""
     starred = any(isinstance(each, ast.Starred) for each in call.args)
@@ -66,6 +69,20 @@ def logged_less(text: str, words: Words) -> Sequence[Edit]:
                 continue
         if level in _LEVELS:
             swaps.append((call, f"{ast.unparse(call.func.value)}.{level}({new})"))
+    return edits.replace_nodes(text, *swaps)
+
+
+def rospy_logs(text: str, words: Words) -> Sequence[Edit]:
+    """Log with the node's logger wherever a function of rospy logs."""
+    swaps: list[tuple[ast.expr, str]] = []
+    for call in syntax_nodes(text):
+        match call:
+            case ast.Call(func=ast.Attribute(value=ast.Name("rospy"), attr=name), args=[_, *_]) if name in _ROSPY_LOGS:
+                function = SourceFile(text).function_at(call.lineno)
+                given = [each.arg for each in function.args.args[:1]] if function is not None else []
+                node = "self" if given == ["self"] else "node"
+                _, _, arguments = _format_message(text, call).partition("(")
+                swaps.append((call, f"{node}.get_logger().{_ROSPY_LOGS[name]}({arguments}"))
     return edits.replace_nodes(text, *swaps)
 
 

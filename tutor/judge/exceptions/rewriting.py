@@ -17,7 +17,7 @@ from tutor.judge.exceptions.callback_rewriting import (
     service_parameters,
     timer_parameters,
 )
-from tutor.judge.exceptions.log_rewriting import log, logged_less, receiver, severities
+from tutor.judge.exceptions.log_rewriting import log, logged_less, receiver, rospy_logs, severities
 from tutor.judge.known_exception import Words
 from tutor.judge.rewriting.syntax import repair
 from tutor.judge.source import SourceFile, called_name, last_name, syntax_nodes
@@ -166,7 +166,7 @@ def readable(text: str, words: Words) -> Sequence[Edit] | None:
 
 
 _REWRITERS = (
-    *(log, logged_less, severities, imported, types_first, readable, without, raised),
+    *(log, logged_less, rospy_logs, severities, imported, types_first, readable, without, raised),
     *(
         responses,
         instances,
