@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from tutor.judge import edits
 from tutor.judge.edits import Edit
+from tutor.judge.rewriting.node import is_static
 from tutor.judge.source import Function, SourceFile
 from tutor.judge.step_parsing import is_applicable
 from tutor.judge.trace import Trace
@@ -47,8 +48,8 @@ class Code(SourceFile):
     def self_name(self, node: ast.AST) -> str:
         """The name of `self` inside a method, or inside a function nested in one; else ""."""
         for each in self.ancestors(node):
-            if isinstance(each, Function) and isinstance(self._parents.get(each), ast.ClassDef) and each.args.args:
-                return each.args.args[0].arg
+            if isinstance(each, Function) and isinstance(self._parents.get(each), ast.ClassDef):
+                return "" if is_static(each) or not each.args.args else each.args.args[0].arg
         return ""
 
     def node_name(self, at: ast.AST) -> str:
@@ -64,7 +65,9 @@ class Code(SourceFile):
 
     def has_node(self, at: ast.AST) -> bool:
         """Whether the node is known at this place in the code: not in a class that neither is a node nor keeps one."""
-        return not self.self_name(at) or self.node_method(at) is not None or any(self._kept_nodes(at))
+        if not self.self_name(at):
+            return not any(isinstance(each, ast.ClassDef) for each in self.ancestors(at))
+        return self.node_method(at) is not None or any(self._kept_nodes(at))
 
     def _kept_nodes(self, at: ast.AST) -> Iterator[str]:
         """The attributes of the class around `at` that keep an object by which clients are created."""

@@ -17,7 +17,8 @@ from checks.i1_3.facts import (
 )
 from checks.i1_3.rewriting import with_applicable_steps
 from tutor.judge import causes, ending, tracebacks
-from tutor.judge.causes import names
+from tutor.judge.causes import names, spinning
+from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
@@ -54,6 +55,8 @@ def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
     if broken is not None:
         asks = broken.name == names.UNHANDLED_EXCEPTION and "EOFError" in broken.text
         return with_applicable_step(broken, trace, lambda: _first_step(trace, steps.remove_input) if asks else None)
+    if (early := spinning.diagnose_spin_in_constructor(started_node(trace))) is not None:
+        return with_applicable_step(early, trace)
     offered = [s for s in trace.graph.servers if not s.is_standard]
     mistyped = [service for service in offered if service.name in missing and service.type != TYPE]
     if mistyped:
@@ -114,7 +117,8 @@ def with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[F
         step = _first_step(trace, service_steps.use_default_qos)
         text = "its QoS is transient local, which no client with the default QoS offers: no request arrives"
         return replace(cause, name=names.INCOMPATIBLE_QOS, text=text, hint=step or cause.hint)
-    return with_applicable_step(cause, trace, lambda: services.compute_results(trace, [service], whole=True))
+    wrong = services.sharing_callback(trace, service) if found is not None else [service]
+    return with_applicable_step(cause, trace, lambda: services.compute_results(trace, wrong, whole=True))
 
 
 @with_applicable_steps

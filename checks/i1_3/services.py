@@ -96,6 +96,17 @@ def compute_results(
     return "\n".join(step for step in steps if step) or None
 
 
+def sharing_callback(trace: Trace, service: str) -> list[str]:
+    """The services that are answered by the same function as this one, itself included."""
+
+    def function_of(name: str) -> Function | None:
+        offer = find_offer(trace, name)
+        return offer.code.function(offer.callback) if offer is not None and offer.callback is not None else None
+
+    function = function_of(service)
+    return [name for name in OPERATORS if name == service or (function is not None and function_of(name) is function)]
+
+
 def guard_division(trace: Trace) -> str | None:
     """Step: let /divide check for zero first, log an error and answer."""
     found = find_callback(trace, "/divide")

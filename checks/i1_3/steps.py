@@ -22,7 +22,8 @@ def add_to_list(code: Code, missing: Sequence[str]) -> str | None:
     for each in code.nodes:
         items = each.elts if isinstance(each, ast.Tuple | ast.List) else []
         names = {str(found.value).strip("/"): (found, item) for item in items for found in _first_text(item)}
-        if len(names) >= 2 and all(f"/{name}" in OPERATOR_SIGNS for name in names):
+        present = {f"/{name}" for name in names}
+        if len(names) >= 2 and present <= set(OPERATOR_SIGNS) and not present & set(missing):
             text, item = list(names.values())[-1]
             model = str(text.value)
             last = ast.unparse(item)

@@ -11,7 +11,7 @@ from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, CallBatch, IdleRun, Sin
 from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
-from tutor.judge.causes import late_binding, names
+from tutor.judge.causes import late_binding, names, spinning
 from tutor.judge.causes.period_slips import diagnose_twin_timers
 from tutor.judge.causes.slips import diagnose_unserved_node
 from tutor.judge.rewriting.node import NodeFile, started_node
@@ -32,6 +32,8 @@ def diagnose_no_service(trace: Trace) -> Cause:
     """Why the service is missing."""
     if (broken := causes.diagnose_process(trace) or causes.diagnose_lifecycle(trace)) is not None:
         return broken
+    if (early := spinning.diagnose_spin_in_constructor(started_node(trace))) is not None:
+        return early
     offered = [s for s in trace.graph.servers if not s.is_standard]
     for service in offered:
         if service.name == SERVICE:

@@ -244,6 +244,14 @@ async def test_parameters_of_a_node_that_never_answers_are_unknown(scene: Scene)
         assert not (await run.set_parameters("/learner", {"rate": 2.0}, limit_s=0.3)).answered
 
 
+async def test_a_request_that_is_pending_when_the_run_ends_is_not_sent_again(scene: Scene) -> None:
+    async with scene.bench(node("while True: time.sleep(1)")).start(FILE) as run:
+        await wait_for_service(run, "/learner/list_parameters")
+        pending = asyncio.ensure_future(run.parameters(5.0))
+        assert not await run.until(pending.done, 0.5)
+    assert await pending is None
+
+
 async def test_services_are_called_and_a_stuck_callback_is_located(scene: Scene) -> None:
     async with scene.bench(node(SERVES)).start(FILE) as run:
         await wait_for_service(run, "/stuck")

@@ -8,6 +8,8 @@ import pytest
 
 from tests.checks.builders import FOLDER, NODE_UP, exited, trace
 from tutor.judge.causes import diagnose_no_answer, diagnose_process
+from tutor.judge.causes.spinning import diagnose_spin_in_constructor
+from tutor.judge.rewriting.node import node_file
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 
@@ -143,3 +145,18 @@ def test_a_program_that_ends_despite_a_spin_is_not_told_that_it_never_spins(body
     found = diagnose_process(started(body, exit=exited(0)))
     assert found is not None
     assert "never spins" not in found.text
+
+
+def test_a_node_that_spins_in_its_constructor_spins_in_main_instead() -> None:
+    source = (
+        "import rclpy\nfrom rclpy.node import Node\n\n\nclass Base(Node):\n    def __init__(self):\n"
+        "        super().__init__('n')\n        self.start()\n\n    def start(self):\n        rclpy.spin(self)\n\n\n"
+        "class Calculator(Base):\n    def __init__(self):\n        super().__init__()\n        self.made = True\n\n\n"
+        "def main():\n    rclpy.init()\n    node = Calculator()\n    node.destroy_node()\n"
+    )
+    found = diagnose_spin_in_constructor(node_file(source))
+    assert found is not None
+    assert found.hint == (
+        "write below line 22, with the same indentation: rclpy.spin(node)\nremove line 8: self.start()"
+    )
+    assert diagnose_spin_in_constructor(node_file(source.replace("        self.start()\n", ""))) is None

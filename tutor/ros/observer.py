@@ -155,7 +155,7 @@ class Observer:
         self._pending_answers.add(answer)
         self._pending_large_answers += large
         try:
-            while not answer.done() and (left_s := deadline - self._loop.time()) > 0:
+            while not answer.done() and not self._closed and (left_s := deadline - self._loop.time()) > 0:
                 sent = client.call_async(filled)
                 sent.add_done_callback(lambda done: self._call_on_loop(_transfer_result, answer, done))
                 pending.append(sent)

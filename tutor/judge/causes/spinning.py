@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from tutor.judge import edits, source, tracebacks
 from tutor.judge.causes import names
@@ -35,6 +35,34 @@ def diagnose_not_spinning(trace: Trace, stuck: Sequence[Frame], nodes: str) -> C
         f"{nodes} exists, but answers no request: its callbacks are never run. The program stays {where}",
         _spin_instead(trace, at, loop),
     )
+
+
+def diagnose_spin_in_constructor(file: NodeFile) -> Cause | None:
+    """Whether a node spins before its constructor has made everything, and so never gets to the rest."""
+    made = [each for each in file.nodes if isinstance(each, ast.Assign) and isinstance(each.value, ast.Call)]
+    created = [each for each in made if source.last_name(each.value.func) in file.node_classes]  # type: ignore[attr-defined]
+    for statement in _constructor_statements(file) if created else ():
+        if _spins_itself(file, statement):
+            spin = f"rclpy.spin({ast.unparse(created[-1].targets[0])})"
+            step = file.step([edits.insert_after(created[-1], spin), edits.remove_statement(file.text, statement)])
+            text = f"line {statement.lineno}: {ast.unparse(statement)} spins in the constructor, which ends only then"
+            return Cause(names.NO_SPIN, text, step) if step else None
+    return None
+
+
+def _constructor_statements(file: NodeFile) -> Iterator[ast.stmt]:
+    for owner in file.nodes:
+        if isinstance(owner, ast.ClassDef) and owner.name in file.node_classes:
+            for each in owner.body:
+                if isinstance(each, ast.FunctionDef) and each.name == "__init__":
+                    yield from each.body
+
+
+def _spins_itself(file: NodeFile, statement: ast.stmt) -> bool:
+    """Whether a statement, or a function that it calls, spins `self`."""
+    called = [found for call in source.calls_in(statement) if (found := file.function(call.func)) is not None]
+    spins = [call for each in (statement, *called) for call in source.calls_in(each, "spin")]
+    return any("self" in map(ast.unparse, call.args) for call in spins)
 
 
 def _file(trace: Trace, at: Frame) -> NodeFile:

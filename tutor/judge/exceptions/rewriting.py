@@ -88,6 +88,25 @@ def before_destroying(text: str, words: Words) -> Sequence[Edit] | None:
     return None
 
 
+def shutdown_at_end(text: str, words: Words) -> Sequence[Edit] | None:
+    """Move the shutdown from a function that is called repeatedly to the end of the block that calls it last."""
+    file = SourceFile(text)
+    function = next(iter(file.functions_named(words["function"])), None)
+    ends = [
+        each
+        for each in (ast.walk(function) if function is not None else ())
+        if isinstance(each, ast.Expr)
+        and isinstance(each.value, ast.Call)
+        and called_name(each.value) in ("shutdown", "try_shutdown")
+    ]
+    calls = [each for each in file.nodes if isinstance(each, ast.Call) and called_name(each) == words["function"]]
+    last = max((file.statement(each) for each in calls), key=lambda each: each.lineno, default=None)
+    block = next((each for each in _blocks(file.tree) if last in each), [])
+    if not ends or not block:
+        return None
+    return [edits.insert_after(block[-1], ast.unparse(ends[0])), *(edits.remove_statement(text, each) for each in ends)]
+
+
 def _blocks(tree: ast.AST) -> Iterator[list[ast.stmt]]:
     for node in ast.walk(tree):
         for name in ("body", "orelse", "finalbody"):
@@ -173,6 +192,7 @@ _REWRITERS = (
         service_parameters,
         timer_parameters,
         before_destroying,
+        shutdown_at_end,
         optional,
         items,
         methods,
