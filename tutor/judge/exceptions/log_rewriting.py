@@ -75,14 +75,16 @@ def logged_less(text: str, words: Words) -> Sequence[Edit]:
 def rospy_logs(text: str, words: Words) -> Sequence[Edit]:
     """Log with the node's logger wherever a function of rospy logs."""
     swaps: list[tuple[ast.expr, str]] = []
+    kept = [each for each in syntax_nodes(text) if isinstance(each, ast.Assign) and isinstance(each.value, ast.Call)]
+    loggers = [ast.unparse(each.targets[0]) for each in kept if called_name(each.value) == "get_logger"]  # type: ignore[arg-type]
     for call in syntax_nodes(text):
         match call:
             case ast.Call(func=ast.Attribute(value=ast.Name("rospy"), attr=name), args=[_, *_]) if name in _ROSPY_LOGS:
                 function = SourceFile(text).function_at(call.lineno)
                 given = [each.arg for each in function.args.args[:1]] if function is not None else []
-                node = "self" if given == ["self"] else "node"
+                logger = next(iter(loggers), f"{'self' if given == ['self'] else 'node'}.get_logger()")
                 _, _, arguments = _format_message(text, call).partition("(")
-                swaps.append((call, f"{node}.get_logger().{_ROSPY_LOGS[name]}({arguments}"))
+                swaps.append((call, f"{logger}.{_ROSPY_LOGS[name]}({arguments}"))
     return edits.replace_nodes(text, *swaps)
 
 
