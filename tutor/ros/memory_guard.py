@@ -34,6 +34,9 @@ _STUCK_S = 1.5
 Unsubscribing takes some tenths of a second while Fast DDS is busy with incoming data on the topic.
 """
 
+_STARVED_S = 7.5
+"""The same while a participant waits for a CPU: it may be receiving, which shows only once it gets to run."""
+
 
 class Guarded(Protocol):
     """One of our participants, which receives data from a learner's nodes."""
@@ -129,9 +132,10 @@ def _run() -> None:
             exceeded_since = None
             continue
         now = time.monotonic()
-        if receiving := _receiving(watched):
+        receiving, starved = _receiving(watched)
+        if receiving:
             exceeded_since = now
-        elif exceeded_since is None or now - exceeded_since < _STUCK_S:
+        elif exceeded_since is None or now - exceeded_since < (_STARVED_S if starved else _STUCK_S):
             exceeded_since = exceeded_since or now
             continue
         for participant in receiving or watched:
@@ -142,21 +146,29 @@ def _exceeds(max_bytes: int) -> bool:
     return (_large_bytes() or 0) > max_bytes
 
 
-def _receiving(watched: tuple[Guarded, ...]) -> tuple[Guarded, ...]:
-    """Return those that are receiving a lot right now, judged by the CPU time of their threads."""
+def _receiving(watched: tuple[Guarded, ...]) -> tuple[tuple[Guarded, ...], bool]:
+    """Return those that are receiving a lot right now, judged by the CPU time of their threads.
+
+    Also return whether one of them has waited for a CPU meanwhile.
+    """
     before = [_cpu_ns(participant) for participant in watched]
     time.sleep(_SAMPLE_S)
-    used = [_cpu_ns(participant) - ns for participant, ns in zip(watched, before, strict=True)]
+    after = [_cpu_ns(participant) for participant in watched]
+    used = [ran - ran_before for (ran, _), (ran_before, _) in zip(after, before, strict=True)]
+    waited = [waited - waited_before for (_, waited), (_, waited_before) in zip(after, before, strict=True)]
     threshold = max(_BUSY_NS, max(used) // 4)
-    return tuple(participant for participant, ns in zip(watched, used, strict=True) if ns >= threshold)
+    receiving = tuple(participant for participant, ns in zip(watched, used, strict=True) if ns >= threshold)
+    return receiving, max(waited) >= _BUSY_NS
 
 
-def _cpu_ns(participant: Guarded) -> int:
-    total = 0
+def _cpu_ns(participant: Guarded) -> tuple[int, int]:
+    """How long a participant's threads have run, and waited for a CPU, in nanoseconds."""
+    ran, waited = 0, 0
     for thread in participant.threads:
         try:
             with open(f"/proc/self/task/{thread}/schedstat", "rb") as file:
-                total += int(file.read().split()[0])
+                fields = file.read().split()
+            ran, waited = ran + int(fields[0]), waited + int(fields[1])
         except (OSError, IndexError, ValueError):
             pass
-    return total
+    return ran, waited
