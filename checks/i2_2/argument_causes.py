@@ -249,13 +249,17 @@ def _diagnose_remapping(seen: LaunchRun, wanted: str) -> Cause | None:
 
 def _remappings(seen: LaunchRun) -> list[tuple[str, str]]:
     """The remappings on the nodes' command lines, as (source, target)."""
-    return [(m["source"], m["target"]) for command in seen.command_lines for m in _REMAP.finditer(command)]
+    return [rule for command in seen.command_lines for rule in _rules(command)]
+
+
+def _rules(command: str) -> list[tuple[str, str]]:
+    return [(found["source"], found["target"]) for found in _REMAP.finditer(command)]
 
 
 def _overridden_rules(seen: LaunchRun) -> Iterator[tuple[str, tuple[str, str]]]:
     """The remappings, as (source, target), that an earlier one of the same node overrides, each after its target."""
     for command in seen.command_lines:
-        rules = [(m["source"], m["target"]) for m in _REMAP.finditer(command)]
+        rules = _rules(command)
         for place, rule in enumerate(rules):
             earlier = next((target for source, target in rules[:place] if source == rule[0]), rule[1])
             if earlier != rule[1]:

@@ -6,13 +6,12 @@ Each function returns edits of the learner's own file that use its names; none i
 from __future__ import annotations
 
 import ast
-import re
 import textwrap
 from itertools import pairwise
 
 from checks.i2_3.facts import WORK_S
 from checks.i2_3.ticks import HZ
-from tutor.judge.edits import Edit, apply, insert_above, replace_lines, replace_node, replace_statement
+from tutor.judge.edits import Edit, apply, insert_above, replace_node, replace_parameters, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument, is_static, with_body
 from tutor.judge.rewriting.program import whole_program
 from tutor.judge.source import Function
@@ -148,16 +147,9 @@ def rewrite_timer_callback(file: NodeFile) -> list[Edit]:
     )
     return [
         *setup,
-        *_take_only_self(file, found),
+        *replace_parameters(file.text, found, [self_name]),  # a callback of ROS 1 takes an event, too
         with_body(found, _tick_code(counter or f"{self_name}.ticks", self_name)),
     ]
-
-
-def _take_only_self(file: NodeFile, method: Function) -> list[Edit]:
-    """Take all other parameters, as of a callback in ROS 1, out of a timer's callback."""
-    line = file.text.splitlines()[method.lineno - 1].strip()
-    head = re.sub(r"\([^()]*\)", f"({method.args.args[0].arg})", line, count=1)
-    return [replace_lines(method.lineno, head)] if len(method.args.args) > 1 else []
 
 
 def _tick_code(counter: str, node: str) -> str:

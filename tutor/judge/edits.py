@@ -208,6 +208,19 @@ def replace_node(text: str, node: ast.expr, new: str) -> Edit:
     return replace_nodes(text, (node, new))[0]
 
 
+def remove_keyword(text: str, call: ast.Call, name: str) -> Edit:
+    """Remove a keyword argument from a call."""
+    kept = [each for each in call.keywords if each.arg != name]
+    return replace_node(text, call, ast.unparse(ast.Call(call.func, call.args, kept)))
+
+
+def replace_parameters(text: str, function: Function, names: Sequence[str]) -> list[Edit]:
+    """Give a function these parameters; no edit if its first line does not hold all of them, or they are the same."""
+    line = text.splitlines()[function.lineno - 1].strip()
+    head = re.sub(r"\([^()]*\)", f"({', '.join(names)})", line, count=1)
+    return [replace_lines(function.lineno, head)] if head != line else []
+
+
 def replace_nodes(text: str, *swaps: tuple[ast.expr, str]) -> list[Edit]:
     """Replace expressions, as edits of the lines that they span; expressions that share lines share an edit."""
     groups: list[list[tuple[ast.expr, str]]] = []
@@ -281,8 +294,9 @@ def differs_in_words(before: str, after: str) -> bool:
 
     Text that is no valid Python differs in anything but blank lines and the spacing within lines.
     """
-    if _parses(before) and _parses(after):
-        return ast.dump(parse(before)) != ast.dump(parse(after))
+    one, other = SourceFile(before).tree, SourceFile(after).tree
+    if one.body and other.body:
+        return ast.dump(one) != ast.dump(other)
 
     def words(text: str) -> list[tuple[int, list[str]]]:
         return [(len(line) - len(line.lstrip()), line.split()) for line in text.splitlines() if line.strip()]

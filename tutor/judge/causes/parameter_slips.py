@@ -10,7 +10,7 @@ import ast
 import re
 from collections.abc import Iterator, Sequence
 
-from tutor.judge.edits import Edit, remove_statement, replace_node, replace_nodes, replace_statement
+from tutor.judge.edits import Edit, remove_keyword, remove_statement, replace_node, replace_nodes, replace_statement
 from tutor.judge.rewriting import parameters
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import called_name, values_of, where
@@ -38,8 +38,7 @@ def _diagnose_parameter_overrides(file: NodeFile, name: str, *whole: list[Edit])
         given = {each.arg: each.value for each in call.keywords}
         if "parameter_overrides" not in given or name not in file.text:
             continue
-        kept = [each for each in call.keywords if each.arg != "parameter_overrides"]
-        removed = [replace_node(file.text, call, ast.unparse(ast.Call(call.func, call.args, kept)))]
+        removed = [remove_keyword(file.text, call, "parameter_overrides")]
         declared = name in {each.value for each in _constants(file.calls("declare_parameter", "declare_parameters"))}
         step = file.step(*([removed] if declared else []), *whole)
         text = f"line {call.lineno}: parameter_overrides takes precedence over the value given at start-up"
@@ -91,9 +90,8 @@ def _declarations(file: NodeFile) -> list[str]:
 
 def _diagnose_own_arguments(file: NodeFile, name: str) -> Cause | None:
     for call in file.calls("create_node", "Node", "__init__", *file.node_classes):
-        kept = [each for each in call.keywords if each.arg != "cli_args" or f"{name}:=" not in ast.unparse(each)]
-        if len(kept) < len(call.keywords):
-            step = file.step([replace_node(file.text, call, ast.unparse(ast.Call(call.func, call.args, kept)))])
+        if any(each.arg == "cli_args" and f"{name}:=" in ast.unparse(each) for each in call.keywords):
+            step = file.step([remove_keyword(file.text, call, "cli_args")])
             text = f"line {call.lineno}: cli_args of the node takes precedence over the value given at start-up"
             return Cause(_OVERWRITTEN, text, step) if step else None
     return None

@@ -148,8 +148,7 @@ def diagnose_other_domain(file: NodeFile) -> Cause | None:
             case ast.Assign(targets=[ast.Subscript(slice=ast.Constant(value="ROS_DOMAIN_ID"))]):
                 edit = edits.remove_statement(file.text, node)
             case ast.Call(keywords=keywords) if any(each.arg == "domain_id" for each in keywords):
-                kept = [each for each in keywords if each.arg != "domain_id"]
-                edit = edits.replace_node(file.text, node, ast.unparse(ast.Call(node.func, node.args, kept)))
+                edit = edits.remove_keyword(file.text, node, "domain_id")
             case _:
                 continue
         if (step := file.step([edit])) is not None:

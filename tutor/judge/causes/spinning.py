@@ -39,8 +39,13 @@ def diagnose_not_spinning(trace: Trace, stuck: Sequence[Frame], nodes: str) -> C
 
 def diagnose_spin_in_constructor(file: NodeFile) -> Cause | None:
     """Whether a node spins before its constructor has made everything, and so never gets to the rest."""
-    made = [each for each in file.nodes if isinstance(each, ast.Assign) and isinstance(each.value, ast.Call)]
-    created = [each for each in made if source.last_name(each.value.func) in file.node_classes]  # type: ignore[attr-defined]
+    created = [
+        each
+        for each in file.nodes
+        if isinstance(each, ast.Assign)
+        and isinstance(each.value, ast.Call)
+        and source.called_name(each.value) in file.node_classes
+    ]
     for statement in _constructor_statements(file) if created else ():
         if _spins_itself(file, statement):
             spin = f"rclpy.spin({ast.unparse(created[-1].targets[0])})"

@@ -89,7 +89,7 @@ def instances(text: str, words: Words) -> Sequence[Edit]:
 
 def service_parameters(text: str, words: Words) -> Sequence[Edit]:
     """Give every service callback a request and a response, after `self` if it is a method."""
-    file, lines = SourceFile(text), text.splitlines()
+    file = SourceFile(text)
     functions = {each.lineno: each for each in _callbacks(text, "create_service")}
     made: list[Edit] = []
     for number in sorted(functions, reverse=True):
@@ -97,21 +97,18 @@ def service_parameters(text: str, words: Words) -> Sequence[Edit]:
         is_method = file.class_of(functions[number]) is not None and not functions[number].decorator_list
         own = [each for each in given if each != "self"]
         wanted = [*(["self"] if is_method else []), *(own[:1] or ["request"]), *(own[1:2] or ["response"])]
-        line = lines[number - 1].strip()
-        head = re.sub(r"\([^()]*\)", f"({', '.join(wanted)})", line, count=1)
-        if given != wanted and head != line:
-            made.append(edits.replace_lines(number, head))
+        if given != wanted:
+            made += edits.replace_parameters(text, functions[number], wanted)
     return made
 
 
 def timer_parameters(text: str, words: Words) -> Sequence[Edit]:
     """Let every timer callback take nothing but `self`, if it is a method."""
-    lines, made = text.splitlines(), list[Edit]()
+    made: list[Edit] = []
     for function in {each.lineno: each for each in _callbacks(text, "create_timer")}.values():
         kept = [each.arg for each in function.args.args if each.arg == "self"]
-        head = re.sub(r"\([^()]*\)", f"({', '.join(kept)})", lines[function.lineno - 1].strip(), count=1)
         if len(function.args.args) > len(function.args.defaults) + len(kept):
-            made.append(edits.replace_lines(function.lineno, head))
+            made += edits.replace_parameters(text, function, kept)
     return sorted(made, key=lambda edit: -edit.first)
 
 

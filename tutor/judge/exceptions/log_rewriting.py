@@ -75,8 +75,11 @@ def logged_less(text: str, words: Words) -> Sequence[Edit]:
 def rospy_logs(text: str, words: Words) -> Sequence[Edit]:
     """Log with the node's logger wherever a function of rospy logs."""
     swaps: list[tuple[ast.expr, str]] = []
-    kept = [each for each in syntax_nodes(text) if isinstance(each, ast.Assign) and isinstance(each.value, ast.Call)]
-    loggers = [ast.unparse(each.targets[0]) for each in kept if called_name(each.value) == "get_logger"]  # type: ignore[arg-type]
+    loggers = [
+        ast.unparse(each.targets[0])
+        for each in syntax_nodes(text)
+        if isinstance(each, ast.Assign) and isinstance(each.value, ast.Call) and called_name(each.value) == "get_logger"
+    ]
     for call in syntax_nodes(text):
         match call:
             case ast.Call(func=ast.Attribute(value=ast.Name("rospy"), attr=name), args=[_, *_]) if name in _ROSPY_LOGS:
