@@ -9,6 +9,7 @@ import pytest
 from tests.checks.builders import FOLDER, NODE_UP, exited, trace
 from tutor.judge.causes import diagnose_no_answer, diagnose_process
 from tutor.judge.causes.spinning import diagnose_spin_in_constructor
+from tutor.judge.causes.topics import diagnose_no_messages
 from tutor.judge.rewriting.node import node_file
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
@@ -160,3 +161,12 @@ def test_a_node_that_spins_in_its_constructor_spins_in_main_instead() -> None:
         "write below line 22, with the same indentation: rclpy.spin(node)\nremove line 8: self.start()"
     )
     assert diagnose_spin_in_constructor(node_file(source.replace("        self.start()\n", ""))) is None
+
+
+def test_a_spin_at_the_end_of_the_constructor_hides_nothing() -> None:
+    source = "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n{}\nnode = Talker()\n"
+    spin, create = ("        " + code for code in ("rclpy.spin(self)\n", "self.create_publisher(String, 'a', 1)\n"))
+    for statements, cause in ((spin + create, "no spin"), (create + spin, "no publisher")):
+        started_trace = replace(trace(graph=NODE_UP), sources={"node.py": source.format(statements)})
+        found = diagnose_no_messages(started_trace, "/chatter", "std_msgs/msg/String", answers=True)
+        assert found.name == cause

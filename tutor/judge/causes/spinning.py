@@ -46,7 +46,7 @@ def diagnose_spin_in_constructor(file: NodeFile) -> Cause | None:
         and isinstance(each.value, ast.Call)
         and source.called_name(each.value) in file.node_classes
     ]
-    for statement in _constructor_statements(file) if created else ():
+    for statement in _interruptible_statements(file) if created else ():
         if _spins_itself(file, statement):
             spin = f"rclpy.spin({ast.unparse(created[-1].targets[0])})"
             step = file.step([edits.insert_after(created[-1], spin), edits.remove_statement(file.text, statement)])
@@ -55,17 +55,24 @@ def diagnose_spin_in_constructor(file: NodeFile) -> Cause | None:
     return None
 
 
-def _constructor_statements(file: NodeFile) -> Iterator[ast.stmt]:
-    for owner in file.nodes:
-        if isinstance(owner, ast.ClassDef) and owner.name in file.node_classes:
+def _interruptible_statements(file: NodeFile) -> Iterator[ast.stmt]:
+    """The statements of a node's constructor, or of a base class's, after which there is more to do."""
+    classes = [each for each in file.nodes if isinstance(each, ast.ClassDef)]
+    bases = {ast.unparse(base) for each in classes for base in each.bases}
+    for owner in classes:
+        if owner.name in file.node_classes:
             for each in owner.body:
                 if isinstance(each, ast.FunctionDef) and each.name == "__init__":
-                    yield from each.body
+                    yield from each.body if owner.name in bases else each.body[:-1]
 
 
 def _spins_itself(file: NodeFile, statement: ast.stmt) -> bool:
     """Whether a statement, or a function that it calls, spins `self`."""
-    called = [found for call in source.calls_in(statement) if (found := file.function(call.func)) is not None]
+    called = [
+        found
+        for call in source.calls_in(statement)
+        if (found := file.function(call.func)) is not None and statement not in found.body
+    ]
     spins = [call for each in (statement, *called) for call in source.calls_in(each, "spin")]
     return any("self" in map(ast.unparse, call.args) for call in spins)
 

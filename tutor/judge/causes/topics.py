@@ -11,6 +11,7 @@ from tutor.judge.causes import names, period_slips, slips
 from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
+from tutor.judge.causes.spinning import diagnose_spin_in_constructor
 from tutor.judge.edits import (
     Edit,
     append_to_function,
@@ -50,7 +51,7 @@ def diagnose_no_messages(
         return _diagnose_idle_publisher(trace, topic, step)
     if (cause := _diagnose_misplaced(trace, publishers, topic, type_name, "create_publisher")) is not None:
         return replace(cause, hint=step) if cause.name == names.WRONG_TYPE and step else cause
-    return Cause(
+    return diagnose_spin_in_constructor(started_node(trace)) or Cause(
         "no publisher",
         f"{node_names(trace)} is up, but has no publisher on {topic}",
         step or f"create one in __init__: self.create_publisher({_class(type_name)}, '{topic}', 10)",
@@ -71,6 +72,7 @@ def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause
         or period_slips.diagnose_milliseconds(file)
         or slips.diagnose_simulated_time(file)
         or slips.diagnose_unserved_node(file)
+        or diagnose_spin_in_constructor(file)
     )
     if slip is not None:
         return slip
@@ -102,10 +104,14 @@ def diagnose_nothing_received(
             f"there is a subscription on {ours.topic}, but its messages have no effect",
             "is the right callback given to create_subscription, and the subscription kept in self?",
         )
-    return _diagnose_misplaced(trace, subscriptions, ours.topic, ours.type, "create_subscription") or Cause(
-        "no subscription",
-        f"{node_names(trace)} is up, but has no subscription on {ours.topic}",
-        f"create one in __init__: self.create_subscription({_class(ours.type)}, '{ours.topic}', self.callback, 10)",
+    return (
+        _diagnose_misplaced(trace, subscriptions, ours.topic, ours.type, "create_subscription")
+        or diagnose_spin_in_constructor(started_node(trace))
+        or Cause(
+            "no subscription",
+            f"{node_names(trace)} is up, but has no subscription on {ours.topic}",
+            f"create one in __init__: self.create_subscription({_class(ours.type)}, '{ours.topic}', self.callback, 10)",
+        )
     )
 
 
