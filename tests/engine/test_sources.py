@@ -22,6 +22,15 @@ def test_files_named_in_a_launch_file_are_read(tmp_path: Path) -> None:
     assert set(read_sources(tmp_path / "my_launch.py")) == {"my_launch.py", "helper.py", "speaker.py", "more.launch.py"}
 
 
+def test_files_whose_names_a_launch_file_puts_together_are_read(tmp_path: Path) -> None:
+    (tmp_path / "my_launch.py").write_text(
+        "def generate_launch_description():\n    return [start('my_' + role + '_node.py') for role in ('pub', 'sub')]\n"
+    )
+    for name in ("my_pub_node", "my_sub_node", "other"):
+        (tmp_path / f"{name}.py").write_text("x = 1\n")
+    assert set(read_sources(tmp_path / "my_launch.py")) == {"my_launch.py", "my_pub_node.py", "my_sub_node.py"}
+
+
 def test_a_string_in_a_node_is_not_taken_as_a_file_name(tmp_path: Path) -> None:
     (tmp_path / "talker.py").write_text("topic = 'chatter'\n")
     (tmp_path / "chatter.py").write_text("x = 1\n")

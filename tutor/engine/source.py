@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import io
+import os
 import re
 import tokenize
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -64,6 +65,9 @@ def read_sources(path: Path) -> Mapping[str, str]:
         found[file.name] = text
         tree = _parse_file(file)
         pending += [path.parent / f"{name}.py" for name in (*_imported_names(tree), *_launched_names(tree))]
+        pending += [
+            path.parent / name for ending in _launched_endings(tree) for name in _names_with(ending, path.parent)
+        ]
     return found
 
 
@@ -84,10 +88,28 @@ def add_source_lines(frames: Collection[Frame]) -> tuple[Frame, ...]:
 
 def _launched_names(tree: ast.Module) -> Iterator[str]:
     """Yield the strings of a launch file that may be file names; nothing for other files."""
+    return (text.removesuffix(".py") for text in _launch_strings(tree) if _NAME.fullmatch(text))
+
+
+def _launched_endings(tree: ast.Module) -> Iterator[str]:
+    """Yield the strings of a launch file that may end file names, as in `"node_" + role + ".py"`."""
+    return (text for text in _launch_strings(tree) if text.endswith(".py"))
+
+
+def _names_with(ending: str, folder: Path) -> list[str]:
+    """The names of the files in a folder that end so."""
+    try:
+        return sorted(name for name in os.listdir(folder) if name.endswith(ending))
+    except OSError:
+        return []
+
+
+def _launch_strings(tree: ast.Module) -> Iterator[str]:
+    """Yield the strings of a launch file; nothing for other files."""
     if any(isinstance(node, ast.FunctionDef) and node.name == "generate_launch_description" for node in tree.body):
         for node in ast.walk(tree):
-            if isinstance(node, ast.Constant) and isinstance(node.value, str) and _NAME.fullmatch(node.value):
-                yield node.value.removesuffix(".py")
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                yield node.value
 
 
 def _imported_names(tree: ast.Module) -> Iterator[str]:
