@@ -83,3 +83,22 @@ def test_warnings_about_the_learners_code_are_not_ours(tmp_path: Path, recwarn: 
     assert edits.describe_edits(text, edits.replace_lines(4, "print()")) == "line 4 becomes: print()"
     assert make_readable(text.replace("is 1:", "is 1")) is not None
     assert not list(recwarn)
+
+
+@pytest.mark.parametrize(
+    ("calls", "found"),
+    [
+        ("offer('a', handle)", "handle"),
+        ("offer('a', callback=handle)", "handle"),
+        ("offer('a', handle)\noffer('b', other)", None),  # it depends on the call
+        ("offer('a', unknown)", None),
+    ],
+)
+def test_a_parameter_refers_to_the_function_that_all_callers_pass(calls: str, found: str | None) -> None:
+    text = (
+        "def offer(name, callback):\n    node.create_service(AddTwoInts, name, callback)\n\n"
+        f"def handle(request, response):\n    return response\n\ndef other(request):\n    pass\n\n{calls}\n"
+    )
+    file = source.SourceFile(text)
+    function = file.function(file.calls("create_service")[0].args[2])
+    assert (function.name if function else None) == found

@@ -93,20 +93,37 @@ class SourceFile:
         """The functions and methods with this name."""
         return [each for each in self.functions if each.name == name]
 
-    def function(self, callback: ast.expr | None) -> Function | None:
+    def function(self, callback: ast.expr | None, *, follow: bool = True) -> Function | None:
         """The function that a callback argument refers to, directly or within a lambda or partial().
 
-        If several have that name, the last one that does something.
+        If several have that name, the last one that does something. `follow`: a parameter refers to the function that
+        all callers pass for it, if that is the same one.
         """
         match callback:
             case ast.Attribute(attr=name) | ast.Name(id=name):
                 found = [each for each in reversed(self.functions) if each.name == name]
-                return next((each for each in found if not is_abstract(each)), next(iter(found), None))
+                named = next((each for each in found if not is_abstract(each)), next(iter(found), None))
+                if named is None and follow and isinstance(callback, ast.Name):
+                    return self._passed_function(callback)
+                return named
             case ast.Lambda(body=ast.Call(func=inner)):
-                return self.function(inner)
+                return self.function(inner, follow=follow)
             case ast.Call(args=[first, *_]):
-                return self.function(first)
+                return self.function(first, follow=follow)
         return None
+
+    def _passed_function(self, parameter: ast.Name) -> Function | None:
+        around = self.function_around(parameter)
+        taken = [each.arg for each in around.args.args] if around is not None else []
+        if around is None or parameter.id not in taken:
+            return None
+        position = taken.index(parameter.id) - (taken[0] in ("self", "cls"))
+        passed: list[ast.expr | None] = []
+        for call in self.calls(around.name):
+            by_name = [each.value for each in call.keywords if each.arg == parameter.id]
+            passed.append(next(iter([*by_name, *call.args[position : position + 1]]), None))
+        found = {self.function(each, follow=False) for each in passed}
+        return found.pop() if len(found) == 1 else None
 
     def reachable_from(self, function: Function) -> list[Function]:
         """The function itself and all functions of the file that it calls, directly or indirectly."""
