@@ -129,9 +129,8 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
 
 def _is_due_to_no_answer(found: tracebacks.Traceback | None) -> bool:
     """Whether an exception comes from using an answer that had not arrived yet."""
-    return found is not None and (
-        _uses_none(found) or "'Future'" in found.message or found.type.endswith(("Timeout", "TimeoutError"))
-    )
+    used_itself = found is not None and "'Future'" in found.message and "'_condition'" not in found.message
+    return found is not None and (_uses_none(found) or used_itself or found.type.endswith(("Timeout", "TimeoutError")))
 
 
 def _uses_none(found: tracebacks.Traceback) -> bool:

@@ -82,6 +82,7 @@ def wait_for_answers(code: Code, trace: Trace) -> str | None:
     return change.as_step() if change.swaps or len(change.more) > len(code.missing_imports("rclpy")) else None
 
 
+_COMPREHENSIONS = ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp
 _WAITS = "wait_for_service", "service_is_ready"
 
 
@@ -119,6 +120,8 @@ def _wait_for_answer(code: Code, call: ast.Call, client: str, change: Changes) -
     if call.func.attr == "call_async" and isinstance(statement, ast.Return) and code.calls(*_SPINS):
         return
     if not isinstance(statement, ast.Expr | ast.Assign | ast.AnnAssign | ast.Return | ast.AugAssign):
+        return
+    if any(isinstance(each, _COMPREHENSIONS) for each in code.ancestors(call) if each in ast.walk(statement)):
         return
     request = f"future = {client}.call_async({ast.unparse(call.args[0])})"
     wait = f"{_spin_function(code)}({code.node_name(call)}, future)"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from checks.i1_3 import division_by_zero, service_steps, services
@@ -18,13 +19,17 @@ from tutor.judge import causes, tracebacks
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
+_LOG_CALL = re.compile(r"\.(debug|info|warn|warning|error|fatal)\(")
+
 
 def _with_guard_step(cause: Cause, trace: Trace) -> Cause:
     """Give a cause the step that lets /divide answer and log an error if b is 0."""
     found = tracebacks.last_traceback(trace)
     if found is not None and found.frames[-1].function == "send_response":
         return replace(cause, hint=service_steps.return_response(trace, "/divide") or cause.hint)
-    if found is not None and found.type in ("AttributeError", "NameError"):  # of the error branch itself
+    own = tracebacks.own_frame(reversed(found.frames), trace.folder) if found is not None else None
+    logs = own is not None and _LOG_CALL.search(own.code) is not None
+    if found is not None and (logs or found.type in ("AttributeError", "NameError")):  # of the error branch itself
         return with_applicable_step(cause, trace, lambda: services.guard_division(trace))
     return replace(cause, hint=services.guard_division(trace) or cause.hint)
 

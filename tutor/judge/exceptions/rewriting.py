@@ -6,6 +6,7 @@ import ast
 import re
 import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TypeGuard
 
 from tutor.judge import edits
 from tutor.judge.edits import Edit
@@ -165,6 +166,27 @@ def rclcpp(text: str, words: Words) -> Sequence[Edit]:
     return edits.replace_nodes(text, *swaps)
 
 
+def seconds(text: str, words: Words) -> Sequence[Edit]:
+    """Convert the difference of two times to seconds: where it is assigned, else where the line computes it."""
+    file = SourceFile(text)
+    statement = file.statement_at(int(words["number"]))
+    nodes = list(ast.walk(statement)) if statement is not None else []
+    used = {ast.unparse(each) for each in nodes if isinstance(each, ast.Name | ast.Attribute)}
+    swaps: list[tuple[ast.expr, str]] = [
+        (assigned.value, f"({ast.unparse(assigned.value)}).nanoseconds / 1e9")
+        for assigned in file.nodes
+        if isinstance(assigned, ast.Assign) and _is_difference(assigned.value)
+        if (target := ast.unparse(assigned.targets[0])) in used and f"{target}.nanoseconds" not in text
+    ]
+    if not swaps:
+        swaps = [(each, f"({ast.unparse(each)}).nanoseconds / 1e9") for each in nodes if _is_difference(each)]
+    return edits.replace_nodes(text, *swaps)
+
+
+def _is_difference(node: ast.AST) -> TypeGuard[ast.BinOp]:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
+
+
 def utf8(text: str, words: Words) -> Sequence[Edit]:
     """Add the encoding to the first call in a statement that opens a file without one."""
     statement = SourceFile(text).statement_at(int(words["number"]))
@@ -197,6 +219,7 @@ _REWRITERS = (
         items,
         methods,
         rclcpp,
+        seconds,
         utf8,
     ),
 )
