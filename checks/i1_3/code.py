@@ -70,9 +70,11 @@ class Code(SourceFile):
         return self.node_method(at) is not None or any(self._kept_nodes(at))
 
     def _kept_nodes(self, at: ast.AST) -> Iterator[str]:
-        """The attributes of the class around `at` that keep an object by which clients are created."""
+        """The attributes of the class around `at` that keep an object by which clients or services are created."""
         owners = {
-            ast.unparse(each.func.value) for each in self.calls("create_client") if isinstance(each.func, ast.Attribute)
+            ast.unparse(each.func.value)
+            for each in self.calls("create_client", "create_service")
+            if isinstance(each.func, ast.Attribute)
         }
         around = next((each for each in self.ancestors(at) if isinstance(each, ast.ClassDef)), None)
         for each in ast.walk(around) if around is not None else ():

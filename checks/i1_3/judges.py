@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
@@ -18,7 +19,8 @@ from checks.i1_3.facts import (
 from checks.i1_3.rewriting import with_applicable_steps
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names, spinning
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.callbacks import only_waits, outermost
+from tutor.judge.rewriting.node import node_file, started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
@@ -108,7 +110,12 @@ def with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[F
     if cause.name == names.NO_SPIN:
         return with_applicable_step(cause, trace)
     if at is not None and "sleep(" in at.code and found is None:
-        return replace(cause, hint=_first_step(trace, lambda code: steps.remove_calls(code, "sleep")) or cause.hint)
+        step = (
+            services.compute_results(trace, [service], whole=True)
+            if _waits_for_ever(trace, at)
+            else _first_step(trace, lambda code: steps.remove_calls(code, "sleep"))
+        )
+        return replace(cause, hint=step or cause.hint)
     if any("was never awaited" in line.text for line in trace.output):
         return replace(cause, hint=services.compute_results(trace, [service], whole=True) or cause.hint)
     if cause.name == names.INCOMPATIBLE_QOS:
@@ -119,6 +126,12 @@ def with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[F
         return replace(cause, name=names.INCOMPATIBLE_QOS, text=text, hint=step or cause.hint)
     wrong = services.sharing_callback(trace, service) if found is not None else [service]
     return with_applicable_step(cause, trace, lambda: services.compute_results(trace, wrong, whole=True))
+
+
+def _waits_for_ever(trace: Trace, at: Frame) -> bool:
+    """Whether a line is in a while loop that does nothing but wait."""
+    loop = outermost(node_file(trace.sources.get(at.name, "")), at.line)
+    return isinstance(loop, ast.While) and all(map(only_waits, loop.body))
 
 
 @with_applicable_steps

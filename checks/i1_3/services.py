@@ -145,7 +145,15 @@ def body_lines(request: str, response: str, service: str, log: str) -> list[str]
 
 
 def logger_of(code: Code, at: ast.AST) -> str:
-    """The expression for the node's logger at this place in the code."""
+    """The expression for the node's logger at this place in the code: in a class that is no node, one that it keeps."""
+    if code.self_name(at) and code.node_method(at) is None:
+        around = next((each for each in code.ancestors(at) if isinstance(each, ast.ClassDef)), None)
+        for each in ast.walk(around) if around is not None else ():
+            match each:
+                case ast.Assign(
+                    targets=[ast.Attribute() as kept], value=ast.Call(func=ast.Attribute(attr="get_logger"))
+                ):
+                    return ast.unparse(kept)
     return f"{code.node_name(at)}.get_logger()"
 
 
