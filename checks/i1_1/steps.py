@@ -159,6 +159,7 @@ def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
         or period_slips.diagnose_second_timer(read)
         or period_slips.diagnose_period_unit(read)
         or period_slips.diagnose_nanoseconds(read)
+        or period_slips.diagnose_period_attribute(read)
         or parameter_slips.diagnose_override(read, name, whole_program(read))
         or period_slips.diagnose_sleep(read, asked_hz)
     )

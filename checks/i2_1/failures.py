@@ -19,8 +19,9 @@ from checks.i2_1.facts import (
     RuntimeChanges,
 )
 from tutor.judge import causes
-from tutor.judge.causes import parameter_slips
+from tutor.judge.causes import names, parameter_slips
 from tutor.judge.rates import Rate
+from tutor.judge.rewriting import parameter_callbacks
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.rewriting.whole import with_applicable_steps
 from tutor.judge.trace import SetAnswer, Trace
@@ -61,6 +62,9 @@ def fail_not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence
         observed = f"setting {what}: {causes.describe_no_answer(trace, answer.took_s)}"
         return failed(expected, observed, cause, causes.output_tail(trace))
     cause = causes.diagnose_refusal(answer.reason, steps.accept_value(trace, answer))
+    if cause.name == names.CALLBACK_RETURNS_NONE and parameter_callbacks.is_coroutine(started_node(trace)):
+        text = "the parameter callback is an async def: rclpy does not await it, and so gets no SetParametersResult"
+        cause = replace(cause, text=text)
     if "read-only" in answer.reason:
         cause = parameter_slips.diagnose_read_only(started_node(trace)) or cause
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)

@@ -182,7 +182,11 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     if seen.trace.exit and (cause := causes.diagnose_process(seen.trace)):
         return cause
     read, trace = started_node(seen.trace), seen.trace
-    integer_period = period_slips.diagnose_integer_period(read) or period_slips.diagnose_nanoseconds(read)
+    integer_period = (
+        period_slips.diagnose_integer_period(read)
+        or period_slips.diagnose_nanoseconds(read)
+        or period_slips.diagnose_period_attribute(read)
+    )
     if rate is not None and rate.in_bursts:
         return integer_period or causes.diagnose_bursts(steps.send_once_per_tick(trace))
     if rate is not None and rate.hz < asked and (asleep := period_slips.diagnose_sleep(read, asked)) is not None:

@@ -142,6 +142,8 @@ def accept_value(trace: Trace, answer: SetAnswer) -> str:
             read.step(declaring, *_larger(read, _parameter_callbacks))
             or "declare it in __init__ with its default, and nothing more"
         )
+    if "Callback returned" in reason and parameter_callbacks.is_coroutine(read):
+        return read.step(parameter_callbacks.without_async(read)) or check_all_first(trace)
     return check_all_first(trace)
 
 

@@ -12,7 +12,7 @@ from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
 from tutor.judge.causes import late_binding, names, spinning
-from tutor.judge.causes.period_slips import diagnose_twin_timers
+from tutor.judge.causes.period_slips import diagnose_no_autostart, diagnose_twin_timers
 from tutor.judge.causes.slips import diagnose_unserved_node
 from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.trace import CallAnswer, Trace
@@ -134,6 +134,7 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
         )
         return (
             printed
+            or diagnose_no_autostart(source)
             or tick_steps.diagnose_no_ticks(source)
             or Cause(
                 "no timer messages",

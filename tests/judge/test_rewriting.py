@@ -185,6 +185,12 @@ def test_bad_rates_are_refused_before_anything_else() -> None:
         ),
         (node_file("DEFAULTS = [('publish_rate', 2)]\n"), RATE, 1.0, "[('publish_rate', 1.0)]"),
         (node_file("DEFAULTS = {'publish_rate': 2}\n"), RATE, 1.0, "{'publish_rate': 1.0}"),
+        (
+            node_file("DEFAULTS = [{'name': 'publish_rate', 'default': 2}]\n"),
+            RATE,
+            1.0,
+            "[{'name': 'publish_rate', 'default': 1.0}]",
+        ),
         (node_file("DEFAULTS = dict(publish_rate=2)\n"), RATE, 1.0, "dict(publish_rate=1.0)"),
         (node_file(MODULE), ENABLED, True, "create_node('p')\nnode.declare_parameter('enabled', True)"),
     ],
@@ -374,3 +380,39 @@ class Sensor(Node):
     assert "line 9 becomes: self.reporting = self.create_timer(2.0, " in str(
         file.step(publishing.set_period(file, "2.0"))
     )
+
+
+def test_an_async_callback_and_what_it_awaits_become_plain_functions() -> None:
+    text = NODE.replace("    def changed", "    async def changed").replace(
+        "        return Set", "        await self.apply(params)\n        return Set"
+    )
+    text += "\n    async def apply(self, params):\n        pass\n"
+    file = node_file(text)
+    step = file.step(parameter_callbacks.without_async(file))
+    assert step is not None
+    assert apply_step(step, {"": text})[""] == text.replace("async ", "").replace("await ", "")
+    assert parameter_callbacks.is_coroutine(file)
+    assert not parameter_callbacks.is_coroutine(node_file(NODE))
+
+
+@pytest.mark.parametrize("called", ["node.register()", "main_node().register()"])
+def test_a_callback_that_main_lets_the_node_register_is_called(called: str) -> None:
+    text = NODE.replace(REGISTERED, "").replace(
+        "    def changed", f"    def register(self):\n{REGISTERED}\n    def changed"
+    )
+    found = parameter_callback_slips.diagnose_uncalled_callback(node_file(text))
+    assert found is not None
+    assert found.name == "callback not registered"
+    main = f"\n\ndef main():\n    node = ParameterizedPublisher()\n    {called}\n"
+    assert parameter_callback_slips.diagnose_uncalled_callback(node_file(text + main)) is None
+
+
+def test_the_types_of_subclasses_get_topics_of_their_own() -> None:
+    text = (
+        "class Base(Node):\n    topic = '/chatter'\n    kind = String\n\n    def __init__(self):\n"
+        "        self.pub = self.create_publisher(self.kind, self.topic, 10)\n\n\n"
+        "class Numbers(Base):\n    kind = Int32\n"
+    )
+    file = node_file(text)
+    step = file.step(publishing.use_one_type(file, "/chatter", "std_msgs/msg/String"))
+    assert step == "write below line 10, with the same indentation: topic = '/chatter_int32'"

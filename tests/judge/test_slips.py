@@ -403,3 +403,55 @@ def test_arguments_that_the_node_gives_itself() -> None:
     assert found is not None
     assert found.hint == "line 3 becomes: super().__init__('talker')"
     assert parameter_slips.diagnose_override(node_file(source), "enabled") is None
+
+
+@pytest.mark.parametrize(
+    ("options", "starts", "step"),
+    [
+        (", autostart=False", "", "line 3 becomes: self.timer = self.create_timer(0.1, self.tick, autostart=True)"),
+        (", autostart=False", "self.timer.reset()", None),
+        (", autostart=True", "", None),
+        ("", "", None),
+    ],
+)
+def test_a_timer_that_nothing_starts(options: str, starts: str, step: str | None) -> None:
+    file = node_file(
+        "class A(Node):\n    def __init__(self):\n"
+        f"        self.timer = self.create_timer(0.1, self.tick{options})\n        {starts}\n"
+    )
+    found = period_slips.diagnose_no_autostart(file)
+    assert (found.hint if found else None) == step
+
+
+@pytest.mark.parametrize(
+    ("assigned", "step"),
+    [
+        ("self.timer.period = 1.0 / hz", "line 4 becomes: self.timer.timer_period_ns = int(1e9 * (1.0 / hz))"),
+        ("self.timer.timer_period_sec = 0.5", "line 4 becomes: self.timer.timer_period_ns = int(1e9 * 0.5)"),
+        ("self.timer.timer_period_ns = 5", None),
+        ("self.period = 1.0 / hz", None),
+    ],
+)
+def test_a_period_assigned_to_an_attribute_that_timers_do_not_have(assigned: str, step: str | None) -> None:
+    file = node_file(
+        "class A(Node):\n    def __init__(self):\n"
+        f"        self.timer = self.create_timer(1.0, self.tick)\n        {assigned}\n"
+    )
+    found = period_slips.diagnose_period_attribute(file)
+    assert (found.hint if found else None) == step
+
+
+@pytest.mark.parametrize(
+    ("call", "step"),
+    [
+        ("setattr(self, 'config.' + p.name, p.value)", "line 3 becomes: setattr(self.config, p.name, p.value)"),
+        ("setattr(self, f'config.{p.name}', p.value)", "line 3 becomes: setattr(self.config, p.name, p.value)"),
+        ("setattr(self, 'config.rate', p.value)", "line 3 becomes: setattr(self.config, 'rate', p.value)"),
+        ("setattr(self, 'my_' + p.name, p.value)", None),
+        ("setattr(self, p.name, p.value)", None),
+    ],
+)
+def test_setattr_does_not_follow_dots(call: str, step: str | None) -> None:
+    text = f"class A:\n    def f(self, p):\n        {call}\n\n    def __init__(self):\n        self.config = Config()\n"
+    found = parameter_callback_slips.diagnose_broken_callback(node_file(text))
+    assert (found.hint if found else None) == step

@@ -163,6 +163,16 @@ def test_a_node_that_spins_in_its_constructor_spins_in_main_instead() -> None:
     assert diagnose_spin_in_constructor(node_file(source.replace("        self.start()\n", ""))) is None
 
 
+def test_a_node_that_is_only_created_is_spun_where_it_is_created() -> None:
+    source = (
+        "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n        rclpy.spin(self)\n"
+        "        self.create_timer(1.0, self.tick)\n\n\nTalker()\n"
+    )
+    found = diagnose_spin_in_constructor(node_file(source))
+    assert found is not None
+    assert found.hint == "line 8 becomes: rclpy.spin(Talker())\nremove line 4: rclpy.spin(self)"
+
+
 def test_a_spin_at_the_end_of_the_constructor_hides_nothing() -> None:
     source = "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n{}\nnode = Talker()\n"
     spin, create = ("        " + code for code in ("rclpy.spin(self)\n", "self.create_publisher(String, 'a', 1)\n"))

@@ -42,8 +42,38 @@ def _may_refuse(file: NodeFile, function: Function | None) -> bool:
 
 
 def diagnose_broken_callback(file: NodeFile) -> Cause | None:
-    """Whether a parameter callback is never called, compares types that are never equal, or sets a hidden attribute."""
-    return diagnose_uncalled_callback(file) or _diagnose_compared_type(file) or _diagnose_class_attribute(file)
+    """Whether a parameter callback is never called, compares types that are never equal, or sets a wrong attribute."""
+    return (
+        _diagnose_dotted_attribute(file)
+        or diagnose_uncalled_callback(file)
+        or _diagnose_compared_type(file)
+        or _diagnose_class_attribute(file)
+    )
+
+
+def _diagnose_dotted_attribute(file: NodeFile) -> Cause | None:
+    """Whether `setattr` is given a name with a dot, such as "config." + name, which makes an attribute of that name."""
+    for call in file.calls("setattr"):
+        match call.args:
+            case [owner, ast.BinOp(left=ast.Constant(value=str() as path), op=ast.Add(), right=name), value]:
+                code = ast.unparse(name)
+            case [owner, ast.Constant(value=str() as path), value]:
+                code = repr(path.rpartition(".")[2])
+            case [
+                owner,
+                ast.JoinedStr(values=[ast.Constant(value=str() as path), ast.FormattedValue(value=name)]),
+                value,
+            ]:
+                code = ast.unparse(name)
+            case _:
+                continue
+        attribute = path.rpartition(".")[0]
+        right = f"setattr({ast.unparse(owner)}.{attribute}, {code}, {ast.unparse(value)})"
+        step = file.step([replace_node(file.text, call, right)]) if "." in path else None
+        if step is not None:
+            text = f"{where(call)}: setattr does not follow dots, so {attribute} stays as it is"
+            return Cause("wrong attribute set", text, step)
+    return None
 
 
 def _diagnose_class_attribute(file: NodeFile) -> Cause | None:
@@ -93,7 +123,7 @@ def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
         if (twice := _diagnose_second_definition(file, given)) is not None:
             return twice
         function = file.function_around(call)
-        if function is not None and file.setup is not None and function not in file.reachable_from(file.setup):
+        if function is not None and file.setup is not None and not _is_called(file, function):
             step = file.step([*file.append_to_setup(ast.unparse(call))])
             text = f"{where(call)} is in {function.name}, which nothing calls when the node starts"
             return Cause("callback not registered", text, step) if step else None
@@ -104,6 +134,16 @@ def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
     if unused is None or step is None:
         return None
     return Cause("callback not registered", f"there is {_name_and_line(unused)}, but nothing ever calls it", step)
+
+
+def _is_called(file: NodeFile, function: Function) -> bool:
+    """Whether the setup or the main program calls a function, directly or indirectly."""
+    callers = [found for each in file.calls(function.name) if (found := file.function_around(each)) is not None]
+    starting = [file.setup, *file.functions_named("main")]
+    reached = [each for start in starting if start is not None for each in file.reachable_from(start)]
+    return (
+        function in reached or any(each in reached for each in callers) or len(callers) < len(file.calls(function.name))
+    )
 
 
 def _diagnose_second_definition(file: NodeFile, given: ast.expr | None) -> Cause | None:

@@ -133,6 +133,20 @@ def _diagnose_ignored_overrides(file: NodeFile, name: str) -> Cause | None:
 
 
 def _diagnose_reassignment(file: NodeFile, name: str) -> Cause | None:
+    found = _find_reassignment(file, name)
+    if found is None:
+        return None
+    kept, overwriting = found
+    declared = {each.value for each in _constants(file.calls("declare_parameter", "declare_parameters"))}
+    others = (_find_reassignment(file, each) for each in sorted(map(str, declared - {name})))
+    statements = {other.lineno: other for _, other in filter(None, others)} | {overwriting.lineno: overwriting}
+    step = file.step([remove_statement(file.text, each) for each in statements.values()])
+    text = f"{where(overwriting)} overwrites the value of {name} that line {kept.lineno} has read"
+    return Cause(_OVERWRITTEN, text, step) if step else None
+
+
+def _find_reassignment(file: NodeFile, name: str) -> tuple[ast.stmt, ast.Assign] | None:
+    """The statement that keeps the parameter's value, and the one that overwrites it with a constant."""
     kept = parameters.find_kept_value(file, name)
     for node in ast.walk(file.tree):
         if kept is None or not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Constant):
@@ -145,9 +159,7 @@ def _diagnose_reassignment(file: NodeFile, name: str) -> Cause | None:
         target = ast.unparse(node.targets[0])
         corrected = any(isinstance(each, ast.If) and target in ast.unparse(each.test) for each in file.ancestors(node))
         if target == ast.unparse(_target(kept)) and later and not corrected:  # replacing a bad value is fine
-            step = file.step([remove_statement(file.text, node)])
-            text = f"{where(node)} overwrites the value of {name} that line {kept.lineno} has read"
-            return Cause(_OVERWRITTEN, text, step) if step else None
+            return kept, node
     return None
 
 

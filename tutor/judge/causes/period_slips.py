@@ -6,10 +6,12 @@ import ast
 from collections.abc import Iterator
 from itertools import pairwise
 
-from tutor.judge.edits import remove_statement, replace_node
+from tutor.judge.edits import remove_statement, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import last_name, values_of, where
 from tutor.judge.verdict import Cause
+
+_IMAGINED_PERIODS = ("period", "timer_period", "timer_period_sec", "timer_period_s", "interval", "period_sec", "rate")
 
 MIN_MILLISECONDS = 50.0
 """A timer's period from this number on is in milliseconds: nobody waits so many seconds in an exercise."""
@@ -51,6 +53,41 @@ def diagnose_nanoseconds(file: NodeFile) -> Cause | None:
             step = file.step([replace_node(file.text, large[0], "1_000_000_000")])
             text = f"line {node.lineno}: {ast.unparse(node)}: there are 1_000_000_000 nanoseconds in a second"
             return Cause("wrong timer period", text, step) if step else None
+    return None
+
+
+def diagnose_period_attribute(file: NodeFile) -> Cause | None:
+    """Whether a period in seconds is assigned to an attribute that a Timer does not have, such as `timer.period`."""
+    timers = {file.assigned_to(each) for each in file.timers} - {""}
+    for node in file.nodes:
+        match node:
+            case ast.Assign(targets=[ast.Attribute(value=timer, attr=name) as target], value=value):
+                pass
+            case _:
+                continue
+        if ast.unparse(timer) not in timers or name not in _IMAGINED_PERIODS:
+            continue
+        old = ast.unparse(target)
+        reads = [each for each in file.nodes if isinstance(each, ast.Attribute) and ast.unparse(each) == old]
+        seconds = [each for each in reads if each is not target]
+        period = ast.unparse(value) if isinstance(value, ast.Constant) else f"({ast.unparse(value)})"
+        edits = [replace_statement(node, f"{ast.unparse(timer)}.timer_period_ns = int(1e9 * {period})")]
+        edits += [replace_node(file.text, each, f"({ast.unparse(timer)}.timer_period_ns / 1e9)") for each in seconds]
+        step = file.step(edits)
+        text = f"{where(node)}: a timer has no attribute {name}, so this only creates one that nothing reads"
+        return Cause("wrong timer period", text, step) if step else None
+    return None
+
+
+def diagnose_no_autostart(file: NodeFile) -> Cause | None:
+    """Whether a timer is created with `autostart=False`, and nothing starts it."""
+    for call in file.timers:
+        given = next((each.value for each in call.keywords if each.arg == "autostart"), None)
+        started = f"{file.assigned_to(call)}.reset" in {ast.unparse(each.func) for each in file.calls("reset")}
+        if isinstance(given, ast.Constant) and given.value is False and not started:
+            step = file.step([replace_node(file.text, given, "True")])
+            text = f"line {given.lineno}: with autostart=False, a timer does not run until its reset() is called"
+            return Cause("timer not started", text, step) if step else None
     return None
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from tutor.judge import edits, source, tracebacks
 from tutor.judge.causes import names
+from tutor.judge.edits import Edit
 from tutor.judge.rewriting.callbacks import Loop, only_waits, outermost
 from tutor.judge.rewriting.node import NodeFile, node_file, started_node
 from tutor.judge.rewriting.program import SPINS
@@ -42,17 +43,23 @@ def diagnose_spin_in_constructor(file: NodeFile) -> Cause | None:
     created = [
         each
         for each in file.nodes
-        if isinstance(each, ast.Assign)
+        if isinstance(each, ast.Assign | ast.Expr)
         and isinstance(each.value, ast.Call)
         and source.called_name(each.value) in file.node_classes
     ]
     for statement in _interruptible_statements(file) if created else ():
         if _spins_itself(file, statement):
-            spin = f"rclpy.spin({ast.unparse(created[-1].targets[0])})"
-            step = file.step([edits.insert_after(created[-1], spin), edits.remove_statement(file.text, statement)])
+            step = file.step([_spin_after(created[-1]), edits.remove_statement(file.text, statement)])
             text = f"line {statement.lineno}: {ast.unparse(statement)} spins in the constructor, which ends only then"
             return Cause(names.NO_SPIN, text, step) if step else None
     return None
+
+
+def _spin_after(created: ast.Assign | ast.Expr) -> Edit:
+    """Spin the node below the statement that creates it."""
+    if isinstance(created, ast.Assign):
+        return edits.insert_after(created, f"rclpy.spin({ast.unparse(created.targets[0])})")
+    return edits.replace_statement(created, f"rclpy.spin({ast.unparse(created.value)})")
 
 
 def _interruptible_statements(file: NodeFile) -> Iterator[ast.stmt]:

@@ -70,6 +70,7 @@ def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause
     slip = (
         period_slips.diagnose_period_unit(file)
         or period_slips.diagnose_milliseconds(file)
+        or period_slips.diagnose_no_autostart(file)
         or slips.diagnose_simulated_time(file)
         or slips.diagnose_unserved_node(file)
         or diagnose_spin_in_constructor(file)

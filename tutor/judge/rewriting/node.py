@@ -207,11 +207,15 @@ def is_static(function: Function) -> bool:
 
 
 def rewrite_function(function: Function, code: str, *, parameter: str = "") -> Edit:
-    """Replace everything below a function's header; `parameter` is a parameter that it must take."""
+    """Replace everything below a function's header.
+
+    `parameter`: for a parameter callback, the parameter that it must take. rclpy awaits no such callback.
+    """
     taken, names = ast.unparse(function.args), [each.arg for each in function.args.args]
     if parameter and parameter not in names:
         taken = ", ".join([*names[:1], parameter] if names[:1] in (["self"], ["cls"]) else [parameter])
-    head = f"{'async ' if isinstance(function, ast.AsyncFunctionDef) else ''}def {function.name}({taken})"
+    is_coroutine = isinstance(function, ast.AsyncFunctionDef) and not parameter
+    head = f"{'async ' if is_coroutine else ''}def {function.name}({taken})"
     returns = f" -> {ast.unparse(function.returns)}" if function.returns is not None else ""
     lines = [f"{head}{returns}:", *(f"    {line}" for line in code.splitlines())]
     return replace_statement(function, "\n".join(lines))

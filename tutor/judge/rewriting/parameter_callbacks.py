@@ -10,11 +10,13 @@ from tutor.judge.edits import (
     insert_above,
     remove_lines,
     remove_statement,
+    replace_lines,
     replace_node,
+    replace_nodes,
 )
 from tutor.judge.rewriting.node import NodeFile, argument, rewrite_function
 from tutor.judge.rewriting.parameters import is_text, readings, reads
-from tutor.judge.source import Function
+from tutor.judge.source import Function, called_name
 
 ON_SET = "add_on_set_parameters_callback"
 POST_SET = "add_post_set_parameters_callback"
@@ -51,6 +53,28 @@ def follow_parameters(file: NodeFile, rate: str, *others: str) -> list[Edit]:
     extra = [each for each in file.calls(ON_SET, PRE_SET) if each is not first]
     edits += [_remove_call(file, each) for each in extra]
     return [*edits, *keep_timer, rewrite_function(checker, "\n".join(body), parameter=params)]
+
+
+def is_coroutine(file: NodeFile) -> bool:
+    """Whether the on-set callback is an `async def`, which rclpy does not await."""
+    return isinstance(registered_callback(file, ON_SET), ast.AsyncFunctionDef)
+
+
+def without_async(file: NodeFile) -> list[Edit]:
+    """Turn an on-set callback that is an `async def`, and the coroutines that it awaits, into plain functions."""
+    checker = registered_callback(file, ON_SET)
+    plain = [each for each in file.reachable_from(checker) if isinstance(each, ast.AsyncFunctionDef)] if checker else []
+    names = {each.name for each in plain}
+    calls = [
+        (each, each.value)
+        for each in file.nodes
+        if isinstance(each, ast.Await) and isinstance(each.value, ast.Call) and called_name(each.value) in names
+    ]
+    lines = file.text.splitlines()
+    return [
+        *(replace_lines(each.lineno, lines[each.lineno - 1].strip().removeprefix("async ")) for each in plain),
+        *replace_nodes(file.text, *((each, ast.get_source_segment(file.text, value) or "") for each, value in calls)),
+    ]
 
 
 def cancel_old_timer(file: NodeFile) -> list[Edit]:

@@ -110,8 +110,10 @@ def _default_beside(node: ast.AST, name: str) -> ast.expr | None:
         case ast.Tuple(elts=[first, second, *_]) | ast.List(elts=[first, second]) if is_text(first, name):
             return second
         case ast.Dict(keys=keys, values=values):
-            pairs = zip(keys, values, strict=True)
-            return next((value for key, value in pairs if key is not None and is_text(key, name)), None)
+            pairs = [(key, value) for key, value in zip(keys, values, strict=True) if key is not None]
+            named = any(is_text(key, "name") and is_text(value, name) for key, value in pairs)
+            wanted = ("default", "value", "default_value") if named else (name,)
+            return next((value for key, value in pairs if any(is_text(key, each) for each in wanted)), None)
         case ast.Call(func=ast.Name(id="dict"), keywords=given):
             return next((each.value for each in given if each.arg == name), None)
     return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from tutor.judge.edits import Edit, insert_above, remove_statement, replace_node, replace_statement
+from tutor.judge.edits import Edit, insert_above, insert_after, remove_statement, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument, rewrite_function
 from tutor.judge.source import Function, called_name, calls_in
 
@@ -170,13 +170,28 @@ def use_one_type(file: NodeFile, topic: str, type_name: str) -> list[Edit]:
         kind, name = argument(call, 0, "msg_type"), argument(call, 1, "topic")
         if kind is None or name is None or ast.unparse(kind) == own:
             continue
-        if _topic_text(file, name) == topic.lstrip("/"):
+        if _topic_text(file, name) != topic.lstrip("/"):
+            continue
+        if isinstance(kind, ast.Attribute) and isinstance(name, ast.Attribute):
+            edits += _name_topics_of_subclasses(file, kind.attr, own, name.attr, topic)
+        else:
             edits.append(replace_node(file.text, name, repr(f"{topic}_{ast.unparse(kind).lower()}")))
     for call in file.calls("create_subscription"):
         kind, name = argument(call, 0, "msg_type"), argument(call, 1, "topic")
         if kind is not None and ast.unparse(kind) != own and _topic_text(file, name) == topic.lstrip("/"):
             edits.append(replace_node(file.text, kind, own))
     return edits
+
+
+def _name_topics_of_subclasses(file: NodeFile, kind: str, own: str, name: str, topic: str) -> list[Edit]:
+    """Give each class that sets the class attribute `kind` to another type than `own` a topic of its own."""
+    return [
+        insert_after(each, f"{name} = {f'{topic}_{ast.unparse(each.value).lower()}'!r}")
+        for owner in file.nodes
+        if isinstance(owner, ast.ClassDef)
+        for each in owner.body
+        if isinstance(each, ast.Assign) and ast.unparse(each.targets[0]) == kind and ast.unparse(each.value) != own
+    ]
 
 
 def _topic_text(file: NodeFile, code: ast.expr | None) -> str:
