@@ -66,7 +66,7 @@ def read_sources(path: Path) -> Mapping[str, str]:
         tree = _parse_file(file)
         pending += [path.parent / f"{name}.py" for name in (*_imported_names(tree), *_launched_names(tree))]
         pending += [
-            path.parent / name for ending in _launched_endings(tree) for name in _names_with(ending, path.parent)
+            path.parent / name for ending in _launched_endings(tree) for name in _names_ending_with(ending, path.parent)
         ]
     return found
 
@@ -96,8 +96,8 @@ def _launched_endings(tree: ast.Module) -> Iterator[str]:
     return (text for text in _launch_strings(tree) if text.endswith(".py"))
 
 
-def _names_with(ending: str, folder: Path) -> list[str]:
-    """The names of the files in a folder that end so."""
+def _names_ending_with(ending: str, folder: Path) -> list[str]:
+    """The names in a folder that have this ending."""
     try:
         return sorted(name for name in os.listdir(folder) if name.endswith(ending))
     except OSError:

@@ -55,7 +55,9 @@ def _diagnose_dotted_attribute(file: NodeFile) -> Cause | None:
     """Whether `setattr` is given a name with a dot, such as "config." + name, which makes an attribute of that name."""
     for call in file.calls("setattr"):
         match call.args:
-            case [owner, ast.BinOp(left=ast.Constant(value=str() as path), op=ast.Add(), right=name), value]:
+            case [owner, ast.BinOp(left=ast.Constant(value=str() as path), op=ast.Add(), right=name), value] if (
+                path.endswith(".")
+            ):
                 code = ast.unparse(name)
             case [owner, ast.Constant(value=str() as path), value]:
                 code = repr(path.rpartition(".")[2])
@@ -63,7 +65,7 @@ def _diagnose_dotted_attribute(file: NodeFile) -> Cause | None:
                 owner,
                 ast.JoinedStr(values=[ast.Constant(value=str() as path), ast.FormattedValue(value=name)]),
                 value,
-            ]:
+            ] if path.endswith("."):
                 code = ast.unparse(name)
             case _:
                 continue

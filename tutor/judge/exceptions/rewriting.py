@@ -170,8 +170,14 @@ def seconds(text: str, words: Words) -> Sequence[Edit]:
     """Convert the difference of two times to seconds: where it is assigned, else where the line computes it."""
     file = SourceFile(text)
     statement = file.statement_at(int(words["number"]))
-    nodes = list(ast.walk(statement)) if statement is not None else []
-    used = {ast.unparse(each) for each in nodes if isinstance(each, ast.Name | ast.Attribute)}
+    types = re.search(r"'(\w+)' and '(\w+)'", words["raised"])
+    durations = [
+        operand
+        for each in (ast.walk(statement) if statement is not None else ())
+        for operand, name in zip(_operands(each), types.groups() if types else (), strict=False)
+        if name == "Duration"
+    ]
+    used = {ast.unparse(each) for each in durations}
     swaps: list[tuple[ast.expr, str]] = [
         (assigned.value, f"({ast.unparse(assigned.value)}).nanoseconds / 1e9")
         for assigned in file.nodes
@@ -179,8 +185,18 @@ def seconds(text: str, words: Words) -> Sequence[Edit]:
         if (target := ast.unparse(assigned.targets[0])) in used and f"{target}.nanoseconds" not in text
     ]
     if not swaps:
-        swaps = [(each, f"({ast.unparse(each)}).nanoseconds / 1e9") for each in nodes if _is_difference(each)]
+        swaps = [(each, f"({ast.unparse(each)}).nanoseconds / 1e9") for each in durations if _is_difference(each)]
     return edits.replace_nodes(text, *swaps)
+
+
+def _operands(node: ast.AST) -> tuple[ast.expr, ...]:
+    """The left and right operand of an operator or of a comparison."""
+    match node:
+        case ast.BinOp(left=left, right=right) | ast.Compare(left=left, comparators=[right]):
+            return left, right
+        case ast.AugAssign(target=left, value=right):
+            return left, right
+    return ()
 
 
 def _is_difference(node: ast.AST) -> TypeGuard[ast.BinOp]:
