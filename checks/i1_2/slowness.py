@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 
+from checks.i1_2 import rewriting
 from checks.i1_2.backlog import LostMessages
 from tutor.judge import edits, source
 from tutor.judge.trace import Trace
@@ -14,19 +15,23 @@ SPINS_ONCE = ("spin_once", "spin_some")
 
 def diagnose_lost(trace: Trace, lost: LostMessages) -> Cause:
     """Why messages are lost at a high rate."""
-    text = f"up to the last message that it quotes there were {lost.counted}: the others never reached its callback"
+    counted = f"up to the last message that it quotes there were {lost.counted}"
+    text = f"{counted}: the others never reached its callback"
     if (waits := diagnose_waits(trace, text)) is not None:
         return waits
-    if (short := _find_short_queue(trace)) is not None:
+    if (depth := _find_short_queue(trace)) is not None:
+        file = source.file_holding(trace, depth)
         return Cause(
             "queue too short",
-            f"{text}, since its queue (line {short.lineno}) holds one message only",
-            "give create_subscription a queue depth of 10",
+            f"{text}, since its queue (line {depth.lineno}) holds one message only",
+            edits.describe_edits_of(file, edits.replace_node(file.text, depth, "10"))
+            or "give create_subscription a queue depth of 10",
         )
     return Cause(
         "cannot keep up",
-        f"{text}, since the queue was full",
-        "let rclpy.spin(node) wait for the messages, and do nothing in the callback that takes long",
+        f"{counted}: it drops the others, or they never reach its callback, since the queue is full",
+        rewriting.rewrite_callback(trace)
+        or "let rclpy.spin(node) wait for the messages, and do nothing in the callback that takes long",
     )
 
 
@@ -83,9 +88,11 @@ def _replace_by_spin(trace: Trace, loop: ast.While | ast.For) -> str | None:
     return edits.describe_edits_of(source.file_holding(trace, loop), edits.replace_statement(loop, code))
 
 
-def _find_short_queue(trace: Trace) -> ast.Call | None:
+def _find_short_queue(trace: Trace) -> ast.Constant | None:
+    """The depth of 1 that is given to the subscription."""
     for call in source.calls(trace, "create_subscription"):
         given = [*call.args[3:4], *(each.value for each in call.keywords if each.arg == "qos_profile")]
-        if any(isinstance(depth, ast.Constant) and depth.value == 1 for depth in given):
-            return call
+        for depth in given:
+            if isinstance(depth, ast.Constant) and depth.value == 1:
+                return depth
     return None
