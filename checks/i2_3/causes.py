@@ -12,7 +12,7 @@ from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
 from tutor.judge.causes import late_binding, names, spinning
-from tutor.judge.causes.period_slips import diagnose_no_autostart, diagnose_twin_timers
+from tutor.judge.causes.period_slips import diagnose_no_autostart, diagnose_self_cancelling, diagnose_twin_timers
 from tutor.judge.causes.slips import diagnose_unserved_node
 from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.trace import CallAnswer, Trace
@@ -164,6 +164,8 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
     source = started_node(seen.trace)
+    if timer.fault is not Fault.FAST and (cancelled := diagnose_self_cancelling(source)) is not None:
+        return cancelled
     if timer.fault is Fault.FAST:
         return Cause(
             "ticks in a burst",

@@ -455,3 +455,21 @@ def test_setattr_does_not_follow_dots(call: str, step: str | None) -> None:
     text = f"class A:\n    def f(self, p):\n        {call}\n\n    def __init__(self):\n        self.config = Config()\n"
     found = parameter_callback_slips.diagnose_broken_callback(node_file(text))
     assert (found.hint if found else None) == step
+
+
+@pytest.mark.parametrize(
+    ("body", "step"),
+    [
+        ("if self.n > 20:\n            self.timer.cancel()", "remove lines 6 to 7"),
+        ("self.destroy_timer(self.timer)", "remove line 6: self.destroy_timer(self.timer)"),
+        ("self.other.cancel()", None),
+        ("self.n += 1", None),
+    ],
+)
+def test_a_timer_that_its_own_callback_ends(body: str, step: str | None) -> None:
+    file = node_file(
+        "class A(Node):\n    def __init__(self):\n        self.timer = self.create_timer(0.1, self.tick)\n\n"
+        f"    def tick(self):\n        {body}\n        self.log()\n"
+    )
+    found = period_slips.diagnose_self_cancelling(file)
+    assert (found.hint if found else None) == step

@@ -91,6 +91,28 @@ def diagnose_no_autostart(file: NodeFile) -> Cause | None:
     return None
 
 
+def diagnose_self_cancelling(file: NodeFile) -> Cause | None:
+    """Whether a timer is cancelled or destroyed by its own callback, as after a number of ticks."""
+    for timer in file.timers:
+        callback, name = file.function(argument(timer, 1, "callback")), file.assigned_to(timer)
+        reached = file.reachable_from(callback) if callback is not None and name else []
+        for call in file.calls("cancel", "destroy_timer"):
+            if file.function_around(call) not in reached or name not in map(ast.unparse, (*call.args, *_owner(call))):
+                continue
+            statement = file.statement(call)
+            around = next(file.ancestors(statement))
+            if isinstance(around, ast.If) and around.body == [statement] and not around.orelse:
+                statement = around
+            step = file.step([remove_statement(file.text, statement)])
+            text = f"{where(call)} ends the timer from its own callback"
+            return Cause("timer cancelled", text, step) if step else None
+    return None
+
+
+def _owner(call: ast.Call) -> tuple[ast.expr, ...]:
+    return (call.func.value,) if isinstance(call.func, ast.Attribute) else ()
+
+
 def diagnose_milliseconds(file: NodeFile) -> Cause | None:
     """Whether a timer's period is a plain number that must be meant in milliseconds, as in rclcpp's `500ms`."""
     for period in _periods(file):
