@@ -121,7 +121,7 @@ def _wait_for_answer(code: Code, call: ast.Call, client: str, change: Changes) -
         return
     if not isinstance(statement, ast.Expr | ast.Assign | ast.AnnAssign | ast.Return | ast.AugAssign):
         return
-    if any(isinstance(each, _COMPREHENSIONS) for each in code.ancestors(call) if each in ast.walk(statement)):
+    if any(isinstance(each, _COMPREHENSIONS) for each in code.ancestors(call)):
         return
     request = f"future = {client}.call_async({ast.unparse(call.args[0])})"
     wait = f"{_spin_function(code)}({code.node_name(call)}, future)"

@@ -27,7 +27,7 @@ def _with_guard_step(cause: Cause, trace: Trace) -> Cause:
     found = tracebacks.last_traceback(trace)
     if found is not None and found.frames[-1].function == "send_response":
         return replace(cause, hint=service_steps.return_response(trace, "/divide") or cause.hint)
-    own = tracebacks.own_frame(reversed(found.frames), trace.folder) if found is not None else None
+    own = found.own(trace.folder) if found is not None else None
     logs = own is not None and _LOG_CALL.search(own.code) is not None
     if found is not None and (logs or found.type in ("AttributeError", "NameError")):  # of the error branch itself
         return with_applicable_step(cause, trace, lambda: services.guard_division(trace))

@@ -182,13 +182,13 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     if seen.trace.exit and (cause := causes.diagnose_process(seen.trace)):
         return cause
     read, trace = started_node(seen.trace), seen.trace
-    integer_period = (
+    period_slip = (
         period_slips.diagnose_integer_period(read)
         or period_slips.diagnose_nanoseconds(read)
         or period_slips.diagnose_period_attribute(read)
     )
     if rate is not None and rate.in_bursts:
-        return integer_period or causes.diagnose_bursts(steps.send_once_per_tick(trace))
+        return period_slip or causes.diagnose_bursts(steps.send_once_per_tick(trace))
     if rate is not None and rate.hz < asked and (asleep := period_slips.diagnose_sleep(read, asked)) is not None:
         return asleep
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
@@ -201,11 +201,11 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     if (rounded := diagnose_rounded_rate(rate, asked, steps.follow_changes(trace))) is not None:
         return rounded
     if rate is not None and rate.hz > asked:
-        return integer_period or causes.diagnose_old_timer(rate.hz, asked, steps.cancel_old_timer(trace))
+        return period_slip or causes.diagnose_old_timer(rate.hz, asked, steps.cancel_old_timer(trace))
     if rate is None and (loop := callback_slips.diagnose_loop_in_callback(read, whole_program(read))) is not None:
         return loop
     if rate is None or rate.agrees_with(1 / asked):
-        return integer_period or causes.diagnose_rate_as_period(RATE, steps.follow_changes(trace))
+        return period_slip or causes.diagnose_rate_as_period(RATE, steps.follow_changes(trace))
     return Cause("wrong rate", f"{rate.hz:.1f} Hz instead of {asked:g} Hz", steps.follow_changes(trace))
 
 
