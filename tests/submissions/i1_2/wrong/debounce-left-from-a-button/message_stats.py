@@ -7,7 +7,7 @@ from rclpy.node import Node
 from std_msgs.msg import String
 
 TOPIC = '/chatter'
-DEBOUNCE_S = 0.08   # ignore bouncing
+DEBOUNCE_S = 0.05   # ignore bouncing
 
 
 class Edge:
