@@ -17,11 +17,11 @@ CAUSE_NAMES = frozenset(name.casefold() for name in MEANINGS)
 
 
 def sample(cases: Sequence[Case]) -> list[Case]:
-    """Return every tenth right submission, and enough wrong ones to show each exercise's criteria and each cause.
+    """Return two right submissions of each exercise, and enough wrong ones to show its criteria and each cause.
 
     The choice does not depend on the order of `cases`: it goes by name, and takes those that show most first.
     """
-    right = sorted((case for case in cases if case.kind == RIGHT), key=str)[::10]
+    right = [case for exercise in {case.exercise for case in cases} for case in _first_and_middle(cases, exercise)]
     wrong = sorted((case for case in cases if case.kind == WRONG), key=str)
     chosen: list[Case] = []
     missing = set().union(*map(shows, wrong))
@@ -72,6 +72,11 @@ def shows(case: Case) -> frozenset[tuple[str, str]]:
     return frozenset(
         broken | {("cause", name) for name in _main_causes(expected.causes.values()) if name in CAUSE_NAMES}
     )
+
+
+def _first_and_middle(cases: Iterable[Case], exercise: str) -> list[Case]:
+    right = sorted((case for case in cases if (case.exercise, case.kind) == (exercise, RIGHT)), key=str)
+    return right if len(right) < 2 else [right[0], right[len(right) // 2]]
 
 
 def _symlinks(folder: Path) -> list[Path]:
