@@ -165,6 +165,11 @@ def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
     )
 
 
+def diagnose_timer_loop(trace: Trace) -> Cause | None:
+    """Diagnose messages in bursts as those of several timers that a loop makes."""
+    return period_slips.diagnose_timer_loop(file(trace))
+
+
 def diagnose_whole_rate(trace: Trace, name: str) -> Cause | None:
     """Diagnose a rate that is cut to a whole number, so that a small one becomes 0."""
     read = file(trace)

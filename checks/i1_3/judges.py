@@ -19,6 +19,7 @@ from checks.i1_3.facts import (
 from checks.i1_3.rewriting import with_applicable_steps
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names, spinning
+from tutor.judge.causes.uncalled import diagnose_uncalled_setup
 from tutor.judge.rewriting.callbacks import only_waits, outermost
 from tutor.judge.rewriting.node import node_file, started_node
 from tutor.judge.trace import CallAnswer, Trace
@@ -85,6 +86,8 @@ def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
         return destroyed
     if (inactive := causes.diagnose_lifecycle(trace)) is not None:
         return inactive
+    if (uncalled := diagnose_uncalled_setup(started_node(trace), "create_service")) is not None:
+        return uncalled
     cause = Cause(
         "service missing",
         f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there",

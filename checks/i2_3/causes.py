@@ -14,6 +14,7 @@ from tutor.judge import causes, tracebacks
 from tutor.judge.causes import late_binding, names, spinning
 from tutor.judge.causes.period_slips import diagnose_no_autostart, diagnose_self_cancelling, diagnose_twin_timers
 from tutor.judge.causes.slips import diagnose_unserved_node
+from tutor.judge.causes.uncalled import diagnose_uncalled_setup
 from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
@@ -53,7 +54,7 @@ def diagnose_no_service(trace: Trace) -> Cause:
             steps.fix_service(started_node(trace))
             or f"name it '{SERVICE[1:]}', spelled exactly like this, without a namespace or ~ in front",
         )
-    return Cause(
+    return diagnose_uncalled_setup(started_node(trace), "create_service") or Cause(
         "service missing",
         f"the node is up, but offers no {SERVICE}",
         steps.fix_service(started_node(trace))
@@ -135,6 +136,7 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
         return (
             printed
             or diagnose_no_autostart(source)
+            or diagnose_uncalled_setup(source, "create_timer")
             or tick_steps.diagnose_no_ticks(source)
             or Cause(
                 "no timer messages",

@@ -9,6 +9,7 @@ import pytest
 from tests.checks.builders import trace
 from tutor.judge.causes import late_binding, parameter_callback_slips, parameter_slips, period_slips, slips
 from tutor.judge.causes.printing import use_node_logger
+from tutor.judge.causes.uncalled import diagnose_uncalled_setup
 from tutor.judge.rewriting.node import node_file
 from tutor.judge.trace import Level, Trace
 
@@ -207,6 +208,21 @@ def test_a_timer_for_another_purpose_or_made_later_is_no_second_one(old: str, ne
     assert period_slips.diagnose_second_timer(node_file(TIMERS.replace(old, new))) is None
 
 
+@pytest.mark.parametrize(
+    ("loop", "step"),
+    [
+        (
+            "    for room in ROOMS:\n      self.create_timer(1 / rate, self.tick)\n",
+            "write below line 5, with the same indentation: break",
+        ),
+        ("    for room in ROOMS:\n      self.add(room)\n    self.create_timer(1 / rate, self.tick)\n", None),
+    ],
+)
+def test_a_loop_that_makes_timers_is_left_after_the_first_one(loop: str, step: str | None) -> None:
+    found = period_slips.diagnose_timer_loop(node_file(CLASS + loop))
+    assert (found.hint if found else None) == step
+
+
 LOGGER = "{}class N(Node):\n  def f(self):\n    {}\n    {}.info('x')\n"
 
 
@@ -296,15 +312,17 @@ def test_an_attribute_that_is_never_none() -> None:
     assert slips.diagnose_never_none(node_file(NEVER_NONE.format("self.stored()"))) is None
 
 
-def test_ros_arguments_that_were_taken_out() -> None:
+@pytest.mark.parametrize("given", ["remove_ros_args(sys.argv)", "sys.argv[2:]", "sys.argv[:1]"])
+def test_ros_arguments_that_were_taken_out(given: str) -> None:
     source = (
         "import rclpy\nimport sys\nfrom rclpy.utilities import remove_ros_args\n"
         "def main():\n    argv = {}\n    rclpy.init(args=argv)\n    rclpy.spin(rclpy.create_node('n'))\n"
     )
-    found = parameter_slips.diagnose_dropped_arguments(node_file(source.format("remove_ros_args(sys.argv)")))
+    found = parameter_slips.diagnose_dropped_arguments(node_file(source.format(given)))
     assert found is not None
     assert found.hint == "line 6 becomes: rclpy.init()"
-    assert parameter_slips.diagnose_dropped_arguments(node_file(source.format("sys.argv"))) is None
+    for whole in ("sys.argv", "sys.argv[1:]"):
+        assert parameter_slips.diagnose_dropped_arguments(node_file(source.format(whole))) is None
 
 
 @pytest.mark.parametrize("text", ["main", "__init__", "__name__"])
@@ -472,4 +490,38 @@ def test_a_timer_that_its_own_callback_ends(body: str, step: str | None) -> None
         f"    def tick(self):\n        {body}\n        self.log()\n"
     )
     found = period_slips.diagnose_self_cancelling(file)
+    assert (found.hint if found else None) == step
+
+
+UNCALLED = (
+    "import rclpy\n"
+    + CLASS
+    + """\
+    self.count = 0
+  def init(self):
+    self.create_service(AddTwoInts, 'add', self.add)
+"""
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "step"),
+    [
+        (UNCALLED, "write below line 5, with the same indentation: self.init()"),
+        (UNCALLED + "rclpy.init()\n", "write below line 5, with the same indentation: self.init()"),
+        (UNCALLED + "node = N()\nnode.init()\n", None),
+        (UNCALLED + "getattr(N(), 'init')()\n", None),
+        (UNCALLED.replace("init(self)", "init(self, name)"), None),
+        (
+            "class N(Node):\n  def open(self):\n    self.create_service(A, 'add', f)\nn = N()\nrclpy.spin(n)\n",
+            "write below line 4, with the same indentation: n.open()",
+        ),
+        (
+            "def open(node):\n  node.create_service(A, 'add', f)\ndef main():\n  n = N()\n  rclpy.spin(n)\n",
+            "write above line 5, with the same indentation: open(n)",
+        ),
+    ],
+)
+def test_a_function_that_makes_the_services_must_be_called(text: str, step: str | None) -> None:
+    found = diagnose_uncalled_setup(node_file(text), "create_service")
     assert (found.hint if found else None) == step

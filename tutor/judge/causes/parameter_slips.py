@@ -213,7 +213,17 @@ def _has_no_ros_arguments(file: NodeFile, given: ast.expr | None) -> bool:
     function = file.function_around(given) if given is not None else None
     assigned = values_of(ast.unparse(given), function or file.tree) if isinstance(given, ast.Name) else []
     found = [each for value in (given, *assigned) if value is not None for each in ast.walk(value)]
-    return any(isinstance(each, ast.Call) and called_name(each) == "remove_ros_args" for each in found)
+    return any(isinstance(each, ast.Call) and called_name(each) == "remove_ros_args" for each in found) or any(
+        map(_leaves_out_arguments, found)
+    )
+
+
+def _leaves_out_arguments(node: ast.AST) -> bool:
+    """Whether this is a part of sys.argv that leaves out more than the name of the program."""
+    match node:
+        case ast.Subscript(value=ast.Attribute(attr="argv"), slice=ast.Slice(lower=lower, upper=upper, step=None)):
+            return upper is not None or (isinstance(lower, ast.Constant) and lower.value not in (None, 0, 1))
+    return False
 
 
 def _target(assignment: ast.Assign | ast.AnnAssign) -> ast.expr:

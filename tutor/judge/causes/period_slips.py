@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
-from tutor.judge.edits import remove_statement, replace_node, replace_statement
+from tutor.judge.edits import insert_after, remove_statement, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import last_name, values_of, where
 from tutor.judge.verdict import Cause
@@ -136,6 +136,20 @@ def diagnose_twin_timers(file: NodeFile) -> Cause | None:
             text = f"lines {call.lineno} and {other.lineno} both make a timer with this period and callback"
             return Cause("two timers", text, step)
     return None
+
+
+def diagnose_timer_loop(file: NodeFile) -> Cause | None:
+    """Whether a loop makes several timers, such as one for each sensor, which all publish."""
+    if file.first_timer is None:
+        return None
+    function = file.function_around(file.first_timer)
+    around = takewhile(lambda node: node is not function, file.ancestors(file.first_timer))
+    loop = next((node for node in around if isinstance(node, ast.For)), None)
+    step = file.step([insert_after(loop.body[-1], "break")]) if loop is not None else None
+    if loop is None or step is None:
+        return None
+    text = f"the loop in line {loop.lineno} makes a timer each time, and each of them publishes at the rate asked for"
+    return Cause("several timers", text, step)
 
 
 def diagnose_second_timer(file: NodeFile) -> Cause | None:

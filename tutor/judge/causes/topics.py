@@ -12,6 +12,7 @@ from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
 from tutor.judge.causes.spinning import diagnose_spin_in_constructor
+from tutor.judge.causes.uncalled import diagnose_uncalled_setup
 from tutor.judge.edits import (
     Edit,
     append_to_function,
@@ -51,10 +52,15 @@ def diagnose_no_messages(
         return _diagnose_idle_publisher(trace, topic, step)
     if (cause := _diagnose_misplaced(trace, publishers, topic, type_name, "create_publisher")) is not None:
         return replace(cause, hint=step) if cause.name == names.WRONG_TYPE and step else cause
-    return diagnose_spin_in_constructor(started_node(trace)) or Cause(
-        "no publisher",
-        f"{node_names(trace)} is up, but has no publisher on {topic}",
-        step or f"create one in __init__: self.create_publisher({_class(type_name)}, '{topic}', 10)",
+    file = started_node(trace)
+    return (
+        diagnose_spin_in_constructor(file)
+        or diagnose_uncalled_setup(file, "create_publisher")
+        or Cause(
+            "no publisher",
+            f"{node_names(trace)} is up, but has no publisher on {topic}",
+            step or f"create one in __init__: self.create_publisher({_class(type_name)}, '{topic}', 10)",
+        )
     )
 
 
@@ -74,6 +80,7 @@ def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause
         or slips.diagnose_simulated_time(file)
         or slips.diagnose_unserved_node(file)
         or diagnose_spin_in_constructor(file)
+        or diagnose_uncalled_setup(file, "create_timer")
     )
     if slip is not None:
         return slip
@@ -108,6 +115,7 @@ def diagnose_nothing_received(
     return (
         _diagnose_misplaced(trace, subscriptions, ours.topic, ours.type, "create_subscription")
         or diagnose_spin_in_constructor(started_node(trace))
+        or diagnose_uncalled_setup(started_node(trace), "create_subscription")
         or Cause(
             "no subscription",
             f"{node_names(trace)} is up, but has no subscription on {ours.topic}",

@@ -60,6 +60,11 @@ def _callbacks(text: str, create: str) -> Iterator[Function]:
                 yield from SourceFile(text).functions_named(last_name(each))[-1:]
 
 
+def service_callbacks(text: str) -> list[Function]:
+    """The functions that answer the services."""
+    return list(_callbacks(text, "create_service"))
+
+
 def responses(text: str, words: Words) -> Sequence[Edit] | None:
     """Make every service callback that returns nothing return its response, and so the function `callback`."""
     found = {each.lineno: each for each in _callbacks(text, "create_service")}
@@ -110,6 +115,45 @@ def timer_parameters(text: str, words: Words) -> Sequence[Edit]:
         if len(function.args.args) > len(function.args.defaults) + len(kept):
             made += edits.replace_parameters(text, function, kept)
     return sorted(made, key=lambda edit: -edit.first)
+
+
+def done_callbacks(text: str, words: Words) -> Sequence[Edit]:
+    """Pass a callback to `add_done_callback` where it is called instead, with its other arguments bound."""
+    swaps: list[tuple[ast.expr, str]] = []
+    for node in syntax_nodes(text):
+        match node:
+            case ast.Call(
+                func=ast.Attribute(value=future, attr="add_done_callback"),
+                args=[ast.Call(func=callback, args=given, keywords=[]) as called],
+            ) if not given or ast.unparse(given[0]) == ast.unparse(future):
+                names = [each.id for each in given[1:] if isinstance(each, ast.Name)]
+                parameters = ", ".join(["done", *(f"{name}={name}" for name in names)])
+                arguments = ", ".join(["done", *map(ast.unparse, given[1:])])
+                becomes = f"lambda {parameters}: {ast.unparse(callback)}({arguments})"
+                swaps.append((called, becomes if given[1:] else ast.unparse(callback)))
+    return edits.replace_nodes(text, *swaps)
+
+
+def own_executors(text: str, words: Words) -> Sequence[Edit] | None:
+    """Spin each node in an executor of its own; None if the same node is spun twice."""
+    swaps: list[tuple[ast.expr, str]] = []
+    nodes: list[str] = []
+    for call in syntax_nodes(text):
+        match call:
+            case ast.Call(func=ast.Attribute(ast.Name("rclpy"), "spin"), args=[node], keywords=[]):
+                swaps.append((call, f"rclpy.spin({ast.unparse(node)}, SingleThreadedExecutor())"))
+                nodes.append(ast.unparse(node))
+            case ast.Call(keywords=given) if called_name(call) == "Thread":
+                values = {each.arg: each.value for each in given}
+                arguments = values.get("args")
+                if isinstance(arguments, ast.Tuple) and last_name(values.get("target")) == "spin":
+                    nodes += [ast.unparse(each) for each in arguments.elts[:1]]
+                    if len(arguments.elts) == 1:
+                        swaps.append((arguments, f"({nodes[-1]}, SingleThreadedExecutor())"))
+    if len(set(nodes)) < len(nodes):
+        return None
+    imported = edits.add_import(text, "from rclpy.executors import SingleThreadedExecutor")
+    return [*edits.replace_nodes(text, *swaps), *imported] if swaps else None
 
 
 def methods(text: str, words: Words) -> Sequence[Edit]:

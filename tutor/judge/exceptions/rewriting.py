@@ -11,10 +11,13 @@ from typing import TypeGuard
 from tutor.judge import edits
 from tutor.judge.edits import Edit
 from tutor.judge.exceptions.callback_rewriting import (
+    done_callbacks,
     instances,
     methods,
+    own_executors,
     raised,
     responses,
+    service_callbacks,
     service_parameters,
     timer_parameters,
 )
@@ -166,6 +169,23 @@ def rclcpp(text: str, words: Words) -> Sequence[Edit]:
     return edits.replace_nodes(text, *swaps)
 
 
+def fields(text: str, words: Words) -> Sequence[Edit] | None:
+    """Replace each field that the message does not have by its only one, in this function and in all like it."""
+    file, line = SourceFile(text), int(words["number"])
+    used = [each for each in file.nodes if isinstance(each, ast.Attribute)]
+    messages = {ast.unparse(each.value) for each in used if each.lineno == line and each.attr == words["field"]}
+    functions = [file.function_at(line), *(service_callbacks(text) if words["name"].endswith("_Response") else [])]
+    wrong = [
+        each
+        for each in used
+        if ast.unparse(each.value) in messages and each.attr != words["found"]
+        if file.function_around(each) in functions
+    ]
+    return edits.replace_nodes(
+        text, *((each, f"{ast.unparse(each.value)}.{words['found']}") for each in wrong if each.attr[:3] != "get")
+    )
+
+
 def seconds(text: str, words: Words) -> Sequence[Edit]:
     """Convert the difference of two times to seconds: where it is assigned, else where the line computes it."""
     file = SourceFile(text)
@@ -233,8 +253,11 @@ _REWRITERS = (
         shutdown_at_end,
         optional,
         items,
+        done_callbacks,
+        own_executors,
         methods,
         rclcpp,
+        fields,
         seconds,
         utf8,
     ),
