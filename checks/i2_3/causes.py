@@ -13,8 +13,8 @@ from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
 from tutor.judge.causes import late_binding, names, spinning
 from tutor.judge.causes.period_slips import diagnose_no_autostart, diagnose_self_cancelling, diagnose_twin_timers
-from tutor.judge.causes.slips import diagnose_unserved_node
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
+from tutor.judge.causes.unserved import diagnose_unserved_node
 from tutor.judge.rewriting.node import NodeFile, started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
@@ -135,6 +135,7 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
         )
         return (
             printed
+            or diagnose_unserved_node(source)
             or diagnose_no_autostart(source)
             or diagnose_uncalled_setup(source, "create_timer")
             or tick_steps.diagnose_no_ticks(source)

@@ -151,6 +151,8 @@ def what_timer_waits_for(file: NodeFile) -> str:
             "few threads"
         )
     group = _group(made)
+    if any(each.arg is None for each in made.keywords):  # the group is in a dict of options
+        return "both are in the same MutuallyExclusiveCallbackGroup"
     if not group:
         return "both are in the node's default group, which is a MutuallyExclusiveCallbackGroup"
     return f"both are in {group}, which is a MutuallyExclusiveCallbackGroup"
@@ -182,7 +184,8 @@ def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:
     given = next((each.value for each in call.keywords if each.arg == _GROUP), None)
     if given is not None:
         return replace_node(file.text, given, group)
-    code = ast.unparse(call)
+    unpacked = [each for each in call.keywords if each.arg is None]  # a dict of options, which may hold a group
+    code = ast.unparse(ast.Call(call.func, call.args, [each for each in call.keywords if each not in unpacked]))
     return replace_node(file.text, call, f"{code[:-1]}, {_GROUP}={group})")
 
 

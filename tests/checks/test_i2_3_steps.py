@@ -104,6 +104,11 @@ def test_a_single_thread_is_replaced_by_several(file: NodeFile, step: str) -> No
             "both are in self.group",
             "line 13 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())",
         ),
+        (
+            changed((", callback_group=self.group", ", **options()"), (", callback_group=self.other", ", **options()")),
+            "both are in the same MutuallyExclusiveCallbackGroup",
+            "line 14 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=self.group)",
+        ),
     ],
 )
 def test_a_timer_blocked_by_its_group_or_by_too_few_threads(file: NodeFile, held: str, step: str) -> None:

@@ -445,3 +445,18 @@ def test_rosout_is_enabled_if_logs_do_not_reach_it() -> None:
     found = diagnose_printed(trace(err=CONSOLE, sources={"node.py": text}), lambda said: "kx7" in said, "the name")
     assert found is not None
     assert found.hint == "line 3 becomes: super().__init__('a', enable_rosout=True)"
+
+
+@pytest.mark.parametrize(
+    ("handler", "cause"),
+    [
+        ("print(error.args[5])", "IndexError"),
+        ("raise RuntimeError('no') from error", "ZeroDivisionError"),
+        ("raise RuntimeError('no')", "ZeroDivisionError"),
+    ],
+)
+def test_a_mistake_in_an_exception_handler_is_explained_before_what_it_handles(handler: str, cause: str) -> None:
+    source = f"a = b = 0\ntry:\n    rate = 1 / (a - b)\nexcept ZeroDivisionError as error:\n    {handler}\n"
+    found = diagnose_process(trace(err=crash(source), exit=exited(1), sources={"node.py": source}))
+    assert found is not None
+    assert found.text.startswith(cause)

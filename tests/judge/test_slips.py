@@ -10,6 +10,7 @@ from tests.checks.builders import trace
 from tutor.judge.causes import late_binding, parameter_callback_slips, parameter_slips, period_slips, slips
 from tutor.judge.causes.printing import use_node_logger
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
+from tutor.judge.causes.unserved import diagnose_unserved_node
 from tutor.judge.rewriting.node import node_file
 from tutor.judge.trace import Level, Trace
 
@@ -103,7 +104,7 @@ CLASS = "class N(Node):\n  def __init__(self):\n    super().__init__('n')\n"
 @pytest.mark.parametrize("name", ["_services", "_timers", "_subscriptions"])
 def test_an_overwritten_list_of_the_node_gets_another_name(name: str) -> None:
     text = f"{CLASS}    self.{name}: dict = {{}}\n    self.{name}['a'] = 1\n"
-    found = slips.diagnose_unserved_node(node_file(text))
+    found = diagnose_unserved_node(node_file(text))
     assert found is not None
     new = name.replace("_", "my_", 1)
     assert set(found.hint.splitlines()) == {
@@ -117,17 +118,17 @@ def test_an_overwritten_list_of_the_node_gets_another_name(name: str) -> None:
     [f"{CLASS}    self.services_ = []", "class A:\n  def f(self):\n    self._timers = 1", f"{CLASS}    timers = []"],
 )
 def test_other_attributes_and_classes_are_not_reported(text: str) -> None:
-    assert slips.diagnose_unserved_node(node_file(text)) is None
+    assert diagnose_unserved_node(node_file(text)) is None
 
 
 MAIN = "def main():\n  helper = rclpy.create_node('h')\n  own = N()\n  rclpy.spin({})\n"
 
 
 def test_another_node_spun_is_named() -> None:
-    found = slips.diagnose_unserved_node(node_file(CLASS + MAIN.format("helper")))
+    found = diagnose_unserved_node(node_file(CLASS + MAIN.format("helper")))
     assert found is not None
     assert found.hint == "line 7 becomes: rclpy.spin(own)"
-    assert slips.diagnose_unserved_node(node_file(CLASS + MAIN.format("own"))) is None
+    assert diagnose_unserved_node(node_file(CLASS + MAIN.format("own"))) is None
 
 
 @pytest.mark.parametrize(
@@ -220,6 +221,28 @@ def test_a_timer_for_another_purpose_or_made_later_is_no_second_one(old: str, ne
 )
 def test_a_loop_that_makes_timers_is_left_after_the_first_one(loop: str, step: str | None) -> None:
     found = period_slips.diagnose_timer_loop(node_file(CLASS + loop))
+    assert (found.hint if found else None) == step
+
+
+@pytest.mark.parametrize(
+    ("spins", "step"),
+    [
+        (
+            "rclpy.spin(a)\nrclpy.spin(b)\n",
+            "remove line 4: rclpy.spin(b)\nline 3 becomes:\n    executor = MultiThreadedExecutor()\n"
+            "    executor.add_node(a)\n    executor.add_node(b)\n    executor.spin()\n"
+            "at the top of the file: from rclpy.executors import MultiThreadedExecutor",
+        ),
+        (
+            "x.add_node(a)\ny.add_node(b)\nx.spin()\ny.spin()\n",
+            "remove line 6: y.spin()\nline 4 becomes: x.add_node(b)",
+        ),
+        ("if second:\n  rclpy.spin(b)\nelse:\n  rclpy.spin(a)\n", None),
+        ("rclpy.spin(a)\n", None),
+    ],
+)
+def test_a_spin_after_another_one_is_never_reached(spins: str, step: str | None) -> None:
+    found = diagnose_unserved_node(node_file(f"import rclpy\nx, y = A(), B()\n{spins}"))
     assert (found.hint if found else None) == step
 
 

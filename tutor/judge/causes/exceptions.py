@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from dataclasses import replace
 
@@ -10,6 +11,7 @@ from tutor.judge.causes import names, parameters
 from tutor.judge.rewriting.node import node_file
 from tutor.judge.rewriting.parameters import declare_once
 from tutor.judge.rewriting.syntax import make_readable
+from tutor.judge.source import SourceFile
 from tutor.judge.step_parsing import is_applicable
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame, Traceback
@@ -42,11 +44,30 @@ def _unknown_exception_step(raised: Traceback, own: Frame | None) -> str:
 
 
 def diagnose_known_exception(found: Traceback, trace: Trace) -> Cause | None:
-    """The cause of the first exception of a chain, from its origin on, that the table of known exceptions has."""
+    """The cause of the first exception of a chain, from its origin on, that the table of known exceptions has.
+
+    If the program handles the origin, and a call in its handler fails, from the last exception on.
+    """
     chain = [found]
     while (before := chain[-1].follows) is not None:
         chain.append(before)
-    return next((cause for each in reversed(chain) if (cause := _look_up(each, found, trace)) is not None), None)
+    if not _fails_in_handler(found, trace):
+        chain.reverse()
+    return next((cause for each in chain if (cause := _look_up(each, found, trace)) is not None), None)
+
+
+def _fails_in_handler(found: Traceback, trace: Trace) -> bool:
+    """Whether the exception comes from a statement of the learner's exception handler other than a `raise`."""
+    own = found.own(trace.folder)
+    if found.follows is None or own is None:
+        return False
+    file = SourceFile(trace.sources.get(own.name, ""))
+    statement = file.statement_at(own.line)
+    return (
+        statement is not None
+        and not isinstance(statement, ast.Raise)
+        and any(isinstance(each, ast.ExceptHandler) for each in file.ancestors(statement))
+    )
 
 
 def _describe(each: Traceback, last: Traceback, trace: Trace) -> str:

@@ -15,7 +15,6 @@ from tutor.judge.trace import Level, Trace
 from tutor.judge.verdict import Cause
 
 _LEVELS = {"WARN": Level.WARN, "WARNING": Level.WARN, "ERROR": Level.ERROR, "FATAL": Level.FATAL}
-_NODE_LISTS = tuple(f"self._{each}" for each in ("timers", "subscriptions", "services", "clients", "guards"))
 _TRUTH_VALUES = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
 
 
@@ -169,41 +168,6 @@ def diagnose_events_executor(file: NodeFile) -> Cause | None:
         return None
     text = f"{source.where(made[0])}: this experimental executor runs no callbacks in the bundled ROS"
     return Cause("EventsExecutor", text, step)
-
-
-def diagnose_unserved_node(file: NodeFile) -> Cause | None:
-    """Whether executors cannot know what the node has to serve, or another node is spun in its place."""
-    return _diagnose_overwritten_attribute(file) or _diagnose_other_node_spun(file)
-
-
-def _diagnose_other_node_spun(file: NodeFile) -> Cause | None:
-    spins = [call for call in file.calls("spin") if len(call.args) == 1 and isinstance(call.args[0], ast.Name)]
-    made = {file.assigned_to(call): call for call in file.calls(*file.node_classes)}
-    helpers = {file.assigned_to(call) for call in file.calls("create_node", "Node")} - {""}
-    if len(spins) != 1 or len(made) != 1 or "" in made or file.calls("add_node"):
-        return None
-    spun, (name, own) = spins[0].args[0], next(iter(made.items()))
-    if ast.unparse(spun) not in helpers or file.function_around(own) is not file.function_around(spins[0]):
-        return None
-    step = file.step([edits.replace_node(file.text, spun, name)])
-    text = f"{source.where(spins[0])} runs the callbacks of {ast.unparse(spun)}, not those of {name}"
-    return Cause("another node spun", text, step) if step else None
-
-
-def _diagnose_overwritten_attribute(file: NodeFile) -> Cause | None:
-    """Whether the node overwrites a list of rclpy's Node that executors read, such as `self._services`."""
-    for each in file.nodes:
-        if not isinstance(each, ast.Assign | ast.AnnAssign):
-            continue
-        targets = each.targets if isinstance(each, ast.Assign) else [each.target]
-        taken = next((name for name in map(ast.unparse, targets) if name in _NODE_LISTS), None)
-        if taken is None or file.node_method(each) is None:
-            continue
-        step = file.step(edits.replace_pattern(file.text, rf"\b{re.escape(taken)}\b", taken.replace("._", ".my_")))
-        if step is not None:
-            text = f"{source.where(each)} overwrites {taken}, by which rclpy's Node knows what it has to serve"
-            return Cause("attribute of Node overwritten", text, step)
-    return None
 
 
 def diagnose_raised_level(file: NodeFile, lowest: int) -> Cause | None:

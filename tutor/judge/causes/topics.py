@@ -13,6 +13,7 @@ from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
 from tutor.judge.causes.spinning import diagnose_spin_in_constructor
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
+from tutor.judge.causes.unserved import diagnose_unserved_node
 from tutor.judge.edits import (
     Edit,
     append_to_function,
@@ -78,7 +79,7 @@ def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause
         or period_slips.diagnose_milliseconds(file)
         or period_slips.diagnose_no_autostart(file)
         or slips.diagnose_simulated_time(file)
-        or slips.diagnose_unserved_node(file)
+        or diagnose_unserved_node(file)
         or diagnose_spin_in_constructor(file)
         or diagnose_uncalled_setup(file, "create_timer")
     )
@@ -107,7 +108,7 @@ def diagnose_nothing_received(
             return replace(mismatched[0], hint=_use_plain_depth(trace, ours.topic) or mismatched[0].hint)
         if not answers:
             return diagnose_no_answer(trace, stuck)
-        return slips.diagnose_unserved_node(started_node(trace)) or Cause(
+        return diagnose_unserved_node(started_node(trace)) or Cause(
             "callback does nothing",
             f"there is a subscription on {ours.topic}, but its messages have no effect",
             "is the right callback given to create_subscription, and the subscription kept in self?",

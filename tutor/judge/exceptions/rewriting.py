@@ -26,6 +26,9 @@ from tutor.judge.known_exception import Words
 from tutor.judge.rewriting.syntax import repair
 from tutor.judge.source import SourceFile, called_name, last_name, syntax_nodes
 
+_SETUP = re.compile(r"super\(.*\)\.__init__\(|Node\.__init__\(")
+"""A statement that sets rclpy's Node up."""
+
 
 def imported(text: str, words: Words) -> Sequence[Edit] | None:
     """Import a name from the module that has it, and correct its spelling wherever it is used."""
@@ -90,6 +93,23 @@ def before_destroying(text: str, words: Words) -> Sequence[Edit] | None:
             code = textwrap.dedent("\n".join(text.splitlines()[moved.lineno - 1 : moved.end_lineno]))
             return [edits.remove_statement(text, moved), edits.insert_above(before[0].lineno, code)]
     return None
+
+
+def node_first(text: str, words: Words) -> Sequence[Edit] | None:
+    """Set rclpy's Node up, by `super().__init__`, above the first statement that uses it in the same constructor."""
+    for function in SourceFile(text).functions_named("__init__"):
+        first = next((each for each in function.body if _uses_self(each)), None)
+        if first is not None and "__init__(" not in ast.unparse(first):
+            for each in function.body:
+                if isinstance(each, ast.Expr) and _SETUP.match(code := ast.unparse(each)):
+                    return [edits.insert_above(first.lineno, code), edits.remove_statement(text, each)]
+    return None
+
+
+def _uses_self(statement: ast.stmt) -> bool:
+    """Whether a statement calls a method of `self`, or of the parent class."""
+    calls = [ast.unparse(each.func) for each in ast.walk(statement) if isinstance(each, ast.Call)]
+    return any(re.match(r"self\.|super\(|Node\.__init__", each) for each in calls)
 
 
 def shutdown_at_end(text: str, words: Words) -> Sequence[Edit] | None:
@@ -170,7 +190,10 @@ def rclcpp(text: str, words: Words) -> Sequence[Edit]:
 
 
 def fields(text: str, words: Words) -> Sequence[Edit] | None:
-    """Replace each field that the message does not have by its only one, in this function and in all like it."""
+    """Replace each field that the message does not have by its only one, in this function and in all like it.
+
+    A text for an integer field is logged as an error instead, and a truth value becomes 0.
+    """
     file, line = SourceFile(text), int(words["number"])
     used = [each for each in file.nodes if isinstance(each, ast.Attribute)]
     messages = {ast.unparse(each.value) for each in used if each.lineno == line and each.attr == words["field"]}
@@ -181,9 +204,29 @@ def fields(text: str, words: Words) -> Sequence[Edit] | None:
         if ast.unparse(each.value) in messages and each.attr != words["found"]
         if file.function_around(each) in functions
     ]
-    return edits.replace_nodes(
-        text, *((each, f"{ast.unparse(each.value)}.{words['found']}") for each in wrong if each.attr[:3] != "get")
-    )
+    wrong = [each for each in wrong if each.attr[:3] != "get"]
+    is_integer = words["name"] == "AddTwoInts_Response"
+    logged = [
+        edits.replace_statement(each, f"self.get_logger().error({ast.unparse(each.value)})")
+        for each in file.nodes
+        if isinstance(each, ast.Assign) and each.targets[0] in wrong and is_integer and _is_text(each.value)
+        if file.class_of(each) is not None
+    ]
+    lines = {edit.first for edit in logged}
+    swaps: list[tuple[ast.expr, str]] = [
+        (each, f"{ast.unparse(each.value)}.{words['found']}") for each in wrong if each.lineno not in lines
+    ]
+    swaps += [
+        (each.value, "0")
+        for each in file.nodes
+        if isinstance(each, ast.Assign) and each.targets[0] in wrong and is_integer
+        if isinstance(each.value, ast.Constant) and isinstance(each.value.value, bool)
+    ]
+    return [*edits.replace_nodes(text, *swaps), *logged]
+
+
+def _is_text(value: ast.expr) -> bool:
+    return isinstance(value, ast.JoinedStr) or (isinstance(value, ast.Constant) and isinstance(value.value, str))
 
 
 def seconds(text: str, words: Words) -> Sequence[Edit]:
@@ -250,6 +293,7 @@ _REWRITERS = (
         service_parameters,
         timer_parameters,
         before_destroying,
+        node_first,
         shutdown_at_end,
         optional,
         items,

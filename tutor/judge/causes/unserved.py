@@ -1,0 +1,80 @@
+"""Why the executor never serves a node, as the learner's source shows: the cause, with the step."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from tutor.judge import edits, source
+from tutor.judge.edits import Edit
+from tutor.judge.rewriting.node import NodeFile
+from tutor.judge.verdict import Cause
+
+_NODE_LISTS = tuple(f"self._{each}" for each in ("timers", "subscriptions", "services", "clients", "guards"))
+
+
+def diagnose_unserved_node(file: NodeFile) -> Cause | None:
+    """Whether executors cannot know what the node has to serve, or another node is spun in its place."""
+    return _diagnose_overwritten_attribute(file) or _diagnose_other_node_spun(file) or _diagnose_second_spin(file)
+
+
+def _diagnose_other_node_spun(file: NodeFile) -> Cause | None:
+    spins = [call for call in file.calls("spin") if len(call.args) == 1 and isinstance(call.args[0], ast.Name)]
+    made = {file.assigned_to(call): call for call in file.calls(*file.node_classes)}
+    helpers = {file.assigned_to(call) for call in file.calls("create_node", "Node")} - {""}
+    if len(spins) != 1 or len(made) != 1 or "" in made or file.calls("add_node"):
+        return None
+    spun, (name, own) = spins[0].args[0], next(iter(made.items()))
+    if ast.unparse(spun) not in helpers or file.function_around(own) is not file.function_around(spins[0]):
+        return None
+    step = file.step([edits.replace_node(file.text, spun, name)])
+    text = f"{source.where(spins[0])} runs the callbacks of {ast.unparse(spun)}, not those of {name}"
+    return Cause("another node spun", text, step) if step else None
+
+
+def _diagnose_overwritten_attribute(file: NodeFile) -> Cause | None:
+    """Whether the node overwrites a list of rclpy's Node that executors read, such as `self._services`."""
+    for each in file.nodes:
+        if not isinstance(each, ast.Assign | ast.AnnAssign):
+            continue
+        targets = each.targets if isinstance(each, ast.Assign) else [each.target]
+        taken = next((name for name in map(ast.unparse, targets) if name in _NODE_LISTS), None)
+        if taken is None or file.node_method(each) is None:
+            continue
+        step = file.step(edits.replace_pattern(file.text, rf"\b{re.escape(taken)}\b", taken.replace("._", ".my_")))
+        if step is not None:
+            text = f"{source.where(each)} overwrites {taken}, by which rclpy's Node knows what it has to serve"
+            return Cause("attribute of Node overwritten", text, step)
+    return None
+
+
+def _diagnose_second_spin(file: NodeFile) -> Cause | None:
+    """Whether a node is spun only after another one, whose spin returns when the program ends."""
+    spins = [each for each in file.calls("spin") if isinstance(file.statement(each), ast.Expr)]
+    for node in file.nodes:
+        block = getattr(node, "body", None)
+        here = [each for each in spins if isinstance(block, list) and file.statement(each) in block]
+        if len({ast.unparse(each) for each in here}) < 2:
+            continue
+        first, *later = here
+        step = file.step(_spin_together(file, first, later))
+        text = f"{source.where(later[0])} is never reached, because line {first.lineno} spins until the program ends"
+        return Cause("second spin", text, step) if step else None
+    return None
+
+
+def _spin_together(file: NodeFile, first: ast.Call, later: list[ast.Call]) -> list[Edit]:
+    """Let one executor with several threads spin the nodes of all these calls."""
+    removed = [edits.remove_statement(file.text, file.statement(each)) for each in later]
+    if all(len(each.args) == 1 for each in (first, *later)):  # rclpy.spin(node)
+        name, imported = file.import_name("MultiThreadedExecutor", "rclpy.executors")
+        added = [f"executor.add_node({ast.unparse(each.args[0])})" for each in (first, *later)]
+        code = "\n".join([f"executor = {name}()", *added, "executor.spin()"])
+        return [edits.replace_statement(file.statement(first), code), *removed, *imported]
+    owners = [ast.unparse(each.func.value) for each in (first, *later) if isinstance(each.func, ast.Attribute)]
+    moved = [
+        edits.replace_node(file.text, each.func.value, owners[0])
+        for each in file.calls("add_node")
+        if isinstance(each.func, ast.Attribute) and ast.unparse(each.func.value) in owners[1:]
+    ]
+    return [*moved, *removed] if moved and not any(each.args for each in (first, *later)) else []
