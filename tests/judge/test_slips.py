@@ -246,6 +246,20 @@ def test_a_spin_after_another_one_is_never_reached(spins: str, step: str | None)
     assert (found.hint if found else None) == step
 
 
+@pytest.mark.parametrize(
+    ("text", "refuses"),
+    [
+        ("if len(sys.argv) > 1:\n  print('usage:', sys.argv[0])\n  sys.exit(1)\n", True),
+        ("def main():\n  if len(sys.argv) != 1:\n    return\n  run()\n", True),
+        ("if len(sys.argv) < 2:\n  sys.exit(1)\nrate = float(sys.argv[1])\n", False),
+        ("if len(sys.argv) > 1:\n  print('no')\n", False),
+    ],
+)
+def test_a_program_that_refuses_arguments(text: str, refuses: bool) -> None:
+    found = slips.diagnose_argument_guard(node_file(text))
+    assert (found is not None and found.hint.startswith("remove line")) == refuses
+
+
 LOGGER = "{}class N(Node):\n  def f(self):\n    {}\n    {}.info('x')\n"
 
 

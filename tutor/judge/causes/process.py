@@ -71,6 +71,8 @@ def _diagnose_exit(trace: Trace) -> Cause:
         return Cause("killed", f"{ended} ({_signal_name(trace.exit.signal)})", "see the last lines of its output")
     if (found := _diagnose_usage(trace) or diagnose_logged_exception(trace)) is not None:
         return found
+    if (guard := slips.diagnose_argument_guard(started_node(trace))) is not None:
+        return replace(guard, text=f"{ended}: {guard.text}")
     if trace.exit.code == 0 and (early_end := spinning.diagnose_early_end(trace, ended)) is not None:
         return early_end
     if (exits := callback_slips.diagnose_exit_in_callback(started_node(trace), ended)) is not None:

@@ -15,6 +15,7 @@ from tutor.judge.trace import Level, Trace
 from tutor.judge.verdict import Cause
 
 _LEVELS = {"WARN": Level.WARN, "WARNING": Level.WARN, "ERROR": Level.ERROR, "FATAL": Level.FATAL}
+_EXITS = ("exit", "_exit", "quit")
 _TRUTH_VALUES = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}
 
 
@@ -121,6 +122,23 @@ def diagnose_main_guard(file: NodeFile) -> Cause | None:
                 step = file.step([edits.replace_node(file.text, compared, "'__main__'")])
                 if step is not None:
                     return Cause("no main call", f"line {node.lineno}: __name__ is never {text!r}", step)
+    return None
+
+
+def diagnose_argument_guard(file: NodeFile) -> Cause | None:
+    """Whether the program ends by itself because of the number of its arguments, which it does not use at all."""
+    subscripts = [ast.unparse(each) for each in file.nodes if isinstance(each, ast.Subscript)]
+    used = [each for each in subscripts if each.startswith("sys.argv[") and each != "sys.argv[0]"]
+    for each in file.nodes:
+        if not isinstance(each, ast.If) or each.orelse or used or "len(sys.argv)" not in ast.unparse(each.test):
+            continue
+        ends = isinstance(each.body[-1], ast.Raise | ast.Return) or source.calls_in(each.body[-1], *_EXITS)
+        step = file.step([edits.remove_statement(file.text, each)]) if ends else None
+        if step is not None:
+            text = (
+                f"line {each.lineno}: if {ast.unparse(each.test)}: ROS passes arguments of its own, such as parameters"
+            )
+            return Cause("arguments refused", text, step)
     return None
 
 
