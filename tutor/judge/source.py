@@ -61,6 +61,12 @@ class SourceFile:
         """The innermost statement that contains, or is, a syntax node."""
         return next(each for each in (node, *self.ancestors(node)) if isinstance(each, ast.stmt))
 
+    def block_of(self, statement: ast.stmt) -> list[ast.stmt]:
+        """The block of statements that contains this one; empty if it is not of this file."""
+        parent = next(self.ancestors(statement), None)
+        blocks = (getattr(parent, name, None) for name in ("body", "orelse", "finalbody"))
+        return next((block for block in blocks if isinstance(block, list) and statement in block), [])
+
     def calls(self, *names: str) -> list[ast.Call]:
         """The calls of functions and methods with these names, in source order."""
         found = [each for each in self.nodes if isinstance(each, ast.Call) and called_name(each) in names]

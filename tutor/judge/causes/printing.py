@@ -89,10 +89,8 @@ def log_instead_of_print(trace: Trace, call: ast.Call) -> str:
 def _neighbours(file: source.SourceFile, call: ast.Call) -> list[tuple[ast.stmt, ast.Call]]:
     """The uninterrupted series of statements around this call that are nothing but calls, with these calls."""
     statement = file.statement(call)
-    blocks = (getattr(next(file.ancestors(statement), None), name, None) for name in ("body", "orelse", "finalbody"))
-    block = next((each for each in blocks if isinstance(each, list) and statement in each), [statement])
     series: list[tuple[ast.stmt, ast.Call]] = []
-    for each in block:
+    for each in file.block_of(statement) or [statement]:
         if isinstance(each, ast.Expr) and isinstance(each.value, ast.Call):
             series.append((each, each.value))
         elif any(found is statement for found, _ in series):

@@ -160,10 +160,7 @@ def _spin_at_end(trace: Trace, node: str, line: int) -> str | None:
     """The step that spins a node once everything is set up: above the program's cleanup, or at its end."""
     file = started_node(trace)
     made = file.statement_at(line)
-    bodies = [body for each in ast.walk(file.tree) if isinstance(body := getattr(each, "body", None), list)]
-    body = next(
-        (each for each in bodies if any(made is not None and other.lineno == made.lineno for other in each)), []
-    )
+    body = file.block_of(made) if made is not None else []
     after = [each for each in body if each.lineno > line]
     cleanup = [each for each in after if source.calls_in(each, *_CLEANUP) or "__name__" in ast.unparse(each)]
     code = f"rclpy.spin({node})"

@@ -51,12 +51,11 @@ def _diagnose_overwritten_attribute(file: NodeFile) -> Cause | None:
 def _diagnose_second_spin(file: NodeFile) -> Cause | None:
     """Whether a node is spun only after another one, whose spin returns when the program ends."""
     spins = [each for each in file.calls("spin") if isinstance(file.statement(each), ast.Expr)]
-    for node in file.nodes:
-        block = getattr(node, "body", None)
-        here = [each for each in spins if isinstance(block, list) and file.statement(each) in block]
-        if len({ast.unparse(each) for each in here}) < 2:
+    for first in spins:
+        block = file.block_of(file.statement(first))
+        later = [each for each in spins if each is not first and file.statement(each) in block]
+        if all(ast.unparse(each) == ast.unparse(first) for each in later):
             continue
-        first, *later = here
         step = file.step(_spin_together(file, first, later))
         text = f"{source.where(later[0])} is never reached, because line {first.lineno} spins until the program ends"
         return Cause("second spin", text, step) if step else None

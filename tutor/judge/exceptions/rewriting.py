@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import textwrap
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TypeGuard
 
 from tutor.judge import edits
@@ -87,8 +87,8 @@ def before_destroying(text: str, words: Words) -> Sequence[Edit] | None:
         each for each in file.nodes if function and isinstance(each, ast.Call) and called_name(each) == function.name
     ]
     for moved in filter(None, [statement, *map(file.statement, calls)]):
-        block = next((each for each in _blocks(file.tree) if moved in each), [])
-        before = [each for each in block[: block.index(moved)] if _destroys(each)] if moved in block else []
+        block = file.block_of(moved)
+        before = [each for each in block[: block.index(moved)] if _destroys(each)] if block else []
         if before and isinstance(moved, ast.Expr):
             code = textwrap.dedent("\n".join(text.splitlines()[moved.lineno - 1 : moved.end_lineno]))
             return [edits.remove_statement(text, moved), edits.insert_above(before[0].lineno, code)]
@@ -125,17 +125,10 @@ def shutdown_at_end(text: str, words: Words) -> Sequence[Edit] | None:
     ]
     calls = [each for each in file.nodes if isinstance(each, ast.Call) and called_name(each) == words["function"]]
     last = max((file.statement(each) for each in calls), key=lambda each: each.lineno, default=None)
-    block = next((each for each in _blocks(file.tree) if last in each), [])
+    block = file.block_of(last) if last is not None else []
     if not ends or not block:
         return None
     return [edits.insert_after(block[-1], ast.unparse(ends[0])), *(edits.remove_statement(text, each) for each in ends)]
-
-
-def _blocks(tree: ast.AST) -> Iterator[list[ast.stmt]]:
-    for node in ast.walk(tree):
-        for name in ("body", "orelse", "finalbody"):
-            if isinstance(block := getattr(node, name, None), list):
-                yield block
 
 
 def _destroys(statement: ast.stmt) -> bool:
