@@ -91,6 +91,10 @@ def _with_step(cause: Cause, seen: ClientRun) -> Cause:
     trace, own = seen.trace, tracebacks.own_frame(seen.stuck, seen.trace.folder)
     found = tracebacks.last_traceback(trace)
     raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
+    if cause.name == "did not end" and own is not None and not _missing(seen):
+        files = [code for code in learner_files(trace) if code.file == own.name]
+        if (hint := next(filter(None, (steps.shorten_loop(code, own.line) for code in files)), None)) is not None:
+            return replace(cause, hint=hint)
     if cause.name == "did not end" and own is not None and "sleep(" in own.code:
         fixes: Sequence[_Step] = [partial(_remove_calls, names=("sleep",))]
         if not _missing(seen):

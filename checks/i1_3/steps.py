@@ -163,6 +163,17 @@ def move_return(code: Code) -> tuple[ast.For, ast.Return, str] | None:
     return None
 
 
+def shorten_loop(code: Code, line: int) -> str | None:
+    """Step: let a loop around this line that goes on while something is at most a number end one earlier."""
+    for each in code.nodes:
+        if isinstance(each, ast.While) and each.lineno <= line <= (each.end_lineno or 0):
+            for test in ast.walk(each.test):
+                if isinstance(test, ast.Compare) and len(test.ops) == 1 and isinstance(test.ops[0], ast.LtE):
+                    shorter = ast.unparse(ast.Compare(test.left, [ast.Lt()], test.comparators))
+                    return code.as_step(edits.replace_node(code.text, test, shorter))
+    return None
+
+
 def shut_down_rclpy(code: Code, joined_at: int = 0) -> str | None:
     """Step: shut down rclpy at the end of the program, which also ends a spinning thread.
 

@@ -295,3 +295,21 @@ def test_a_thread_that_outlives_the_client_becomes_a_daemon() -> None:
     daemon = kept.replace("daemon=False", "daemon=True")
     assert follow_step(kept, step) == daemon
     assert follow_step(daemon, step) is None
+
+
+LOOP = """\
+def run(node):
+    got = 0
+    while rclpy.ok() and got {} len(NAMES):
+        rclpy.spin_once(node)
+        got += 1
+"""
+
+
+def test_a_loop_that_waits_for_one_answer_too_many() -> None:
+    code = Code(LOOP.format("<="), "client.py")
+    step = steps.shorten_loop(code, 4)
+    assert step is not None
+    assert step.endswith("line 3 becomes: while rclpy.ok() and got < len(NAMES):")
+    assert steps.shorten_loop(code, 2) is None
+    assert steps.shorten_loop(Code(LOOP.format("<"), "client.py"), 4) is None
