@@ -17,11 +17,11 @@ from tutor.judge.exceptions.callback_rewriting import (
     own_executors,
     raised,
     responses,
-    service_callbacks,
     service_parameters,
     timer_parameters,
 )
 from tutor.judge.exceptions.log_rewriting import log, logged_less, receiver, rospy_logs, severities
+from tutor.judge.exceptions.message_rewriting import fields, message_types, types_first
 from tutor.judge.known_exception import Words
 from tutor.judge.rewriting.syntax import repair
 from tutor.judge.source import SourceFile, called_name, last_name, syntax_nodes
@@ -42,25 +42,6 @@ def imported(text: str, words: Words) -> Sequence[Edit] | None:
     uses = [each for each in syntax_nodes(text) if isinstance(each, ast.Name) and each.id == name and correct != name]
     swaps = [] if alias.asname else edits.replace_nodes(text, *((each, correct) for each in uses))
     return [edits.replace_imports(statement, [(alias, words["found"])]), *swaps]
-
-
-def types_first(text: str, words: Words) -> Sequence[Edit]:
-    """Swap type and name in each call that creates a publisher, subscription, service or client with the name first."""
-    swaps: list[tuple[ast.expr, str]] = []
-    for call in syntax_nodes(text):
-        if not isinstance(call, ast.Call) or not re.fullmatch(r"create_(?!timer|rate)\w+", called_name(call)):
-            continue
-        name, kind = (*call.args, None, None)[:2]
-        last = ast.unparse(kind).rpartition(".")[2] if isinstance(kind, ast.Name | ast.Attribute) else ""
-        first = ast.unparse(name).rpartition(".")[2] if name is not None else ""
-        if name is None or kind is None or not _looks_like_type(last) or _looks_like_type(first):
-            continue
-        swaps += [(name, ast.unparse(kind)), (kind, ast.unparse(name))]
-    return edits.replace_nodes(text, *swaps)
-
-
-def _looks_like_type(name: str) -> bool:
-    return name[:1].isupper() and not name.isupper()
 
 
 def without(text: str, words: Words) -> Sequence[Edit] | None:
@@ -182,46 +163,6 @@ def rclcpp(text: str, words: Words) -> Sequence[Edit]:
     return edits.replace_nodes(text, *swaps)
 
 
-def fields(text: str, words: Words) -> Sequence[Edit] | None:
-    """Replace each field that the message does not have by its only one, in this function and in all like it.
-
-    A text for an integer field is logged as an error instead, and a truth value becomes 0.
-    """
-    file, line = SourceFile(text), int(words["number"])
-    used = [each for each in file.nodes if isinstance(each, ast.Attribute)]
-    messages = {ast.unparse(each.value) for each in used if each.lineno == line and each.attr == words["field"]}
-    functions = [file.function_at(line), *(service_callbacks(text) if words["name"].endswith("_Response") else [])]
-    wrong = [
-        each
-        for each in used
-        if ast.unparse(each.value) in messages and each.attr != words["found"]
-        if file.function_around(each) in functions
-    ]
-    wrong = [each for each in wrong if each.attr[:3] != "get"]
-    is_integer = words["name"] == "AddTwoInts_Response"
-    logged = [
-        edits.replace_statement(each, f"self.get_logger().error({ast.unparse(each.value)})")
-        for each in file.nodes
-        if isinstance(each, ast.Assign) and each.targets[0] in wrong and is_integer and _is_text(each.value)
-        if file.class_of(each) is not None
-    ]
-    lines = {edit.first for edit in logged}
-    swaps: list[tuple[ast.expr, str]] = [
-        (each, f"{ast.unparse(each.value)}.{words['found']}") for each in wrong if each.lineno not in lines
-    ]
-    swaps += [
-        (each.value, "0")
-        for each in file.nodes
-        if isinstance(each, ast.Assign) and each.targets[0] in wrong and is_integer
-        if isinstance(each.value, ast.Constant) and isinstance(each.value.value, bool)
-    ]
-    return [*edits.replace_nodes(text, *swaps), *logged]
-
-
-def _is_text(value: ast.expr) -> bool:
-    return isinstance(value, ast.JoinedStr) or (isinstance(value, ast.Constant) and isinstance(value.value, str))
-
-
 def seconds(text: str, words: Words) -> Sequence[Edit]:
     """Convert the difference of two times to seconds: where it is assigned, else where the line computes it."""
     file = SourceFile(text)
@@ -295,6 +236,7 @@ _REWRITERS = (
         methods,
         rclcpp,
         fields,
+        message_types,
         seconds,
         utf8,
     ),
