@@ -28,11 +28,11 @@ def service(file: NodeFile) -> ast.Call | None:
 
 
 def timer(file: NodeFile) -> ast.Call | None:
-    """The call that creates the timer: of several, one whose callback logs."""
+    """The call that creates the timer: of several, one whose callback logs, and of these, one with the right period."""
     made = [each for each in file.timers if argument(each, 1, "callback") is not None]
-    return next(
-        (each for each in made if (found := timer_callback(file, each)) and _logs(found)), next(iter(made), None)
-    )
+    logging = [each for each in made if (found := timer_callback(file, each)) and _logs(found)]
+    right = [each for each in logging if number(each.args[0] if each.args else each) == 1 / HZ]
+    return next(iter(right or logging or made), None)
 
 
 def service_callback(file: NodeFile) -> Function | None:

@@ -101,10 +101,24 @@ def _fix_executor(file: NodeFile) -> list[Edit]:
     if spun is not None and multi is not None and (kept := file.assigned_to(multi)) and len(spun.args) == 1:
         node = ast.unparse(spun.args[0])
         added = "" if file.calls("add_node") else f"{kept}.add_node({node})\n"
-        return [replace_statement(spun, f"{added}{kept}.spin()")]
+        few = argument(multi, 0, "num_threads")
+        enough = [replace_node(file.text, few, str(_THREADS))] if few is not None and ast.unparse(few) == "1" else []
+        return [replace_statement(spun, f"{added}{kept}.spin()"), *_remove_spinning_threads(file, kept), *enough]
     if spun is None and multi is None and single is not None:
         return [*imported, replace_node(file.text, single, f"{name}(num_threads={_THREADS})")]
     return rewriting.rewrite_program(file)
+
+
+def _remove_spinning_threads(file: NodeFile, executor: str) -> list[Edit]:
+    """Remove the threads that spin this executor, with the statements that start and join them."""
+    removed: list[Edit] = []
+    for made in file.calls("Thread"):
+        target = next((ast.unparse(each.value) for each in made.keywords if each.arg == "target"), "")
+        if target == f"{executor}.spin":
+            thread = file.assigned_to(made)
+            uses = [each for each in file.calls("start", "join") if thread == ast.unparse(each.func).rpartition(".")[0]]
+            removed += [remove_statement(file.text, file.statement(each)) for each in (made, *uses)]
+    return removed
 
 
 def _with_group_edits(file: NodeFile, edits: list[Edit]) -> list[Edit]:
@@ -181,7 +195,7 @@ def _group_edits(file: NodeFile) -> list[Edit]:
 
 def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:
     """Create the timer or service of this call in another callback group."""
-    given = next((each.value for each in call.keywords if each.arg == _GROUP), None)
+    given = _given_group(call)
     if given is not None:
         return replace_node(file.text, given, group)
     unpacked = [each for each in call.keywords if each.arg is None]  # a dict of options, which may hold a group
@@ -191,12 +205,18 @@ def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:
 
 def _group(call: ast.Call) -> str:
     """The expression for the callback group of a timer or service; "" is the node's default group."""
-    given = next((ast.unparse(each.value) for each in call.keywords if each.arg == _GROUP), "")
-    return "" if given in ("None", "self.default_callback_group") else given
+    given = _given_group(call)
+    code = ast.unparse(given) if given is not None else ""
+    return "" if code in ("None", "self.default_callback_group") else code
+
+
+def _given_group(call: ast.Call) -> ast.expr | None:
+    return argument(call, 2 if called_name(call) == "create_timer" else len(call.args), _GROUP)
 
 
 def _is_reentrant(file: NodeFile, group: str) -> bool:
-    return "Reentrant" in group or any(file.assigned_to(each) == group for each in file.calls("ReentrantCallbackGroup"))
+    made = {file.assigned_to(each) for each in file.calls("ReentrantCallbackGroup")} - {""}
+    return "Reentrant" in group or group in made
 
 
 def allow_overlap(file: NodeFile) -> str | None:

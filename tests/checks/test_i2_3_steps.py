@@ -77,6 +77,19 @@ def changed(*pairs: tuple[str, str]) -> NodeFile:
             "line 30 becomes: executor = MultiThreadedExecutor(num_threads=8)\n"
             "at the top of the file: from rclpy.executors import MultiThreadedExecutor",
         ),
+        (
+            changed(
+                ("num_threads=4", "1"),
+                (
+                    "executor.spin()",
+                    "thread = Thread(target=executor.spin, daemon=True)\n    thread.start()\n    rclpy.spin(node)",
+                ),
+            ),
+            "line 34 becomes: executor.spin()\n"
+            "remove line 33: thread.start()\n"
+            "remove line 32: thread = Thread(target=executor.spin, daemon=True)\n"
+            "line 30 becomes: executor = MultiThreadedExecutor(8)",
+        ),
     ],
 )
 def test_a_single_thread_is_replaced_by_several(file: NodeFile, step: str) -> None:
@@ -102,6 +115,15 @@ def test_a_single_thread_is_replaced_by_several(file: NodeFile, step: str) -> No
                 (GROUPS, "        self.group = MutuallyExclusiveCallbackGroup()\n"), ("=self.other", "=self.group")
             ),
             "both are in self.group",
+            "line 13 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())",
+        ),
+        (  # another timer, faster, has a group of its own
+            changed(
+                (", callback_group=self.group", ""),
+                (GROUPS, "        self.create_timer(0.02, self.tick, ReentrantCallbackGroup())\n"),
+                ("0.1, self.tick, callback_group=self.other", "0.1, self.tick"),
+            ),
+            "the node's default group",
             "line 13 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())",
         ),
         (

@@ -60,7 +60,7 @@ def _looks_like_type(name: str) -> bool:
 def fields(text: str, words: Words) -> Sequence[Edit] | None:
     """Replace each field that the message does not have by its only one, in this function and in all like it.
 
-    A text for an integer field is logged as an error instead, and a truth value becomes 0.
+    A text for an integer field is logged as an error instead, and a truth value is left out, or 0.
     """
     file, line = SourceFile(text), int(words["number"])
     used = [each for each in file.nodes if isinstance(each, ast.Attribute)]
@@ -73,24 +73,24 @@ def fields(text: str, words: Words) -> Sequence[Edit] | None:
         if file.function_around(each) in functions
     ]
     wrong = [each for each in wrong if each.attr[:3] != "get"]
-    is_integer = words["name"] == "AddTwoInts_Response"
-    logged = [
-        edits.replace_statement(each, f"self.get_logger().error({ast.unparse(each.value)})")
+    assigned = [
+        each
         for each in file.nodes
-        if isinstance(each, ast.Assign) and each.targets[0] in wrong and is_integer and _is_text(each.value)
-        if file.class_of(each) is not None
+        if isinstance(each, ast.Assign) and each.targets[0] in wrong and words["name"] == "AddTwoInts_Response"
     ]
-    lines = {edit.first for edit in logged}
-    swaps: list[tuple[ast.expr, str]] = [
-        (each, f"{ast.unparse(each.value)}.{words['found']}") for each in wrong if each.lineno not in lines
-    ]
-    swaps += [
-        (each.value, "0")
-        for each in file.nodes
-        if isinstance(each, ast.Assign) and each.targets[0] in wrong and is_integer
-        if isinstance(each.value, ast.Constant) and isinstance(each.value.value, bool)
-    ]
-    return [*edits.replace_nodes(text, *swaps), *logged]
+    changed: list[Edit] = []
+    swaps: list[tuple[ast.expr, str]] = []
+    for each in assigned:
+        if _is_text(each.value) and file.class_of(each) is not None:
+            changed.append(edits.replace_statement(each, f"self.get_logger().error({ast.unparse(each.value)})"))
+        elif isinstance(each.value, ast.Constant) and isinstance(each.value.value, bool):
+            if len(file.block_of(each)) > 1:
+                changed.append(edits.remove_statement(text, each))
+            else:
+                swaps.append((each.value, "0"))
+    lines = {edit.first for edit in changed}
+    swaps += [(each, f"{ast.unparse(each.value)}.{words['found']}") for each in wrong if each.lineno not in lines]
+    return [*edits.replace_nodes(text, *swaps), *changed]
 
 
 def _is_text(value: ast.expr) -> bool:

@@ -131,7 +131,8 @@ def optional(text: str, words: Words) -> Sequence[Edit]:
             if positional:
                 names = [f"{names[0][0]}--{names[0][1:]}"]
             given = [f"{each.arg}={ast.unparse(each.value)}" for each in kept]
-            given += [] if any(each.arg == "default" for each in kept) else ["default='1'"]
+            is_text = any(each.arg == "type" and ast.unparse(each.value) == "str" for each in kept)
+            given += [] if any(each.arg == "default" for each in kept) else [f"default={'one' if is_text else '1'!r}"]
             swaps.append((call, f"{ast.unparse(call.func)}({', '.join([*names, *given])})"))
     return edits.replace_nodes(text, *swaps)
 
