@@ -7,7 +7,9 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from checks.i1_2.facts import TOPIC
 from tutor.judge import source
+from tutor.judge.rewriting.node import argument
 from tutor.judge.source import Function, SourceFile, is_abstract, last_name, values_of
 from tutor.judge.trace import Trace
 
@@ -82,7 +84,7 @@ class Listener:
 def find_listener(trace: Trace) -> Listener | None:
     """Find the callback of the node's subscription; None if there is none, or the file cannot be parsed."""
     for file in source.files(trace):
-        for call in file.calls("create_subscription"):
+        for call in sorted(file.calls("create_subscription"), key=_is_for_another_topic):
             for function in _passed_functions(call, file):
                 parent = next(file.ancestors(function), None)
                 owner = parent if isinstance(parent, ast.ClassDef) else None
@@ -94,10 +96,24 @@ def find_listener(trace: Trace) -> Listener | None:
     return None
 
 
+def _is_for_another_topic(call: ast.Call) -> bool:
+    topic = argument(call, 1, "topic")
+    return isinstance(topic, ast.Constant) and str(topic.value).strip("/") != TOPIC.strip("/")
+
+
 def _passed_functions(call: ast.Call, file: SourceFile) -> Iterator[Function]:
-    """The functions of the file that are passed to a call, or called by a lambda that is passed to it."""
+    """The functions of the file that are passed to a call, or called by a lambda that is passed to it.
+
+    A method of a derived class comes before that of the class which makes the subscription.
+    """
     own = file.class_of(call)
-    functions = sorted(file.functions, key=lambda each: (is_abstract(each), own is None or each not in own.body))
+
+    def rank(function: Function) -> tuple[bool, int]:
+        owner = next(file.ancestors(function), None)
+        derived = isinstance(owner, ast.ClassDef) and own is not None and own.name in map(last_name, owner.bases)
+        return is_abstract(function), 0 if derived else 1 if own is None or owner is own else 2
+
+    functions = sorted(file.functions, key=rank)
     for value in (*call.args, *(each.value for each in call.keywords)):
         parts = ast.walk(value) if isinstance(value, ast.Lambda | ast.Call) else [value]
         named = [name for each in parts if (name := last_name(each))]
