@@ -10,6 +10,7 @@ from functools import wraps
 from checks.i1_2 import backlog, slowness
 from checks.i1_2.facts import TOPIC, TYPE, Trial
 from tutor.judge import causes, edits, source
+from tutor.judge.rewriting.node import argument
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Status, Verdict
 
@@ -34,7 +35,7 @@ def with_deeper_cause[V: Verdict | None](judge: Callable[..., V]) -> Callable[..
             or any(causes.diagnose_process(each.trace) for each in trials)
         ):
             return verdict
-        cause = _diagnose_double_count(trials) or _diagnose_waiting(trials)
+        cause = _diagnose_double_count(trials) or _diagnose_own_messages(trials) or _diagnose_waiting(trials)
         if cause is None and verdict.cause.partition(":")[0] in _CAUSED_BY_RESETS:
             cause = _diagnose_text_comparison(trials)
         return verdict if cause is None else replace(verdict, cause=str(cause), hint=cause.hint)
@@ -76,6 +77,34 @@ def _diagnose_double_count(trials: Sequence[Trial]) -> Cause | None:
             else "make one node, and one subscription in it",
         )
     return None
+
+
+def _diagnose_own_messages(trials: Sequence[Trial]) -> Cause | None:
+    """Find a publisher of the node's own, whose messages it counts as well."""
+    for trial in trials:
+        own = [each for each in trial.trace.graph.publishers if (each.topic, each.type) == (TOPIC, TYPE)]
+        if own and any(line.numbers for line in trial.lines):
+            calls = [each for each in source.calls(trial.trace, "publish") if isinstance(each.func, ast.Attribute)]
+            steps = (slowness.remove_call(trial.trace, call) for call in calls if _is_on_topic(trial.trace, call))
+            return Cause(
+                "own messages",
+                f"{own[0].node} itself publishes on {TOPIC}, and so counts its own messages, too",
+                next(filter(None, steps), "") or f"remove the publisher on {TOPIC}",
+            )
+    return None
+
+
+def _is_on_topic(trace: Trace, call: ast.Call) -> bool:
+    """Whether a call of publish() is of a publisher that is made with the same topic as a subscription."""
+    file = source.file_holding(trace, call)
+    heard = {ast.unparse(topic) for each in file.calls("create_subscription") if (topic := argument(each, 1, "topic"))}
+    publishers = [
+        file.assigned_to(each)
+        for each in file.calls("create_publisher")
+        if (topic := argument(each, 1, "topic")) is not None
+        and (ast.unparse(topic) in heard or (isinstance(topic, ast.Constant) and topic.value in (TOPIC, TOPIC[1:])))
+    ]
+    return isinstance(call.func, ast.Attribute) and ast.unparse(call.func.value) in publishers
 
 
 def _diagnose_text_comparison(trials: Sequence[Trial]) -> Cause | None:

@@ -1574,6 +1574,33 @@ def test_two_subscriptions_are_blamed_only_if_they_exist_and_messages_count_twic
         assert "two subscriptions" not in verdict.cause
 
 
+OWN_PUBLISHER = """\
+class Stats(Node):
+    def __init__(self):
+        self.sub = self.create_subscription(String, 'chatter', self.heard, 10)
+        self.pub = self.create_publisher(String, 'chatter', 10)
+        self.log = self.create_publisher(String, 'log', 10)
+    def heard(self, message):
+        self.log.publish(message)
+    def tick(self):
+        self.pub.publish(String())
+"""
+
+
+@pytest.mark.parametrize(("topic", "blamed"), [("/chatter", True), ("/log", False)])
+def test_a_node_that_publishes_on_the_topic_counts_its_own_messages(topic: str, blamed: bool) -> None:
+    publisher = TopicEndpoint(topic, "std_msgs/msg/String", "/node")
+    trials = [
+        replace(each, trace=replace(each.trace, graph=network, sources={"node.py": OWN_PUBLISHER}))
+        for each in (steady(CountsFromOne()), jump(CountsFromOne()), fast(CountsFromOne()))
+        for network in (replace(LISTENING, publishers=(publisher,)),)
+    ]
+    verdict = CHECKED["count"](*trials)
+    assert verdict.status is Status.FAILED
+    assert verdict.cause.startswith("own messages") == blamed
+    assert (verdict.hint == "line 9 becomes: pass") == blamed
+
+
 def test_a_sleep_in_the_callback_is_the_cause_of_every_failure() -> None:
     failures = {n: v for n, v in judge_like_check(FakeStats, SLEEPS, late_s=1.6).items() if v.status is Status.FAILED}
     assert len(failures) >= 1

@@ -7,6 +7,7 @@ import ast
 import pytest
 
 from checks.i1_2 import rewriting
+from checks.i1_2.listener import find_listener
 from tests.checks.builders import trace
 from tests.repairs import apply_step
 
@@ -153,3 +154,25 @@ def test_a_timer_that_logs_is_removed() -> None:
 @pytest.mark.parametrize("code", ["", "def f(:", "class Stats(Node):\n    pass\n"])
 def test_without_a_subscription_there_is_no_step(code: str) -> None:
     assert rewriting.rewrite_callback(trace(sources={"node.py": code})) is None
+
+
+OTHER_TOPIC = METHOD.replace(
+    "        self.sub =", "        self.create_subscription(Int64, '/ping', self.on_ping, 10)\n        self.sub ="
+).replace("    def gehoert", "    def on_ping(self, ping):\n        pass\n\n    def gehoert")
+DERIVED = """\
+class Base(Node):
+    def __init__(self):
+        self.sub = self.create_subscription(String, 'chatter', self.heard, 10)
+    def heard(self, message):
+        self.get_logger().info(message.data)
+class Stats(Base):
+    def heard(self, message):
+        self.last = message.data
+"""
+
+
+@pytest.mark.parametrize(("code", "name", "line"), [(OTHER_TOPIC, "gehoert", 12), (DERIVED, "heard", 7)])
+def test_the_callback_is_the_one_for_the_topic_and_of_the_derived_class(code: str, name: str, line: int) -> None:
+    found = find_listener(trace(sources={"node.py": code}))
+    assert found is not None
+    assert (found.function.name, found.function.lineno) == (name, line)
