@@ -162,6 +162,7 @@ def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
         or period_slips.diagnose_period_attribute(read)
         or parameter_slips.diagnose_override(read, name, whole_program(read))
         or period_slips.diagnose_sleep(read, asked_hz)
+        or period_slips.diagnose_throttle(read)
     )
 
 

@@ -137,6 +137,9 @@ def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
         return cause
     if rate is not None and rate.in_bursts:
         return causes.diagnose_bursts(steps.send_once_per_tick(trace))
+    # A sleep that takes at least half of the period explains it; a shorter one does not.
+    if rate is not None and (asleep := period_slips.diagnose_sleep(started_node(trace), 0.2 * rate.hz)) is not None:
+        return asleep
     if rate is not None and (rate.agrees_with(DEFAULT_HZ) or are_alike(rate, seen.slow_rate)):
         return _diagnose_ignored(RATE, trace)
     read = started_node(trace)
@@ -152,6 +155,7 @@ def _diagnose_other_rate(trace: Trace) -> Cause:
     return (
         period_slips.diagnose_integer_period(read)
         or period_slips.diagnose_sleep(read, LAUNCH_HZ)
+        or period_slips.diagnose_throttle(read)
         or Cause("wrong rate", f"{RATE} has an effect, but not this one", steps.use_parameter(trace, RATE))
     )
 

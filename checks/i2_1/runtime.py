@@ -189,8 +189,10 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     )
     if rate is not None and rate.in_bursts:
         return period_slip or causes.diagnose_bursts(steps.send_once_per_tick(trace))
-    if rate is not None and rate.hz < asked and (asleep := period_slips.diagnose_sleep(read, asked)) is not None:
-        return asleep
+    if rate is not None and rate.hz < asked:
+        slow = period_slips.diagnose_sleep(read, asked) or period_slips.diagnose_throttle(read)
+        if slow is not None:
+            return slow
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2

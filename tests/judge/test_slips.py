@@ -562,3 +562,40 @@ UNCALLED = (
 def test_a_function_that_makes_the_services_must_be_called(text: str, step: str | None) -> None:
     found = diagnose_uncalled_setup(node_file(text), "create_service")
     assert (found.hint if found else None) == step
+
+
+TICK = """\
+import time
+class N(Node):
+  def __init__(self):
+    self.create_timer(0.1, self.tick)
+  def tick(self):
+    {}
+    self.pub.publish(String())
+"""
+
+
+@pytest.mark.parametrize(
+    ("code", "step"),
+    [
+        ("if time.monotonic() - self.last < self.period:\n      return", "remove lines 6 to 7"),
+        ("if self.count < 5:\n      return", None),
+        ("if time.monotonic() - self.last < self.period:\n      self.hurry()", None),
+    ],
+)
+def test_a_guard_that_drops_early_ticks_is_removed(code: str, step: str | None) -> None:
+    found = period_slips.diagnose_throttle(node_file(TICK.format(code)))
+    assert (found.hint if found else None) == step
+
+
+@pytest.mark.parametrize(
+    ("code", "step"),
+    [
+        ("time.sleep(0.5)", "remove line 6: time.sleep(0.5)"),
+        ("time.sleep(0.01)", None),
+        ("for _ in range(50):\n      time.sleep(0.01)", "line 7 becomes: pass"),
+    ],
+)
+def test_a_sleep_that_is_long_or_repeated_slows_the_timer_down(code: str, step: str | None) -> None:
+    found = period_slips.diagnose_sleep(node_file(TICK.format(code)), 5.0)
+    assert (found.hint if found else None) == step

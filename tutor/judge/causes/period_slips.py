@@ -8,10 +8,12 @@ from itertools import pairwise, takewhile
 
 from tutor.judge.edits import insert_after, remove_statement, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.source import last_name, values_of, where
+from tutor.judge.source import calls_in, last_name, values_of, where
 from tutor.judge.verdict import Cause
 
 _IMAGINED_PERIODS = ("period", "timer_period", "timer_period_sec", "timer_period_s", "interval", "period_sec", "rate")
+
+_CLOCKS = ("time", "monotonic", "perf_counter", "now", "time_ns", "monotonic_ns")
 
 MIN_MILLISECONDS = 50.0
 """A timer's period from this number on is in milliseconds: nobody waits so many seconds in an exercise."""
@@ -142,9 +144,7 @@ def diagnose_timer_loop(file: NodeFile) -> Cause | None:
     """Whether a loop makes several timers, such as one for each sensor, which all publish."""
     if file.first_timer is None:
         return None
-    function = file.function_around(file.first_timer)
-    around = takewhile(lambda node: node is not function, file.ancestors(file.first_timer))
-    loop = next((node for node in around if isinstance(node, ast.For)), None)
+    loop = next((each for each in _within_function(file, file.first_timer) if isinstance(each, ast.For)), None)
     step = file.step([insert_after(loop.body[-1], "break")]) if loop is not None else None
     if loop is None or step is None:
         return None
@@ -185,18 +185,41 @@ def _same(one: ast.expr | None, other: ast.expr | None) -> bool:
 def diagnose_sleep(file: NodeFile, asked_hz: float) -> Cause | None:
     """Whether the timer's callback, or a function that it calls, sleeps, which limits the rate of the timer.
 
-    A sleep of less than a tenth of the period, at `asked_hz`, is negligible.
+    A sleep of less than a tenth of the period, at `asked_hz`, is negligible, unless it is repeated in a loop.
     """
     called = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
     for call in file.calls("sleep"):
+        repeated = any(isinstance(each, ast.For | ast.While) for each in _within_function(file, call))
         match call.args:
-            case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s < 0.1 / asked_hz:
+            case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s < 0.1 / asked_hz and not repeated:
                 continue
         if file.function_around(call) in called:
             step = file.step([remove_statement(file.text, file.statement(call))])
             text = f"{where(call)}: the timer's callback sleeps here, and meanwhile the timer stands still"
             return Cause("callback sleeps", text, step) if step else None
     return None
+
+
+def diagnose_throttle(file: NodeFile) -> Cause | None:
+    """Whether the timer's callback returns if the last message is less than some time ago, as many ticks are."""
+    for function in file.reachable_from(file.timer_callback) if file.timer_callback is not None else ():
+        for each in ast.walk(function):
+            match each:
+                case ast.If(test=ast.Compare(left=elapsed, ops=[ast.Lt() | ast.LtE()]), body=[ast.Return()], orelse=[]):
+                    clocks = calls_in(elapsed, *_CLOCKS)
+                    step = file.step([remove_statement(file.text, each)]) if clocks else None
+                    if step is not None:
+                        text = (
+                            f"line {each.lineno}: if {ast.unparse(each.test)}: a tick that is a little early is dropped"
+                        )
+                        return Cause("ticks dropped", text, step)
+    return None
+
+
+def _within_function(file: NodeFile, node: ast.AST) -> Iterator[ast.AST]:
+    """The ancestors of a syntax node within its function, innermost first."""
+    function = file.function_around(node)
+    return takewhile(lambda each: each is not function, file.ancestors(node))
 
 
 def _with_decimals(period: ast.expr) -> str | None:
