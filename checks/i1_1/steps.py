@@ -11,7 +11,7 @@ import re
 
 from checks.i1_1.facts import HIGHEST, LOWEST, SUGGESTED_NAME, SUGGESTED_RATE, TOPIC, TYPE
 from checks.i1_1.program import whole_program
-from tutor.judge.causes import parameter_slips, period_slips, slips
+from tutor.judge.causes import parameter_slips, period_slips, slips, spinning
 from tutor.judge.edits import Edit, add_import, remove_statement, replace_node
 from tutor.judge.rewriting import parameters, publishing, whole
 from tutor.judge.rewriting.node import NodeFile, node_file, started_node
@@ -163,6 +163,7 @@ def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
         or parameter_slips.diagnose_override(read, name, whole_program(read))
         or period_slips.diagnose_sleep(read, asked_hz)
         or period_slips.diagnose_throttle(read)
+        or spinning.diagnose_nap_between_spins(read)
     )
 
 

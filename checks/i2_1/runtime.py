@@ -28,7 +28,15 @@ from checks.i2_1.failures import (
 )
 from checks.i2_1.program import whole_program
 from tutor.judge import causes
-from tutor.judge.causes import callback_slips, names, parameter_callback_slips, parameter_slips, period_slips, slips
+from tutor.judge.causes import (
+    callback_slips,
+    names,
+    parameter_callback_slips,
+    parameter_slips,
+    period_slips,
+    slips,
+    spinning,
+)
 from tutor.judge.rates import TOLERANCE, Rate, describe
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import Trace
@@ -190,7 +198,11 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     if rate is not None and rate.in_bursts:
         return period_slip or causes.diagnose_bursts(steps.send_once_per_tick(trace))
     if rate is not None and rate.hz < asked:
-        slow = period_slips.diagnose_sleep(read, asked) or period_slips.diagnose_throttle(read)
+        slow = (
+            period_slips.diagnose_sleep(read, asked)
+            or period_slips.diagnose_throttle(read)
+            or spinning.diagnose_nap_between_spins(read)
+        )
         if slow is not None:
             return slow
     before = DEFAULT_HZ if asked == UP_HZ else UP_HZ

@@ -146,6 +146,8 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
                 or f"self.create_timer({1 / HZ:g}, self.tick, ...), and log every tenth tick's number at info",
             )
         )
+    if likely.hz < HZ and (nap := spinning.diagnose_nap_between_spins(source)) is not None:
+        return nap
     if likely.hz > HZ and (twins := diagnose_twin_timers(source)) is not None:
         return twins
     if likely.numbered or likely.hz > HZ:

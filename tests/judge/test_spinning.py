@@ -8,7 +8,7 @@ import pytest
 
 from tests.checks.builders import FOLDER, NODE_UP, exited, trace
 from tutor.judge.causes import diagnose_no_answer, diagnose_process
-from tutor.judge.causes.spinning import diagnose_spin_in_constructor
+from tutor.judge.causes.spinning import diagnose_nap_between_spins, diagnose_spin_in_constructor
 from tutor.judge.causes.topics import diagnose_no_messages
 from tutor.judge.rewriting.node import node_file
 from tutor.judge.trace import Trace
@@ -180,3 +180,11 @@ def test_a_spin_at_the_end_of_the_constructor_hides_nothing() -> None:
         started_trace = replace(trace(graph=NODE_UP), sources={"node.py": source.format(statements)})
         found = diagnose_no_messages(started_trace, "/chatter", "std_msgs/msg/String", answers=True)
         assert found.name == cause
+
+
+def test_a_nap_between_two_callbacks_is_removed() -> None:
+    loop = "while rclpy.ok():\n    executor.spin_once(timeout_sec=0.2)\n    time.sleep(0.2)\n"
+    found = diagnose_nap_between_spins(node_file(loop))
+    assert found is not None
+    assert found.hint == "remove line 3: time.sleep(0.2)"
+    assert diagnose_nap_between_spins(node_file(loop.replace("spin_once", "work"))) is None

@@ -55,6 +55,17 @@ def diagnose_spin_in_constructor(file: NodeFile) -> Cause | None:
     return None
 
 
+def diagnose_nap_between_spins(file: NodeFile) -> Cause | None:
+    """Whether the loop that spins the node sleeps between one callback and the next."""
+    for loop in file.nodes:
+        if isinstance(loop, ast.While) and source.calls_in(loop, "spin_once", "spin_some"):
+            for nap in source.calls_in(loop, "sleep"):
+                step = file.step([edits.remove_statement(file.text, file.statement(nap))])
+                text = f"{source.where(nap)}: the loop sleeps here, and meanwhile runs no callback"
+                return Cause("nap between callbacks", text, step) if step else None
+    return None
+
+
 def _spin_after(created: ast.Assign | ast.Expr) -> Edit:
     """Spin the node below the statement that creates it."""
     if isinstance(created, ast.Assign):
