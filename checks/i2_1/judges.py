@@ -137,12 +137,11 @@ def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
         return cause
     if rate is not None and rate.in_bursts:
         return causes.diagnose_bursts(steps.send_once_per_tick(trace))
-    # A sleep that takes at least half of the period explains it; a shorter one does not.
-    if rate is not None and (asleep := period_slips.diagnose_sleep(started_node(trace), 0.2 * rate.hz)) is not None:
-        return asleep
-    if rate is not None and (rate.agrees_with(DEFAULT_HZ) or are_alike(rate, seen.slow_rate)):
-        return _diagnose_ignored(RATE, trace)
     read = started_node(trace)
+    if rate is not None and (rate.agrees_with(DEFAULT_HZ) or are_alike(rate, seen.slow_rate)):
+        # A sleep that takes at least half of the period explains it; a shorter one does not.
+        asleep = period_slips.diagnose_sleep(read, 0.2 * rate.hz) if read.timers else None
+        return asleep or _diagnose_ignored(RATE, trace)
     if rate is None and (loop := callback_slips.diagnose_loop_in_callback(read, whole_program(read))) is not None:
         return loop
     if rate is None or rate.agrees_with(1 / LAUNCH_HZ):

@@ -189,7 +189,7 @@ def diagnose_sleep(file: NodeFile, asked_hz: float) -> Cause | None:
     """
     called = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
     for call in file.calls("sleep"):
-        repeated = any(isinstance(each, ast.For | ast.While) for each in _within_function(file, call))
+        repeated = bool(file.timers) and any(isinstance(each, ast.For) for each in _within_function(file, call))
         match call.args:
             case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s < 0.1 / asked_hz and not repeated:
                 continue
