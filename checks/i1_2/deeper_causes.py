@@ -84,8 +84,8 @@ def _diagnose_own_messages(trials: Sequence[Trial]) -> Cause | None:
     for trial in trials:
         own = [each for each in trial.trace.graph.publishers if (each.topic, each.type) == (TOPIC, TYPE)]
         if own and any(line.numbers for line in trial.lines):
-            calls = [each for each in source.calls(trial.trace, "publish") if isinstance(each.func, ast.Attribute)]
-            steps = (slowness.remove_call(trial.trace, call) for call in calls if _is_on_topic(trial.trace, call))
+            calls = [each for each in source.calls(trial.trace, "publish") if _is_on_topic(trial.trace, each)]
+            steps = (slowness.remove_call(trial.trace, call) for call in calls)
             return Cause(
                 "own messages",
                 f"{own[0].node} itself publishes on {TOPIC}, and so counts its own messages, too",

@@ -7,10 +7,9 @@ import ast
 from checks.i1_2 import rewriting
 from checks.i1_2.backlog import LostMessages
 from tutor.judge import edits, source
+from tutor.judge.causes.spinning import SPINS_ONCE
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
-
-SPINS_ONCE = ("spin_once", "spin_some")
 
 
 def diagnose_lost(trace: Trace, lost: LostMessages) -> Cause:

@@ -15,6 +15,7 @@ from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 
+SPINS_ONCE = "spin_once", "spin_some"
 _CLEANUP = "destroy_node", "shutdown", "try_shutdown", "exit", "_exit"
 
 
@@ -58,7 +59,7 @@ def diagnose_spin_in_constructor(file: NodeFile) -> Cause | None:
 def diagnose_nap_between_spins(file: NodeFile) -> Cause | None:
     """Whether the loop that spins the node sleeps between one callback and the next."""
     for loop in file.nodes:
-        if isinstance(loop, ast.While) and source.calls_in(loop, "spin_once", "spin_some"):
+        if isinstance(loop, ast.While) and source.calls_in(loop, *SPINS_ONCE):
             for nap in source.calls_in(loop, "sleep"):
                 step = file.step([edits.remove_statement(file.text, file.statement(nap))])
                 text = f"{source.where(nap)}: the loop sleeps here, and meanwhile runs no callback"

@@ -14,7 +14,7 @@ _NODE_LISTS = tuple(f"self._{each}" for each in ("timers", "subscriptions", "ser
 
 
 def diagnose_unserved_node(file: NodeFile) -> Cause | None:
-    """Whether executors cannot know what the node has to serve, or another node is spun in its place."""
+    """Whether executors cannot know what the node has to serve, or another node is spun in its place, or before it."""
     return _diagnose_overwritten_attribute(file) or _diagnose_other_node_spun(file) or _diagnose_second_spin(file)
 
 
