@@ -69,10 +69,9 @@ def fields(text: str, words: Words) -> Sequence[Edit] | None:
     wrong = [
         each
         for each in used
-        if ast.unparse(each.value) in messages and each.attr != words["found"]
+        if ast.unparse(each.value) in messages and each.attr != words["found"] and not each.attr.startswith("get_")
         if file.function_around(each) in functions
     ]
-    wrong = [each for each in wrong if each.attr[:3] != "get"]
     assigned = [
         each
         for each in file.nodes
