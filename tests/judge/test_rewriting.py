@@ -416,3 +416,29 @@ def test_the_types_of_subclasses_get_topics_of_their_own() -> None:
     file = node_file(text)
     step = file.step(publishing.use_one_type(file, "/chatter", "std_msgs/msg/String"))
     assert step == "write below line 10, with the same indentation: topic = '/chatter_int32'"
+
+
+@pytest.mark.parametrize(
+    ("imports", "expected"),
+    [
+        ("import rclpy", "from std_msgs.msg import String\nimport rclpy"),
+        ("from std_msgs.msg import Int64, String as Text", None),
+        ("import std_msgs.msg", None),
+        ("from example_interfaces.msg import String", "from std_msgs.msg import String"),
+        (
+            "from example_interfaces.msg import Int64, String",
+            "from example_interfaces.msg import Int64\nfrom std_msgs.msg import String",
+        ),
+        (
+            "import rclpy\nfrom std_msgs.msg import String\nfrom example_interfaces.msg import String",
+            "import rclpy\nfrom std_msgs.msg import String\nfrom std_msgs.msg import String",
+        ),
+    ],
+)
+def test_a_name_of_another_module_is_imported_from_the_right_one(imports: str, expected: str | None) -> None:
+    file = NodeFile(f"{imports}\n\nprint(String)\n")
+    step = file.step(file.import_name("String", "std_msgs.msg")[1])
+    if expected is None:
+        assert step is None
+    else:
+        assert apply_step(step or "", {"node.py": file.text})["node.py"] == f"{expected}\n\nprint(String)\n"

@@ -1,4 +1,4 @@
-"""The bundled example_interfaces matches the original: same type hash, and calls over DDS work."""
+"""The bundled example_interfaces matches the original: same type hashes and fields, and all kinds work over DDS."""
 
 import ctypes
 import hashlib
@@ -19,18 +19,20 @@ from tutor.ros import bundled_interfaces
 
 PACKAGE = "example_interfaces"
 SERVICE = f"{PACKAGE}/srv/AddTwoInts"
+MESSAGE = f"{PACKAGE}/msg/String"
 
 # As published in the design document of rmw_zenoh, in the key of an AddTwoInts service.
 PUBLISHED_HASH = "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a"
 
 # Type ids of type_description_interfaces/msg/FieldType.
-NESTED, UINT8, INT32, UINT32, INT64 = 1, 3, 6, 7, 8
+NESTED, UINT8, INT32, UINT32, INT64, STRING = 1, 3, 6, 7, 8, 17
 ARRAY, BOUNDED_SEQUENCE = 48, 96
 
 Fields = dict[str, tuple[int, int, str]]
 
-# Every type that the service's description refers to: field name -> (type id, capacity, nested type).
+# The tested types and every type that their descriptions refer to: field name -> (type id, capacity, nested type).
 TYPES: dict[str, Fields] = {
+    MESSAGE: {"data": (STRING, 0, "")},
     SERVICE: {
         "request_message": (NESTED, 0, f"{SERVICE}_Request"),
         "response_message": (NESTED, 0, f"{SERVICE}_Response"),
@@ -88,6 +90,77 @@ print(json.dumps({{
     "response": announced("rr/addReply"),
     "event": announced("rt/add/_service_event"),
 }}))
+node.destroy_node()
+rclpy.try_shutdown()
+"""
+
+
+# Prints each type's fields, beside those of the type of the same name in std_msgs and std_srvs.
+FIELDS = f"""
+from tutor.ros.bundled_interfaces import activate
+activate()
+import json
+import {PACKAGE}.msg, {PACKAGE}.srv, std_msgs.msg, std_srvs.srv
+
+def fields(kind):
+    return [
+        [name, declared.replace("std_msgs/", "").replace("{PACKAGE}/", "")]
+        for name, declared in kind.get_fields_and_field_types().items()
+    ]
+
+def types(module):
+    return {{name: kind for name, kind in vars(module).items() if isinstance(kind, type)}}
+
+seen = {{}}
+for name, kind in types({PACKAGE}.msg).items():
+    if name != "WString":
+        seen[name] = [fields(kind), fields(getattr(std_msgs.msg, name))]
+for name in ("SetBool", "Trigger"):
+    ours, theirs = getattr({PACKAGE}.srv, name), getattr(std_srvs.srv, name)
+    seen[name + ".Request"] = [fields(ours.Request), fields(theirs.Request)]
+    seen[name + ".Response"] = [fields(ours.Response), fields(theirs.Response)]
+print(json.dumps(seen))
+"""
+
+# Publishes two strings to itself and calls its own action.
+EXCHANGE = f"""
+from tutor.ros.bundled_interfaces import activate
+activate()
+import json
+import rclpy
+from {PACKAGE}.action import Fibonacci
+from {PACKAGE}.msg import String, WString
+from rclpy.action import ActionClient, ActionServer
+
+text = []
+def listen(message):
+    text.append(message.data)
+
+def count(goal):
+    goal.succeed()
+    return Fibonacci.Result(sequence=[0, 1, 1][: goal.request.order])
+
+rclpy.init()
+node = rclpy.create_node("interfaces_test")
+listener = node.create_subscription(String, "text", listen, 10)
+wide_listener = node.create_subscription(WString, "wide", listen, 10)
+publisher, wide = node.create_publisher(String, "text", 10), node.create_publisher(WString, "wide", 10)
+server = ActionServer(node, Fibonacci, "fibonacci", count)
+client = ActionClient(node, Fibonacci, "fibonacci")
+assert client.wait_for_server(10)
+while not (publisher.get_subscription_count() and wide.get_subscription_count()):
+    rclpy.spin_once(node, timeout_sec=0.1)
+publisher.publish(String(data="good day"))
+while len(text) < 1:
+    rclpy.spin_once(node, timeout_sec=10)
+wide.publish(WString(data="Grüß Gott"))
+while len(text) < 2:
+    rclpy.spin_once(node, timeout_sec=10)
+goal = client.send_goal_async(Fibonacci.Goal(order=3))
+rclpy.spin_until_future_complete(node, goal, timeout_sec=10)
+result = goal.result().get_result_async()
+rclpy.spin_until_future_complete(node, result, timeout_sec=10)
+print(json.dumps({{"text": text, "sequence": result.result().result.sequence.tolist()}}))
 node.destroy_node()
 rclpy.try_shutdown()
 """
@@ -157,9 +230,9 @@ def test_the_definition_hashes_to_the_published_constant() -> None:
     assert type_hash(SERVICE) == PUBLISHED_HASH
 
 
-@pytest.mark.parametrize("suffix", ["", "_Request", "_Response", "_Event"])
-def test_the_built_library_contains_the_published_hash(suffix: str) -> None:
-    assert library_hash(SERVICE + suffix) == type_hash(SERVICE + suffix)
+@pytest.mark.parametrize("name", [SERVICE, f"{SERVICE}_Request", f"{SERVICE}_Response", f"{SERVICE}_Event", MESSAGE])
+def test_the_built_library_contains_the_hash(name: str) -> None:
+    assert library_hash(name) == type_hash(name)
 
 
 def test_a_process_can_import_it_through_its_environment(environment: dict[str, str]) -> None:
@@ -179,6 +252,16 @@ def test_activate_makes_it_work_in_the_running_process(environment: dict[str, st
     seen = run_python(NODE.format(first="from tutor.ros.bundled_interfaces import activate; activate()"), environment)
     assert Path(seen["file"]).is_relative_to(bundled_interfaces.prefix())
     assert seen["sum"] == 2**40 - 2
+
+
+def test_its_types_have_the_fields_of_those_that_they_are_copies_of(environment: dict[str, str]) -> None:
+    seen = run_python(FIELDS, environment)
+    assert len(seen) == 28 + 2 * 2  # the messages but WString; SetBool and Trigger, request and response
+    assert {name: fields for name, (fields, _) in seen.items()} == {name: fields for name, (_, fields) in seen.items()}
+
+
+def test_messages_and_actions_can_be_exchanged(environment: dict[str, str]) -> None:
+    assert run_python(EXCHANGE, environment) == {"text": ["good day", "Grüß Gott"], "sequence": [0, 1, 1]}
 
 
 def test_activate_does_nothing_if_the_package_is_installed(environment: dict[str, str], tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The bundled `example_interfaces` (srv/AddTwoInts), built into an ament prefix in `bundled_ros`.
+"""The bundled `example_interfaces`, built into an ament prefix in `bundled_ros`.
 
 A child process finds it through its environment: `PYTHONPATH` with `site_packages()`, `AMENT_PREFIX_PATH` with
 `prefix()`, `LD_LIBRARY_PATH` with `library_dir()`. The running process uses `activate()`.

@@ -1,4 +1,4 @@
-"""Build hook: compiles the real `example_interfaces` (AddTwoInts only) into `tutor/bundled_ros/prefix`.
+"""Build hook: compiles the real `example_interfaces` into `tutor/bundled_ros/prefix`.
 
 Runs when the project is built, as a wheel or in place (editable). A prefix that is up to date is reused; only where
 it must be built does the build ask for the ROS generators, CMake and Ninja at all.
@@ -38,6 +38,7 @@ REQUIREMENTS = [
     "ros-jazzy-ament-cmake-gmock>=2.5,<3",
     "ros-jazzy-ament-cmake-gtest>=2.5,<3",
     "ros-jazzy-ament-cmake-pytest>=2.5,<3",
+    "ros-jazzy-action-msgs>=2.0,<3",
     "ros-jazzy-service-msgs>=2.0,<3",
     "ros-jazzy-rmw-fastrtps-cpp>=8.4,<9",
 ]
@@ -51,6 +52,8 @@ RUNTIME_FILES = [
     "share/ament_index/resource_index/packages/*",
     "share/ament_index/resource_index/package_run_dependencies/*",
     "share/ament_index/resource_index/rosidl_interfaces/*",
+    "share/example_interfaces/action/*",
+    "share/example_interfaces/msg/*",
     "share/example_interfaces/srv/*",
     "share/example_interfaces/package.xml",
 ]

@@ -52,7 +52,9 @@ def diagnose_no_messages(
             return replace(cause, hint=step) if step and cause == diagnose_blocked(trace, stuck) else cause
         return _diagnose_idle_publisher(trace, topic, step)
     if (cause := _diagnose_misplaced(trace, publishers, topic, type_name, "create_publisher")) is not None:
-        return replace(cause, hint=step) if cause.name == names.WRONG_TYPE and step else cause
+        # Another package's type of the same name has the same fields, in most cases: the import alone is wrong.
+        suits = any(endpoint.topic == topic and _class(endpoint.type) == _class(type_name) for endpoint in publishers)
+        return replace(cause, hint=step) if cause.name == names.WRONG_TYPE and step and not suits else cause
     file = started_node(trace)
     return (
         diagnose_spin_in_constructor(file)
@@ -259,7 +261,7 @@ def _diagnose_misplaced(
         return Cause(
             names.WRONG_TYPE,
             f"{topic} has the type {here[0].type}, not {type_name}",
-            _replace_type(started_node(trace), _class(here[0].type), type_name)
+            _replace_type(started_node(trace), here[0].type, type_name)
             or f"give {create} the type {_class(type_name)}: from {type_name.split('/')[0]}.msg import "
             f"{_class(type_name)}",
         )
@@ -270,10 +272,15 @@ def _diagnose_misplaced(
 
 
 def _replace_type(file: NodeFile, wrong: str, type_name: str) -> str | None:
-    """The step that replaces a wrong message type throughout the file."""
-    own, imported = file.import_name(_class(type_name), f"{type_name.split('/')[0]}.msg")
-    used = [each for each in ast.walk(file.tree) if isinstance(each, ast.Name) and each.id == wrong]
-    return file.step([*imported, *replace_nodes(file.text, *((each, own) for each in used))])
+    """The step that replaces a wrong message type throughout the file. The types are like "std_msgs/msg/String"."""
+    own, imported = file.import_name(_class(type_name), _module(type_name))
+    there = file.imported_name(_class(wrong), _module(wrong)) or _class(wrong)
+    used = [each for each in file.nodes if isinstance(each, ast.Name | ast.Attribute) and ast.unparse(each) == there]
+    return file.step([*imported, *replace_nodes(file.text, *((each, own) for each in used if there != own))])
+
+
+def _module(type_name: str) -> str:
+    return type_name.rpartition("/")[0].replace("/", ".")
 
 
 def _class(type_name: str) -> str:

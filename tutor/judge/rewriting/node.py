@@ -134,15 +134,41 @@ class NodeFile(SourceFile):
         return [insert_above(first_line(first), code)]
 
     def import_name(self, name: str, module: str) -> tuple[str, list[Edit]]:
-        """The name under which the file imports something from a module, and the edit that adds a missing import."""
+        """The name under which the file has something from a module, and the edits that import it from there alone."""
+        known = self.imported_name(name, module)
+        if known is None:
+            return name, self._import_from(name, module)
+        return known, self._import_from(name, module) if self._imports_from_elsewhere(known, module) else []
+
+    def imported_name(self, name: str, module: str) -> str | None:
+        """The name under which the file imports something from a module; None if it does not."""
         for each, alias in self.imports:
             if isinstance(each, ast.ImportFrom) and (each.module, alias.name) == (module, name):
-                return alias.asname or name, []
+                return alias.asname or name
             if isinstance(each, ast.ImportFrom) and f"{each.module}.{alias.name}" == module:
-                return f"{alias.asname or alias.name}.{name}", []
+                return f"{alias.asname or alias.name}.{name}"
             if isinstance(each, ast.Import) and alias.name == module:
-                return f"{alias.asname or module}.{name}", []
-        return name, add_import(self.text, f"from {module} import {name}")
+                return f"{alias.asname or module}.{name}"
+        return None
+
+    def _imports_from_elsewhere(self, name: str, module: str) -> list[tuple[ast.ImportFrom, ast.alias]]:
+        """The imports that give this name to something of another module."""
+        return [
+            (each, alias)
+            for each, alias in self.imports
+            if isinstance(each, ast.ImportFrom) and each.module != module and (alias.asname or alias.name) == name
+        ]
+
+    def _import_from(self, name: str, module: str) -> list[Edit]:
+        """Import a name from a module, in place of one of the same name from another module."""
+        code = f"from {module} import {name}"
+        for each, alias in self._imports_from_elsewhere(name, module):
+            others = [other for other in each.names if other is not alias]
+            if not others:
+                return [replace_statement(each, code)]
+            rest = ast.unparse(ast.ImportFrom(each.module, others, each.level))
+            return [replace_statement(each, f"{rest}\n{code}")]
+        return add_import(self.text, code)
 
     def new_method(self, code: str) -> list[Edit]:
         """Add a method at the end of the node's class; no edit for a node without a class."""
