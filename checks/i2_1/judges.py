@@ -30,7 +30,7 @@ from checks.i2_1.failures import (
 )
 from checks.i2_1.program import whole_program
 from tutor.judge import causes, ending, tracebacks
-from tutor.judge.causes import callback_slips, names, parameter_slips, period_slips
+from tutor.judge.causes import callback_slips, names, parameter_slips, period_slips, spinning
 from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import Level, Trace
@@ -138,6 +138,8 @@ def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
     if rate is not None and rate.in_bursts:
         return causes.diagnose_bursts(steps.send_once_per_tick(trace))
     read = started_node(trace)
+    if (waits := spinning.diagnose_untimed_spin_once(read)) is not None:
+        return waits
     if rate is not None and (rate.agrees_with(DEFAULT_HZ) or are_alike(rate, seen.slow_rate)):
         # A sleep that takes at least half of the period explains it; a shorter one does not.
         asleep = period_slips.diagnose_sleep(read, 0.2 * rate.hz) if read.timers else None

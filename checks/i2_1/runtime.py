@@ -74,6 +74,7 @@ def judge_changes(seen: RuntimeChanges) -> Verdict:
             expected,
             f"{ENABLED} set to false and to true again: no message since",
             cause
+            or spinning.diagnose_untimed_spin_once(started_node(seen.trace))
             or Cause(
                 "does not resume",
                 f"{ENABLED} true does not bring the messages back",
@@ -131,6 +132,7 @@ def _fail_if_not_as_before(seen: RuntimeChanges, expected: str, *, any_rate: boo
         expected,
         observed,
         (causes.diagnose_process(seen.trace) if seen.trace.exit else None)
+        or spinning.diagnose_untimed_spin_once(started_node(seen.trace))
         or Cause(
             "rate changed",
             f"the rate is different after setting {PREFIX} and {ENABLED}, though {RATE} was not touched",
@@ -190,6 +192,8 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     if seen.trace.exit and (cause := causes.diagnose_process(seen.trace)):
         return cause
     read, trace = started_node(seen.trace), seen.trace
+    if (rate is None or rate.hz < asked) and (waits := spinning.diagnose_untimed_spin_once(read)) is not None:
+        return waits
     period_slip = (
         period_slips.diagnose_integer_period(read)
         or period_slips.diagnose_nanoseconds(read)

@@ -20,7 +20,7 @@ from checks.i2_1.failures import (
     with_steps,
 )
 from tutor.judge import causes, tracebacks
-from tutor.judge.causes import parameter_callback_slips
+from tutor.judge.causes import parameter_callback_slips, spinning
 from tutor.judge.rates import describe
 from tutor.judge.rewriting.node import started_node
 from tutor.judge.trace import Trace
@@ -93,9 +93,9 @@ def _fail_if_crashed(bad: float, expected: str, trace: Trace) -> Verdict | None:
 
 
 def _diagnose_change(trace: Trace, text: str) -> Cause:
-    return parameter_callback_slips.diagnose_callback_order(started_node(trace)) or Cause(
-        "value changed all the same", text, steps.refuse_bad_rates(trace)
-    )
+    file = started_node(trace)
+    slip = parameter_callback_slips.diagnose_callback_order(file) or spinning.diagnose_untimed_spin_once(file)
+    return slip or Cause("value changed all the same", text, steps.refuse_bad_rates(trace))
 
 
 def _diagnose_no_validation(trace: Trace, bad: float) -> Cause:
@@ -141,6 +141,7 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
         return failed(
             expected,
             f"rejected, but then {describe(seen.rate, seen.messages)}",
-            Cause("partial change", "the timer was touched although the request was rejected", partial),
+            spinning.diagnose_untimed_spin_once(started_node(seen.trace))
+            or Cause("partial change", "the timer was touched although the request was rejected", partial),
         )
     return passed(expected, f'both rejected ("{seen.answers[0].reason}"), nothing changed')

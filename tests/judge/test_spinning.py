@@ -8,7 +8,11 @@ import pytest
 
 from tests.checks.builders import FOLDER, NODE_UP, exited, trace
 from tutor.judge.causes import diagnose_no_answer, diagnose_process
-from tutor.judge.causes.spinning import diagnose_nap_between_spins, diagnose_spin_in_constructor
+from tutor.judge.causes.spinning import (
+    diagnose_nap_between_spins,
+    diagnose_spin_in_constructor,
+    diagnose_untimed_spin_once,
+)
 from tutor.judge.causes.topics import diagnose_no_messages
 from tutor.judge.rewriting.node import node_file
 from tutor.judge.trace import Trace
@@ -188,3 +192,27 @@ def test_a_nap_between_two_callbacks_is_removed() -> None:
     assert found is not None
     assert found.hint == "remove line 3: time.sleep(0.2)"
     assert diagnose_nap_between_spins(node_file(loop.replace("spin_once", "work"))) is None
+
+
+@pytest.mark.parametrize(
+    ("loop", "step"),
+    [
+        (
+            ["talker.tick()", "rclpy.spin_once(talker)", "time.sleep(1 / 2)"],
+            ["wake_up = time.monotonic() + 1 / 2", "rclpy.spin_once(talker, timeout_sec=left)"],
+        ),
+        (["rclpy.spin_once(talker)", "talker.tick()"], []),  # how often is unknown
+        (["talker.tick()", "rclpy.spin_once(talker, timeout_sec=0.1)", "time.sleep(0.1)"], None),
+        (["rclpy.spin_once(talker)", "time.sleep(0.1)"], None),
+    ],
+)
+def test_a_loop_that_publishes_stops_in_a_spin_once_that_waits_for_a_callback(
+    loop: list[str], step: list[str] | None
+) -> None:
+    file = node_file(NODE.format(body="while rclpy.ok():\n        " + "\n        ".join(loop)))
+    found = diagnose_untimed_spin_once(file)
+    if step is None:
+        assert found is None
+    else:
+        assert found is not None
+        assert all(part in found.hint for part in step)

@@ -67,6 +67,50 @@ def diagnose_nap_between_spins(file: NodeFile) -> Cause | None:
     return None
 
 
+def diagnose_untimed_spin_once(file: NodeFile) -> Cause | None:
+    """Whether a loop that publishes by itself stops in spin_once(), which waits for a callback: there is no timer."""
+    if file.timers or file.calls("create_subscription"):
+        return None
+    for loop in file.nodes:
+        if not isinstance(loop, ast.While) or not _publishes(file, loop):
+            continue
+        for call in source.calls_in(loop, *SPINS_ONCE):
+            if any(each.arg == "timeout_sec" for each in call.keywords) or not isinstance(call.func, ast.Attribute):
+                continue
+            text = (
+                f"{source.where(call)} waits until a callback runs, and without a timer there is none, except when "
+                "somebody asks for a parameter: the loop stops here"
+            )
+            return Cause("spin_once waits", text, file.step(_spin_for_a_period(file, loop, call)) or "")
+    return None
+
+
+def _publishes(file: NodeFile, loop: Loop) -> bool:
+    """Whether a loop publishes, itself or in a function that it calls."""
+    functions = [found for call in source.calls_in(loop) if (found := file.function(call.func)) is not None]
+    reached = [each for function in functions for each in file.reachable_from(function)]
+    return bool(source.calls_in(loop, "publish")) or any(
+        file.function_around(p) in reached for p in file.calls("publish")
+    )
+
+
+def _spin_for_a_period(file: NodeFile, loop: ast.While, spin: ast.Call) -> list[Edit]:
+    """Run callbacks for as long as the loop sleeps, in place of the sleep."""
+    own = [each for each in loop.body if isinstance(each, ast.Expr) and isinstance(each.value, ast.Call)]
+    nap = next((each for each in own if source.calls_in(each, "sleep")), None)
+    once = file.statement(spin)
+    if nap is None or once not in own or not isinstance(nap.value, ast.Call) or len(nap.value.args) != 1:
+        return []
+    known = file.imported_name("monotonic", "time")
+    now, imported = known or "time.monotonic", [] if known else edits.add_import(file.text, "import time")
+    arguments = ", ".join([*map(ast.unparse, spin.args), "timeout_sec=left"])
+    code = (
+        f"wake_up = {now}() + {ast.unparse(nap.value.args[0])}\n"
+        f"while (left := wake_up - {now}()) > 0:\n    {ast.unparse(spin.func)}({arguments})"
+    )
+    return [edits.replace_statement(nap, code), edits.remove_statement(file.text, once), *imported]
+
+
 def _spin_after(created: ast.Assign | ast.Expr) -> Edit:
     """Spin the node below the statement that creates it."""
     if isinstance(created, ast.Assign):

@@ -11,7 +11,7 @@ from tutor.judge.causes import names, period_slips, slips
 from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
-from tutor.judge.causes.spinning import diagnose_spin_in_constructor
+from tutor.judge.causes.spinning import diagnose_spin_in_constructor, diagnose_untimed_spin_once
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
 from tutor.judge.causes.unserved import diagnose_unserved_node
 from tutor.judge.edits import (
@@ -83,6 +83,7 @@ def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause
         or slips.diagnose_simulated_time(file)
         or diagnose_unserved_node(file)
         or diagnose_spin_in_constructor(file)
+        or diagnose_untimed_spin_once(file)
         or diagnose_uncalled_setup(file, "create_timer")
     )
     if slip is not None:
