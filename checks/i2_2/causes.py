@@ -227,6 +227,12 @@ def diagnose_pair(seen: LaunchRun) -> Cause:
     )
 
 
+@with_imported_names
+def diagnose_simulation_time(seen: LaunchRun, node: str) -> Cause | None:
+    """Whether a node publishes nothing because it waits for the clock of a simulation."""
+    return source_causes.diagnose_simulation_time(launch(seen.trace), seen.trace.graph, node)
+
+
 def list_nodes(endpoints: Sequence[TopicEndpoint]) -> str:
     """The names of their nodes, such as "/listener, /talker"."""
     return ", ".join(sorted({each.node for each in endpoints})) or "no node"

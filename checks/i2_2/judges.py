@@ -5,7 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from checks.i2_2.argument_causes import diagnose_namespace, diagnose_topic
-from checks.i2_2.causes import diagnose_launch, diagnose_missing, diagnose_pair, diagnose_program
+from checks.i2_2.causes import (
+    diagnose_launch,
+    diagnose_missing,
+    diagnose_pair,
+    diagnose_program,
+    diagnose_simulation_time,
+)
 from checks.i2_2.facts import (
     NAMESPACE,
     SECOND_NAMESPACE,
@@ -124,10 +130,14 @@ def _diagnose_delivery(seen: LaunchRun, pair: Pair) -> Cause | None:
     if (cause := causes.diagnose_incompatible_qos(publisher, subscription)) is not None:
         return cause
     if not seen.trace.samples_on(publisher.topic) and publisher.topic not in seen.hidden:
-        return diagnose_launch(seen.trace) or Cause(
-            "no messages",
-            f"{publisher.node} publishes nothing on {publisher.topic}",
-            "start it alone, and look at its output",
+        return (
+            diagnose_launch(seen.trace)
+            or diagnose_simulation_time(seen, publisher.node)
+            or Cause(
+                "no messages",
+                f"{publisher.node} publishes nothing on {publisher.topic}",
+                "start it alone, and look at its output",
+            )
         )
     alive = subscription.node in seen.answering
     mute = subscription.node not in seen.trace.graph.parameter_nodes

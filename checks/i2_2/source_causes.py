@@ -10,7 +10,9 @@ from checks.i2_2 import steps
 from checks.i2_2.launch_file import Launch
 from checks.i2_2.reading import Call, Source
 from checks.i2_2.rewriting import prepend_to_list
+from tutor.judge.edits import replace_nodes
 from tutor.judge.verdict import Cause
+from tutor.ros_model import Graph
 
 _OWN_GROUP = "it only affects what comes after it in the same list"
 
@@ -171,3 +173,27 @@ def diagnose_missing_node(launch_file: Launch, missing: str) -> Cause | None:
 def _lines(calls: Sequence[Call]) -> str:
     numbers = sorted({call.line for call in calls})
     return f"line{'s' if len(numbers) > 1 else ''} {' and '.join(map(str, numbers))}"
+
+
+def diagnose_simulation_time(launch_file: Launch, graph: Graph, node: str) -> Cause | None:
+    """Whether a node waits for the clock of a simulation that does not run."""
+    if not any(each.topic == "/clock" and each.node == node for each in graph.subscriptions):
+        return None
+    if any(each.topic == "/clock" for each in graph.publishers):
+        return None
+    found = [value for each in launch_file.file.nodes if (value := _value_of(each, "use_sim_time")) is not None]
+    step = launch_file.step(replace_nodes(launch_file.file.text, *((each, "False") for each in found)))
+    text = f"{node} has use_sim_time set, so its timers wait for a simulator's /clock, and there is none"
+    return Cause("simulated time", text, step or "set use_sim_time to False")
+
+
+def _value_of(node: ast.AST, name: str) -> ast.expr | None:
+    """The value given together with a name: in a dict, or as the next argument."""
+    match node:
+        case ast.Dict(keys=keys, values=values):
+            pairs = list(zip(keys, values, strict=True))
+        case ast.Call(args=[first, second]):
+            pairs = [(first, second)]
+        case _:
+            return None
+    return next((value for key, value in pairs if isinstance(key, ast.Constant) and key.value == name), None)

@@ -10,13 +10,19 @@ from __future__ import annotations
 import sys
 
 import rclpy
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.utilities import try_shutdown
 from std_msgs.msg import String
 
-# How the two packages' talkers differ: the first count, the queue depth, and the quotes in the log.
-_TALKERS = {"demo_nodes_py": (0, 10, '"'), "demo_nodes_cpp": (1, 7, "'")}
+# How the two packages' talkers differ: the first count, the queue depth, the quotes in the log, and the timer's clock.
+# A timer of the C++ node is not affected by `use_sim_time`.
+_TALKERS = {
+    "demo_nodes_py": (0, 10, '"', ClockType.ROS_TIME),
+    "demo_nodes_cpp": (1, 7, "'", ClockType.STEADY_TIME),
+}
 
 
 class Talker(Node):
@@ -24,9 +30,10 @@ class Talker(Node):
 
     def __init__(self, package: str) -> None:
         super().__init__("talker")
-        self._count, depth, self._quote = _TALKERS[package]
+        self._count, depth, self._quote, clock_type = _TALKERS[package]
         self._publisher = self.create_publisher(String, "chatter", depth)
-        self._timer = self.create_timer(1.0, self._publish)
+        clock = self.get_clock() if clock_type is ClockType.ROS_TIME else Clock(clock_type=clock_type)
+        self._timer = self.create_timer(1.0, self._publish, clock=clock)
 
     def _publish(self) -> None:
         message = String(data=f"Hello World: {self._count}")

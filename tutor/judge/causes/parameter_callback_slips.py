@@ -42,11 +42,12 @@ def _may_refuse(file: NodeFile, function: Function | None) -> bool:
 
 
 def diagnose_broken_callback(file: NodeFile) -> Cause | None:
-    """Whether a parameter callback is never called, compares types that are never equal, or sets a wrong attribute."""
+    """Whether a parameter callback is never called, compares what is never equal, or sets a wrong attribute."""
     return (
         _diagnose_dotted_attribute(file)
         or diagnose_uncalled_callback(file)
         or _diagnose_compared_type(file)
+        or _diagnose_compared_identity(file)
         or _diagnose_class_attribute(file)
     )
 
@@ -112,6 +113,32 @@ def _diagnose_compared_type(file: NodeFile) -> Cause | None:
         return None
     text = f"{where(compared[0])} compares a Parameter.Type with a number of ParameterType: they are never equal"
     return Cause("types never equal", text, step)
+
+
+def _diagnose_compared_identity(file: NodeFile) -> Cause | None:
+    """Whether texts or numbers are compared with `is`, as in `parameter.name is "publish_rate"`."""
+    compared = [
+        each
+        for each in file.nodes
+        if isinstance(each, ast.Compare)
+        and isinstance(each.ops[0], ast.Is | ast.IsNot)
+        and isinstance(each.comparators[0], ast.Constant)
+        and type(each.comparators[0].value) in (str, int, float)
+    ]
+    equal = [
+        (
+            each,
+            ast.unparse(
+                ast.Compare(each.left, [ast.Eq() if isinstance(each.ops[0], ast.Is) else ast.NotEq()], each.comparators)
+            ),
+        )
+        for each in compared
+    ]
+    step = file.step(replace_nodes(file.text, *equal))
+    if not compared or step is None:
+        return None
+    text = f"{where(compared[0])}: `is` compares whether both are the same object, which two equal texts need not be"
+    return Cause("never the same object", text, step)
 
 
 def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
