@@ -14,7 +14,7 @@ from checks.i1_1.program import whole_program
 from tutor.judge.causes import parameter_slips, period_slips, slips, spinning
 from tutor.judge.edits import Edit, add_import, remove_statement, replace_node
 from tutor.judge.rewriting import parameters, publishing, whole
-from tutor.judge.rewriting.node import NodeFile, node_file, started_node
+from tutor.judge.rewriting.node import NodeFile, find_in_files, node_file, started_node
 from tutor.judge.source import last_name
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
@@ -152,18 +152,18 @@ def _mentions(call: ast.Call, read: NodeFile, name: str) -> bool:
 
 def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
     """Diagnose why the rate does not follow a parameter in Hz, if a single line shows it."""
-    read = file(trace)
-    return (
-        diagnose_whole_rate(trace, name)
-        or parameter_slips.diagnose_dropped_arguments(read)
-        or period_slips.diagnose_second_timer(read)
-        or period_slips.diagnose_period_unit(read)
-        or period_slips.diagnose_nanoseconds(read)
-        or period_slips.diagnose_period_attribute(read)
-        or parameter_slips.diagnose_override(read, name, whole_program(read))
-        or period_slips.diagnose_sleep(read, asked_hz)
-        or period_slips.diagnose_throttle(read)
-        or spinning.diagnose_nap_between_spins(read)
+    return diagnose_whole_rate(trace, name) or find_in_files(
+        trace,
+        parameter_slips.diagnose_dropped_arguments,
+        period_slips.diagnose_second_timer,
+        period_slips.diagnose_period_unit,
+        period_slips.diagnose_nanoseconds,
+        period_slips.diagnose_period_attribute,
+        lambda read: parameter_slips.diagnose_override(read, name, whole_program(read) if read is file(trace) else []),
+        lambda read: period_slips.diagnose_sleep(read, asked_hz),
+        period_slips.diagnose_throttle,
+        spinning.diagnose_nap_between_spins,
+        lambda read: period_slips.diagnose_sleep_in_helper(read, asked_hz),
     )
 
 

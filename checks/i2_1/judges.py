@@ -32,7 +32,7 @@ from checks.i2_1.program import whole_program
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import callback_slips, names, parameter_slips, period_slips, spinning
 from tutor.judge.rates import TOLERANCE, describe
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.trace import Level, Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 from tutor.judge.wording import counted, shape
@@ -133,13 +133,13 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
 
 def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
     rate, trace = seen.rate, seen.trace
-    if (cause := period_slips.diagnose_integer_period(started_node(trace))) is not None:
+    if (cause := find_in_files(trace, period_slips.diagnose_integer_period)) is not None:
         return cause
     if rate is not None and rate.in_bursts:
         return causes.diagnose_bursts(steps.send_once_per_tick(trace))
-    read = started_node(trace)
-    if (waits := spinning.diagnose_untimed_spin_once(read)) is not None:
+    if (waits := find_in_files(trace, spinning.diagnose_untimed_spin_once)) is not None:
         return waits
+    read = started_node(trace)
     if rate is not None and (rate.agrees_with(DEFAULT_HZ) or are_alike(rate, seen.slow_rate)):
         # A sleep that takes at least half of the period explains it; a shorter one does not.
         asleep = period_slips.diagnose_sleep(read, 0.2 * rate.hz) if read.timers else None
@@ -152,19 +152,17 @@ def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
 
 
 def _diagnose_other_rate(trace: Trace) -> Cause:
-    read = started_node(trace)
-    return (
-        period_slips.diagnose_integer_period(read)
-        or period_slips.diagnose_sleep(read, LAUNCH_HZ)
-        or period_slips.diagnose_throttle(read)
-        or Cause("wrong rate", f"{RATE} has an effect, but not this one", steps.use_parameter(trace, RATE))
-    )
+    return find_in_files(
+        trace,
+        period_slips.diagnose_integer_period,
+        lambda file: period_slips.diagnose_sleep(file, LAUNCH_HZ),
+        period_slips.diagnose_throttle,
+    ) or Cause("wrong rate", f"{RATE} has an effect, but not this one", steps.use_parameter(trace, RATE))
 
 
 def _diagnose_ignored(name: str, trace: Trace, *others: str) -> Cause:
-    dropped = parameter_slips.diagnose_dropped_arguments(started_node(trace))
     return (
-        dropped
+        find_in_files(trace, parameter_slips.diagnose_dropped_arguments)
         or steps.diagnose_override(trace, name)
         or Cause(
             "parameter ignored",

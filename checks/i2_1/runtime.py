@@ -38,7 +38,7 @@ from tutor.judge.causes import (
     spinning,
 )
 from tutor.judge.rates import TOLERANCE, Rate, describe
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 from tutor.judge.wording import counted
@@ -74,7 +74,7 @@ def judge_changes(seen: RuntimeChanges) -> Verdict:
             expected,
             f"{ENABLED} set to false and to true again: no message since",
             cause
-            or spinning.diagnose_untimed_spin_once(started_node(seen.trace))
+            or find_in_files(seen.trace, spinning.diagnose_untimed_spin_once)
             or Cause(
                 "does not resume",
                 f"{ENABLED} true does not bring the messages back",
@@ -132,7 +132,7 @@ def _fail_if_not_as_before(seen: RuntimeChanges, expected: str, *, any_rate: boo
         expected,
         observed,
         (causes.diagnose_process(seen.trace) if seen.trace.exit else None)
-        or spinning.diagnose_untimed_spin_once(started_node(seen.trace))
+        or find_in_files(seen.trace, spinning.diagnose_untimed_spin_once)
         or Cause(
             "rate changed",
             f"the rate is different after setting {PREFIX} and {ENABLED}, though {RATE} was not touched",
@@ -153,11 +153,10 @@ def _diagnose_ignored_change(name: str, trace: Trace) -> Cause:
     compared = slips.fix_bool_compared_with_text(trace) if name == ENABLED else None
     if compared is not None:
         return Cause("parameter ignored", f"{name} is accepted, but compared with a text", compared)
-    read = started_node(trace)
-    old = parameter_callback_slips.diagnose_old_value_read(read, name)
-    override = parameter_slips.diagnose_override(read, name)
-    if (cause := override or parameter_callback_slips.diagnose_broken_callback(read)) is not None:
+    override = find_in_files(trace, lambda file: parameter_slips.diagnose_override(file, name))
+    if (cause := override or parameter_callback_slips.diagnose_broken_callback(trace)) is not None:
         return cause
+    old = find_in_files(trace, lambda file: parameter_callback_slips.diagnose_old_value_read(file, name))
     if old is not None:
         return replace(old, hint=old.hint or steps.use_parameter_later(trace, name))
     text = f"{name} is accepted, but what the node sends does not follow it"
@@ -192,20 +191,23 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     if seen.trace.exit and (cause := causes.diagnose_process(seen.trace)):
         return cause
     read, trace = started_node(seen.trace), seen.trace
-    if (rate is None or rate.hz < asked) and (waits := spinning.diagnose_untimed_spin_once(read)) is not None:
+    waits = find_in_files(trace, spinning.diagnose_untimed_spin_once)
+    if waits is not None and (rate is None or rate.hz < asked):
         return waits
-    period_slip = (
-        period_slips.diagnose_integer_period(read)
-        or period_slips.diagnose_nanoseconds(read)
-        or period_slips.diagnose_period_attribute(read)
+    period_slip = find_in_files(
+        trace,
+        period_slips.diagnose_integer_period,
+        period_slips.diagnose_nanoseconds,
+        period_slips.diagnose_period_attribute,
     )
     if rate is not None and rate.in_bursts:
         return period_slip or causes.diagnose_bursts(steps.send_once_per_tick(trace))
     if rate is not None and rate.hz < asked:
-        slow = (
-            period_slips.diagnose_sleep(read, asked)
-            or period_slips.diagnose_throttle(read)
-            or spinning.diagnose_nap_between_spins(read)
+        slow = find_in_files(
+            trace,
+            lambda file: period_slips.diagnose_sleep(file, asked),
+            period_slips.diagnose_throttle,
+            spinning.diagnose_nap_between_spins,
         )
         if slow is not None:
             return slow
@@ -229,12 +231,12 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
 
 def _diagnose_old_period(trace: Trace) -> Cause:
     """Diagnose a timer that keeps its old period although the parameter has a new value."""
-    read = started_node(trace)
-    if (cause := parameter_slips.diagnose_override(read, RATE)) is not None:
+    if (cause := find_in_files(trace, lambda file: parameter_slips.diagnose_override(file, RATE))) is not None:
         return cause
-    if (old := parameter_callback_slips.diagnose_old_value_read(read, RATE)) is not None:
+    old = find_in_files(trace, lambda file: parameter_callback_slips.diagnose_old_value_read(file, RATE))
+    if old is not None:
         return replace(old, hint=old.hint or steps.follow_changes(trace))
     text = "the parameter changes, but the timer keeps its old period"
-    return parameter_callback_slips.diagnose_broken_callback(read) or Cause(
+    return parameter_callback_slips.diagnose_broken_callback(trace) or Cause(
         names.TIMER_NOT_REPLACED, text, steps.follow_changes(trace)
     )

@@ -22,7 +22,7 @@ from checks.i2_1.failures import (
 from tutor.judge import causes, tracebacks
 from tutor.judge.causes import parameter_callback_slips, spinning
 from tutor.judge.rates import describe
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
 
@@ -93,15 +93,14 @@ def _fail_if_crashed(bad: float, expected: str, trace: Trace) -> Verdict | None:
 
 
 def _diagnose_change(trace: Trace, text: str) -> Cause:
-    file = started_node(trace)
-    slip = parameter_callback_slips.diagnose_callback_order(file) or spinning.diagnose_untimed_spin_once(file)
+    slip = find_in_files(trace, parameter_callback_slips.diagnose_callback_order, spinning.diagnose_untimed_spin_once)
     return slip or Cause("value changed all the same", text, steps.refuse_bad_rates(trace))
 
 
 def _diagnose_no_validation(trace: Trace, bad: float) -> Cause:
     """Diagnose a node that accepts a bad rate."""
     read = started_node(trace)
-    return parameter_callback_slips.diagnose_broken_callback(read) or Cause(
+    return parameter_callback_slips.diagnose_broken_callback(trace) or Cause(
         "no validation", parameter_callback_slips.why_accepted(read, bad), steps.refuse_bad_rates(trace)
     )
 
@@ -132,7 +131,7 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
         return failed(
             expected,
             f"rejected, but {now}",
-            parameter_callback_slips.diagnose_callback_order(started_node(seen.trace))
+            find_in_files(seen.trace, parameter_callback_slips.diagnose_callback_order)
             or Cause(
                 "partial change", "the callback applies the first parameter before it looks at the second", partial
             ),
@@ -141,7 +140,7 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
         return failed(
             expected,
             f"rejected, but then {describe(seen.rate, seen.messages)}",
-            spinning.diagnose_untimed_spin_once(started_node(seen.trace))
+            find_in_files(seen.trace, spinning.diagnose_untimed_spin_once)
             or Cause("partial change", "the timer was touched although the request was rejected", partial),
         )
     return passed(expected, f'both rejected ("{seen.answers[0].reason}"), nothing changed')

@@ -15,7 +15,7 @@ from tutor.judge.causes import late_binding, names, spinning
 from tutor.judge.causes.period_slips import diagnose_no_autostart, diagnose_self_cancelling, diagnose_twin_timers
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
 from tutor.judge.causes.unserved import diagnose_unserved_node
-from tutor.judge.rewriting.node import NodeFile, started_node
+from tutor.judge.rewriting.node import NodeFile, find_in_files, started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -33,7 +33,7 @@ def diagnose_no_service(trace: Trace) -> Cause:
     """Why the service is missing."""
     if (broken := causes.diagnose_process(trace) or causes.diagnose_lifecycle(trace)) is not None:
         return broken
-    if (early := spinning.diagnose_spin_in_constructor(started_node(trace))) is not None:
+    if (early := find_in_files(trace, spinning.diagnose_spin_in_constructor)) is not None:
         return early
     offered = [s for s in trace.graph.servers if not s.is_standard]
     for service in offered:
@@ -68,9 +68,9 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
         return broken
     if (unmatched := causes.diagnose_incompatible_service(_our_servers(seen.trace))) is not None:
         return unmatched
-    if (unserved := diagnose_unserved_node(started_node(seen.trace))) is not None:
+    if (unserved := find_in_files(seen.trace, diagnose_unserved_node)) is not None:
         return unserved
-    if not seen.spins and (empty := steps.diagnose_node_not_added(started_node(seen.trace))) is not None:
+    if not seen.spins and (empty := find_in_files(seen.trace, steps.diagnose_node_not_added)) is not None:
         return empty
     if not seen.spins or causes.is_in_blocking_call(seen.stuck):
         return _with_step(causes.diagnose_no_answer(seen.trace, seen.stuck), started_node(seen.trace))

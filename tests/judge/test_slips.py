@@ -11,11 +11,15 @@ from tutor.judge.causes import late_binding, parameter_callback_slips, parameter
 from tutor.judge.causes.printing import use_node_logger
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
 from tutor.judge.causes.unserved import diagnose_unserved_node
-from tutor.judge.rewriting.node import node_file
+from tutor.judge.rewriting.node import find_in_files, node_file
 from tutor.judge.trace import Level, Trace
 
 
 def node(text: str) -> Trace:
+    return replace(trace(), sources={"node.py": text})
+
+
+def trace_of(text: str) -> Trace:
     return replace(trace(), sources={"node.py": text})
 
 
@@ -153,11 +157,11 @@ def test_arguments_that_do_not_reach_the_node_are_named(text: str, step: str | N
 
 def test_a_type_is_not_compared_with_a_number() -> None:
     text = "def f(p):\n  if p.type_ == ParameterType.PARAMETER_BOOL:\n    pass\nn.add_on_set_parameters_callback(f)"
-    found = parameter_callback_slips.diagnose_broken_callback(node_file(text))
+    found = parameter_callback_slips.diagnose_broken_callback(trace_of(text))
     assert found is not None
     assert found.hint == "line 2 becomes: if p.type_.value == ParameterType.PARAMETER_BOOL:"
     right = text.replace("ParameterType.PARAMETER_BOOL", "Parameter.Type.BOOL")
-    assert parameter_callback_slips.diagnose_broken_callback(node_file(right)) is None
+    assert parameter_callback_slips.diagnose_broken_callback(trace_of(right)) is None
 
 
 @pytest.mark.parametrize(
@@ -425,11 +429,11 @@ class Talker(Node):
 
 
 def test_a_class_attribute_that_the_nodes_own_one_hides() -> None:
-    found = parameter_callback_slips.diagnose_broken_callback(node_file(CLASS_ATTRIBUTE))
+    found = parameter_callback_slips.diagnose_broken_callback(trace_of(CLASS_ATTRIBUTE))
     assert found is not None
     assert found.hint == "line 12 becomes: self.prefix = p.value"
     used = CLASS_ATTRIBUTE.replace("        self.prefix = self.get", "        Talker.prefix = self.get")
-    assert parameter_callback_slips.diagnose_broken_callback(node_file(used)) is None
+    assert parameter_callback_slips.diagnose_broken_callback(trace_of(used)) is None
 
 
 SETS_UNDECLARED = """from rclpy.node import Node
@@ -508,7 +512,7 @@ def test_a_period_assigned_to_an_attribute_that_timers_do_not_have(assigned: str
 )
 def test_setattr_does_not_follow_dots(call: str, step: str | None) -> None:
     text = f"class A:\n    def f(self, p):\n        {call}\n\n    def __init__(self):\n        self.config = Config()\n"
-    found = parameter_callback_slips.diagnose_broken_callback(node_file(text))
+    found = parameter_callback_slips.diagnose_broken_callback(trace_of(text))
     assert (found.hint if found else None) == step
 
 
@@ -598,4 +602,33 @@ def test_a_guard_that_drops_early_ticks_is_removed(code: str, step: str | None) 
 )
 def test_a_sleep_that_is_long_or_repeated_slows_the_timer_down(code: str, step: str | None) -> None:
     found = period_slips.diagnose_sleep(node_file(TICK.format(code)), 5.0)
+    assert (found.hint if found else None) == step
+
+
+HELPER = """\
+import time
+
+
+class Sensor:
+    CONVERSION_S = 0.75
+
+    def read(self):
+        time.sleep({0})
+        return 20.0
+"""
+
+
+@pytest.mark.parametrize(
+    ("sleep", "step"),
+    [
+        ("self.CONVERSION_S", "in sensor.py, remove line 8: time.sleep(self.CONVERSION_S)"),
+        ("0.5", "in sensor.py, remove line 8: time.sleep(0.5)"),
+        ("0.005", None),
+        ("self.left()", None),
+    ],
+)
+def test_a_helper_that_sleeps_slows_the_node(sleep: str, step: str | None) -> None:
+    sources = {"node.py": "rclpy.spin(Talker(Sensor()))\n", "sensor.py": HELPER.format(sleep)}
+    seen = replace(trace(), file="node.py", sources=sources)
+    found = find_in_files(seen, lambda file: period_slips.diagnose_sleep_in_helper(file, 5.0))
     assert (found.hint if found else None) == step

@@ -6,8 +6,9 @@ import ast
 
 from tutor.judge.edits import remove_statement, replace_node, replace_nodes
 from tutor.judge.rewriting import parameter_callbacks, parameters
-from tutor.judge.rewriting.node import NodeFile, argument
+from tutor.judge.rewriting.node import NodeFile, argument, find_in_files, started_node
 from tutor.judge.source import Function, where
+from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
 
@@ -41,15 +42,16 @@ def _may_refuse(file: NodeFile, function: Function | None) -> bool:
     return any("successful=False" in ast.unparse(each).replace(" ", "") for each in file.reachable_from(function))
 
 
-def diagnose_broken_callback(file: NodeFile) -> Cause | None:
+def diagnose_broken_callback(trace: Trace) -> Cause | None:
     """Whether a parameter callback is never called, compares what is never equal, or sets a wrong attribute."""
-    return (
-        _diagnose_dotted_attribute(file)
-        or diagnose_uncalled_callback(file)
-        or _diagnose_compared_type(file)
-        or _diagnose_compared_identity(file)
-        or _diagnose_class_attribute(file)
+    found = find_in_files(
+        trace,
+        _diagnose_dotted_attribute,
+        _diagnose_compared_type,
+        _diagnose_compared_identity,
+        _diagnose_class_attribute,
     )
+    return found or diagnose_uncalled_callback(started_node(trace))
 
 
 def _diagnose_dotted_attribute(file: NodeFile) -> Cause | None:

@@ -200,6 +200,21 @@ def diagnose_sleep(file: NodeFile, asked_hz: float) -> Cause | None:
     return None
 
 
+def diagnose_sleep_in_helper(file: NodeFile, asked_hz: float) -> Cause | None:
+    """Whether a function of a file without a node sleeps for a fixed time, a tenth of the period at least."""
+    if file.node_classes or file.calls("create_node", "create_publisher", "create_timer", "spin"):
+        return None
+    for call in file.calls("sleep"):
+        given = call.args[0] if call.args else None
+        values = values_of(last_name(given), file.tree) if isinstance(given, ast.Name | ast.Attribute) else [given]
+        match values:
+            case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s >= 0.1 / asked_hz:
+                step = file.step([remove_statement(file.text, file.statement(call))])
+                text = f"{where(call)} in {file.file}: the node waits for this, in addition to its period"
+                return Cause("helper sleeps", text, step) if step else None
+    return None
+
+
 def diagnose_throttle(file: NodeFile) -> Cause | None:
     """Whether the timer's callback returns if the last message is less than some time ago, as many ticks are."""
     for function in file.reachable_from(file.timer_callback) if file.timer_callback is not None else ():

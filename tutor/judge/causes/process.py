@@ -14,7 +14,7 @@ from tutor.judge.causes.exceptions import diagnose_known_exception, diagnose_tra
 from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.causes.unserved import diagnose_unserved_node
 from tutor.judge.edits import remove_statement
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.rewriting.program import call_main, first_sound_step, whole_program
 from tutor.judge.source import called_name
 from tutor.judge.trace import Exit, OutputLine, Trace
@@ -141,7 +141,7 @@ def diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = Fa
         return broken
     return (
         diagnose_logged_exception(trace)
-        or diagnose_unserved_node(started_node(trace))
+        or find_in_files(trace, diagnose_unserved_node)
         or diagnose_blocked(trace, stuck, spins=spins)
         or spinning.diagnose_not_spinning(trace, stuck, node_names(trace))
         or diagnose_no_spin(trace)

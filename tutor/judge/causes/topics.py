@@ -23,7 +23,7 @@ from tutor.judge.edits import (
     replace_nodes,
     replace_statement,
 )
-from tutor.judge.rewriting.node import NodeFile, argument, node_file, started_node
+from tutor.judge.rewriting.node import NodeFile, argument, find_in_files, node_file, started_node
 from tutor.judge.source import Function, called_name
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
@@ -75,19 +75,19 @@ def _diagnose_idle_publisher(trace: Trace, topic: str, step: str) -> Cause:
 
 def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause | None:
     """Whether the source shows why an existing publisher never sends anything: nothing calls it, or too rarely."""
-    file = started_node(trace)
-    slip = (
-        period_slips.diagnose_period_unit(file)
-        or period_slips.diagnose_milliseconds(file)
-        or period_slips.diagnose_no_autostart(file)
-        or slips.diagnose_simulated_time(file)
-        or diagnose_unserved_node(file)
-        or diagnose_spin_in_constructor(file)
-        or diagnose_untimed_spin_once(file)
-        or diagnose_uncalled_setup(file, "create_timer")
+    slip = find_in_files(
+        trace,
+        period_slips.diagnose_period_unit,
+        period_slips.diagnose_milliseconds,
+        period_slips.diagnose_no_autostart,
+        slips.diagnose_simulated_time,
+        diagnose_unserved_node,
+        diagnose_spin_in_constructor,
+        diagnose_untimed_spin_once,
     )
-    if slip is not None:
-        return slip
+    file = started_node(trace)
+    if (cause := slip or diagnose_uncalled_setup(file, "create_timer")) is not None:
+        return cause
     if file.publisher and not file.calls("publish"):
         text = f"there is a publisher on {topic}, but nothing calls publish()"
     elif file.publisher and not file.timers:
@@ -111,14 +111,14 @@ def diagnose_nothing_received(
             return replace(mismatched[0], hint=_use_plain_depth(trace, ours.topic) or mismatched[0].hint)
         if not answers:
             return diagnose_no_answer(trace, stuck)
-        return diagnose_unserved_node(started_node(trace)) or Cause(
+        return find_in_files(trace, diagnose_unserved_node) or Cause(
             "callback does nothing",
             f"there is a subscription on {ours.topic}, but its messages have no effect",
             "is the right callback given to create_subscription, and the subscription kept in self?",
         )
     return (
         _diagnose_misplaced(trace, subscriptions, ours.topic, ours.type, "create_subscription")
-        or diagnose_spin_in_constructor(started_node(trace))
+        or find_in_files(trace, diagnose_spin_in_constructor)
         or diagnose_uncalled_setup(started_node(trace), "create_subscription")
         or Cause(
             "no subscription",

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 import textwrap
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -262,3 +262,13 @@ def node_file(text: str, file: str = "") -> NodeFile:
 def started_node(trace: Trace) -> NodeFile:
     """The node of the file that was run."""
     return node_file(trace.sources.get(trace.file, ""), trace.file if len(trace.sources) > 1 else "")
+
+
+def find_in_files[T](trace: Trace, *finders: Callable[[NodeFile], T | None]) -> T | None:
+    """What one of these functions finds, in the file that was run or else in its local imports."""
+    imported = (node_file(text, name) for name, text in trace.sources.items() if name != trace.file)
+    for file in (started_node(trace), *imported):
+        for find in finders:
+            if (found := find(file)) is not None:
+                return found
+    return None
