@@ -13,7 +13,8 @@ from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import CLIENT, CLIENT_S, OPERATOR_SIGNS, SERVER, SERVER_DELAY_S, ClientRun
 from tutor.judge import causes, edits, source, tracebacks
 from tutor.judge.causes import period_slips
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.causes.asyncio_threads import diagnose_other_threads_wake_up
+from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.rewriting.program import call_main, first_sound_step
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
@@ -153,6 +154,8 @@ def _diagnose_exit_code(seen: ClientRun, missing: Sequence[str], ended: str) -> 
         return unknown
     if (not_met := _diagnose_missing_calls(seen, missing)) is not None and _follows_from_silence(seen.trace):
         return not_met
+    if (asleep := find_in_files(seen.trace, diagnose_other_threads_wake_up)) is not None:
+        return asleep
     cause = causes.diagnose_process(seen.trace)
     if cause is None or cause.name == "exit at once":
         return Cause("non-zero exit", f"the client {ended}", "end with return or sys.exit(0) when all went well")
@@ -197,6 +200,8 @@ def _diagnose_hang(seen: ClientRun, missing: Sequence[str]) -> Cause:
         return mismatched
     if (unknown := client_names.diagnose_client(seen, missing)) is not None:
         return unknown
+    if (asleep := find_in_files(seen.trace, diagnose_other_threads_wake_up)) is not None:
+        return asleep
     if not seen.served and (unit := period_slips.diagnose_milliseconds(started_node(seen.trace))) is not None:
         return unit
     own = tracebacks.own_frame(seen.stuck, seen.trace.folder)
