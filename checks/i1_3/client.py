@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
-from functools import partial
+from collections.abc import Sequence
 
-from checks.i1_3 import client_names, client_requests, rewriting, service_steps, steps
-from checks.i1_3.code import Code, learner_files, with_applicable_step
+from checks.i1_3 import client_names, steps
+from checks.i1_3.client_fixes import missing_services, uses_none, with_client_step
+from checks.i1_3.code import learner_files
 from checks.i1_3.facts import CLIENT, CLIENT_S, OPERATOR_SIGNS, SERVER, SERVER_DELAY_S, ClientRun
 from tutor.judge import causes, edits, source, tracebacks
 from tutor.judge.causes import period_slips
@@ -36,7 +35,7 @@ def judge_client(seen: ClientRun) -> Verdict:
             Cause("file missing", f"the submission has no {CLIENT}", f"write {CLIENT} beside {SERVER}"),
         )
     called = {served.service for served in seen.served}
-    missing = _missing(seen)
+    missing = missing_services(seen)
     calls_made = [f"{s.service} {s.request['a']} {s.request['b']} -> {s.response['sum']}" for s in seen.served[:12]]
     evidence = (*calls_made, *causes.output_tail(seen.trace, 4))
     if seen.exit is None:
@@ -47,105 +46,15 @@ def judge_client(seen: ClientRun) -> Verdict:
             else f"still running after {CLIENT_S:g} s"
         )
         observed = f"{state}; called {_list_services(called)}"
-        return failed(expected, observed, _with_step(_diagnose_hang(seen, missing), seen), evidence)
+        return failed(expected, observed, with_client_step(_diagnose_hang(seen, missing), seen), evidence)
     ended = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"
     if seen.exit.code != 0:
-        cause = _with_step(_diagnose_exit_code(seen, missing, ended), seen)
+        cause = with_client_step(_diagnose_exit_code(seen, missing, ended), seen)
         return failed(expected, f"{ended}; called {_list_services(called)}", cause, evidence)
     if missing:
-        cause = _with_step(_diagnose_not_called(seen, missing), seen)
+        cause = with_client_step(_diagnose_not_called(seen, missing), seen)
         return failed(expected, f"{ended}; {', '.join(missing)} not called", cause, evidence)
     return passed(expected, f"{len(seen.served)} calls, {ended}", calls_made)
-
-
-_Step = Callable[[Code, Cause, ClientRun], str | None]
-
-
-def _remove_calls(code: Code, _cause: Cause, _seen: ClientRun, names: Sequence[str] = ("_exit",)) -> str | None:
-    return steps.remove_calls(code, *names)
-
-
-_STEPS: Mapping[str, Sequence[_Step]] = {
-    "service not waited for": [lambda code, *_: client_requests.wait_for_services(code)],
-    "waits too short a time": [_remove_calls, lambda code, *_: client_requests.lengthen_waits(code)],
-    "non-zero exit": [lambda code, *_: steps.remove_arguments(code) or steps.end_with_zero(code)],
-    "coroutine not awaited": [
-        lambda code, cause, _: client_requests.make_synchronous(code, cause.text.partition(" ")[0])
-    ],
-    "incompatible QoS": [lambda code, *_: service_steps.use_default_qos(code)],
-    "thread still running": [lambda code, *_: steps.join_thread(code)],
-    "not called": [
-        lambda code, *_: steps.remove_arguments(code),
-        _remove_calls,
-        lambda code, _, seen: steps.add_to_list(code, _missing(seen)),
-    ],
-}
-"""The smallest steps for each cause, by the cause's name."""
-
-
-def _with_step(cause: Cause, seen: ClientRun) -> Cause:
-    """Give a cause a step that can be followed word for word.
-
-    In this order: one for the cause itself, one that waits for each answer, or a rewrite of the client.
-    """
-    assert seen.trace is not None
-    trace, own = seen.trace, tracebacks.own_frame(seen.stuck, seen.trace.folder)
-    found = tracebacks.last_traceback(trace)
-    raised = own_frame.code if found is not None and (own_frame := found.own(trace.folder)) is not None else ""
-    if cause.name == "did not end" and own is not None and not _missing(seen):
-        files = [code for code in learner_files(trace) if code.file == own.name]
-        if (hint := next(filter(None, (steps.shorten_loop(code, own.line) for code in files)), None)) is not None:
-            return replace(cause, hint=hint)
-    if cause.name == "did not end" and own is not None and "sleep(" in own.code:
-        fixes: Sequence[_Step] = [partial(_remove_calls, names=("sleep",))]
-        if not _missing(seen):
-            function = own.function
-            fixes = [lambda code, *_: steps.make_thread_daemon(code, function), *fixes]
-    elif cause.name == "did not end" and not _missing(seen) and source.calls(trace, "Thread"):
-        joined = own if own is not None and ".join(" in own.code else None
-        fixes = [
-            lambda code, *_: steps.shut_down_rclpy(code, joined.line if joined and joined.name == code.file else 0)
-        ]
-    else:
-        fixes = _STEPS.get(cause.name, [])
-    if cause.name == "did not end" and own is not None and ".wait(" in own.code:
-        line, file_name = own.line, own.name
-        fixes = [lambda code, *_: client_requests.set_event(code, line) if code.file == file_name else None, *fixes]
-    fix_first = bool(fixes) or _is_due_to_no_answer(found)  # before the hint that the cause has already
-    if "input(" in raised or (own is not None and "input(" in own.code):
-        fixes, fix_first = [lambda code, *_: steps.remove_input(code)], True
-    each_file = [partial(step, code, cause, seen) for step in fixes for code in learner_files(trace)]
-    each_file = [*(partial(client_requests.negate_waits, code) for code in learner_files(trace)), *each_file]
-    not_sent = cause.name in ("wrong service name", "wrong type", "not called", "waits too short a time")
-    waits = (
-        []
-        if not_sent
-        else [
-            *(partial(client_requests.spin_while_polling, code) for code in learner_files(trace)),
-            *(partial(client_requests.wait_for_answers, code, trace) for code in learner_files(trace)),
-        ]
-    )
-    file = next(iter(learner_files(trace)), Code(""))
-    last = [partial(rewriting.rewrite_client, file)] if file.file else []
-    if fix_first and (hint := next((hint for step in (*each_file, *waits) if (hint := step()) is not None), None)):
-        return replace(cause, hint=hint)
-    return with_applicable_step(cause, trace, *each_file, *waits, *last)
-
-
-def _is_due_to_no_answer(found: tracebacks.Traceback | None) -> bool:
-    """Whether an exception comes from using an answer that had not arrived yet."""
-    used_itself = found is not None and "'Future'" in found.message and "'_condition'" not in found.message
-    return found is not None and (_uses_none(found) or used_itself or found.type.endswith(("Timeout", "TimeoutError")))
-
-
-def _uses_none(found: tracebacks.Traceback) -> bool:
-    """Whether None was used as an answer; `with rclpy.init()` uses it as something else."""
-    return "'NoneType'" in found.message and "context manager" not in found.message
-
-
-def _missing(seen: ClientRun) -> list[str]:
-    called = {served.service for served in seen.served}
-    return [name for name in OPERATOR_SIGNS if name not in called]
 
 
 def _diagnose_exit_code(seen: ClientRun, missing: Sequence[str], ended: str) -> Cause:
@@ -169,7 +78,7 @@ def _follows_from_silence(trace: Trace) -> bool:
         return True
     own = found.own(trace.folder)
     deliberate = own is not None and own.code.startswith(("raise ", "assert "))
-    return deliberate or found.type.endswith("TimeoutError") or _uses_none(found)
+    return deliberate or found.type.endswith("TimeoutError") or uses_none(found)
 
 
 def _diagnose_not_called(seen: ClientRun, missing: Sequence[str]) -> Cause:
