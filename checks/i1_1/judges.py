@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 from checks.i1_1 import steps
 from checks.i1_1.facts import (
@@ -32,6 +33,7 @@ from checks.i1_1.facts import (
 )
 from tutor.judge import causes, ending, randomness, tracebacks
 from tutor.judge.rates import TOLERANCE
+from tutor.judge.rewriting.node import find_in_files
 from tutor.judge.rewriting.whole import with_applicable_steps
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
@@ -116,6 +118,10 @@ def _diagnose_range(wrong: Sequence[float], values: Sequence[float], trace: Trac
         )
     if all(map(_is_fahrenheit, values)):
         return Cause("out of range", "these look like degrees Fahrenheit", steps.draw_values(trace))
+    if len(set(wrong)) == 1 and trace is not None:
+        initial = find_in_files(trace, partial(steps.diagnose_initial_value, value=wrong[0]))
+        if initial is not None:
+            return initial
     return Cause("out of range", "values leave the range", steps.draw_values(trace))
 
 

@@ -20,6 +20,7 @@ from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
 _RANGE = f"({LOWEST}, {HIGHEST})"
+_DRAWING = ("uniform", "random", "randint", "randrange", "gauss", "normalvariate", "normal", "triangular", "choice")
 
 
 def file(trace: Trace | None) -> NodeFile:
@@ -46,6 +47,30 @@ def draw_values(trace: Trace | None) -> str:
         )
         or f"draw a new value in every callback: random.uniform{_RANGE}"
     )
+
+
+def diagnose_initial_value(read: NodeFile, value: float) -> Cause | None:
+    """Whether a wrong value is the one with which the node starts, before it has drawn any."""
+    if not read.calls(*_DRAWING):
+        return None
+    found = [
+        constant
+        for each in read.nodes
+        if isinstance(each, ast.Assign) and (constant := _only_constant(each.value)) is not None
+        if isinstance(constant.value, int | float) and constant.value == value
+        if isinstance(each.targets[0], ast.Attribute)
+    ]
+    step = read.step([replace_node(read.text, found[0], str((LOWEST + HIGHEST) / 2))]) if len(found) == 1 else None
+    text = f"the node starts with {value:g} (line {found[0].lineno}), and publishes it" if found else ""
+    return Cause("initial value out of range", text, step) if step else None
+
+
+def _only_constant(value: ast.expr) -> ast.Constant | None:
+    """The constant that an attribute is set to, or that makes the message it is set to, as in Float64(data=0.0)."""
+    if isinstance(value, ast.Call):
+        given = [*value.args, *(each.value for each in value.keywords)]
+        return given[0] if len(given) == 1 and isinstance(given[0], ast.Constant) else None
+    return value if isinstance(value, ast.Constant) else None
 
 
 def use_one_type(trace: Trace) -> str:

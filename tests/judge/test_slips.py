@@ -612,23 +612,32 @@ import time
 class Sensor:
     CONVERSION_S = 0.75
 
-    def read(self):
+    def {1}(self):
         time.sleep({0})
         return 20.0
 """
 
 
 @pytest.mark.parametrize(
-    ("sleep", "step"),
+    ("function", "sleep", "removed"),
     [
-        ("self.CONVERSION_S", "in sensor.py, remove line 8: time.sleep(self.CONVERSION_S)"),
-        ("0.5", "in sensor.py, remove line 8: time.sleep(0.5)"),
-        ("0.005", None),
-        ("self.left()", None),
+        ("read", "self.CONVERSION_S", True),
+        ("read", "0.5", True),
+        ("read", "self.left()", True),
+        ("read", "0.005", False),
+        ("sleep", "self.left()", False),
+        ("_run_loop", "0.5", False),
     ],
 )
-def test_a_helper_that_sleeps_slows_the_node(sleep: str, step: str | None) -> None:
-    sources = {"node.py": "rclpy.spin(Talker(Sensor()))\n", "sensor.py": HELPER.format(sleep)}
+def test_a_helper_that_sleeps_slows_the_node(function: str, sleep: str, removed: bool) -> None:
+    sources = {"node.py": "rclpy.spin(Talker(Sensor()))\n", "sensor.py": HELPER.format(sleep, function)}
     seen = replace(trace(), file="node.py", sources=sources)
     found = find_in_files(seen, lambda file: period_slips.diagnose_sleep_in_helper(file, 5.0))
+    step = f"in sensor.py, remove line 8: time.sleep({sleep})" if removed else None
     assert (found.hint if found else None) == step
+
+
+def test_a_sleep_for_the_rest_of_the_period_is_the_loops_own() -> None:
+    loop = "def main():\n    while rclpy.ok():\n        publisher.publish(Float64())\n        time.sleep({})\n"
+    assert period_slips.diagnose_sleep(node_file(loop.format("left")), 5.0) is None
+    assert period_slips.diagnose_sleep(node_file(loop.format("0.5")), 5.0) is not None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from itertools import pairwise, takewhile
 
@@ -12,6 +13,9 @@ from tutor.judge.source import calls_in, last_name, values_of, where
 from tutor.judge.verdict import Cause
 
 _IMAGINED_PERIODS = ("period", "timer_period", "timer_period_sec", "timer_period_s", "interval", "period_sec", "rate")
+
+_IS_TO_WAIT = re.compile(r"sleep|wait|pause|delay|spin|run|loop", re.IGNORECASE)
+"""Names of functions whose purpose it is to wait, or which loop at the rate of the node."""
 
 _CLOCKS = ("time", "monotonic", "perf_counter", "now", "time_ns", "monotonic_ns")
 
@@ -174,6 +178,8 @@ def diagnose_second_timer(file: NodeFile) -> Cause | None:
 
 
 def _is_fixed(file: NodeFile, period: ast.expr) -> bool:
+    if isinstance(period, ast.BinOp):
+        return _is_fixed(file, period.left) and _is_fixed(file, period.right)
     values = [period] if isinstance(period, ast.Constant) else values_of(ast.unparse(period), file.tree)
     return bool(values) and all(isinstance(each, ast.Constant) for each in values)
 
@@ -190,6 +196,8 @@ def diagnose_sleep(file: NodeFile, asked_hz: float) -> Cause | None:
     called = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
     for call in file.calls("sleep"):
         repeated = bool(file.timers) and any(isinstance(each, ast.For) for each in _within_function(file, call))
+        if not file.timers and not isinstance(call.args[0] if call.args else None, ast.Constant):
+            continue  # it may be the loop's own period
         match call.args:
             case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s < 0.1 / asked_hz and not repeated:
                 continue
@@ -201,17 +209,24 @@ def diagnose_sleep(file: NodeFile, asked_hz: float) -> Cause | None:
 
 
 def diagnose_sleep_in_helper(file: NodeFile, asked_hz: float) -> Cause | None:
-    """Whether a function of a file without a node sleeps for a fixed time, a tenth of the period at least."""
+    """Whether a function of a file without a node sleeps, for a tenth of the period at least if the time is fixed.
+
+    Something like a Rate is to sleep.
+    """
     if file.node_classes or file.calls("create_node", "create_publisher", "create_timer", "spin"):
         return None
     for call in file.calls("sleep"):
         given = call.args[0] if call.args else None
         values = values_of(last_name(given), file.tree) if isinstance(given, ast.Name | ast.Attribute) else [given]
         match values:
-            case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s >= 0.1 / asked_hz:
-                step = file.step([remove_statement(file.text, file.statement(call))])
-                text = f"{where(call)} in {file.file}: the node waits for this, in addition to its period"
-                return Cause("helper sleeps", text, step) if step else None
+            case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s < 0.1 / asked_hz:
+                continue
+        function = file.function_around(call)
+        if function is None or _IS_TO_WAIT.search(function.name):
+            continue
+        step = file.step([remove_statement(file.text, file.statement(call))])
+        text = f"{where(call)} in {file.file}: the node waits for this, whatever its period"
+        return Cause("helper sleeps", text, step) if step else None
     return None
 
 
