@@ -554,6 +554,14 @@ def test_three_concurrent_calls() -> None:
     assert judge_concurrent(ConcurrentCalls(trace(graph=NODE_UP))).status is Status.SKIPPED
 
 
+def test_one_call_that_lasts_long_enough_by_chance_is_not_enough() -> None:
+    assert_passed(judge_blocking(single_calls(), concurrent(1005, 2005, 3005, took_s=(3.0, 6.0, 9.0))))
+    by_chance = concurrent(1005, 2005, 3005, took_s=(2.3, 2.3, 2.3))
+    assert_failed(judge_blocking(single_calls(), by_chance), "too quick", "2.30 s")
+    # If sums are mixed up, `concurrent` reports that.
+    assert_passed(judge_blocking(single_calls(), concurrent(3005, 3005, 3005, took_s=(2.3, 2.3, 2.3))))
+
+
 def test_three_unanswered_calls_are_judged_only_with_the_single_calls() -> None:
     assert_failed(judge_concurrent_so_far(concurrent(3005, 3005, 3005)), "shared state")
     assert_passed(judge_concurrent_so_far(concurrent(1005, 2005, 3005)))
