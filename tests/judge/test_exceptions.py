@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -219,3 +221,24 @@ class N(Node):
 def test_a_step_is_given_as_edits_if_they_leave_the_file_valid(edits: str, step: str) -> None:
     example = Example("ValueError: 5", "", line="self.count += 1", source=SOURCE)
     assert step_of(f"{ENTRY}edits = {edits}", example) == step
+
+
+# Searches stdin for each pattern of the tables given, with every placeholder filled in.
+SEARCH = """
+import re, sys
+from pathlib import Path
+from tutor.judge.exceptions import load, load_shipped
+text = sys.stdin.read()
+for known in (*load_shipped(), *(entry for path in sys.argv[1:] for entry in load(Path(path)))):
+    for pattern in filter(None, (known.source, known.without)):
+        re.search(re.sub(r"\\{[a-z_]+\\}", "name", pattern), text, re.MULTILINE)
+"""
+
+
+def test_no_pattern_takes_forever_on_a_long_callback() -> None:
+    lines = [f"{' ' * (8 + 4 * (i % 5))}name = self.name(request.a, 'name') if {i} else name" for i in range(120)]
+    head = ["class Server(Node):", "    def name(self, request, response):"]
+    text = "\n".join([*head, *lines, "        return name, response", ""])
+    tables = map(str, sorted((Path(__file__).parents[2] / "checks").glob("*/exceptions.toml")))
+    # In a process of its own: nothing interrupts a search.
+    subprocess.run([sys.executable, "-c", SEARCH, *tables], input=text, text=True, timeout=60, check=True)
