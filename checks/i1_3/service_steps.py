@@ -151,7 +151,7 @@ def return_response(trace: Trace, service: str) -> str | None:
     """
     found = find_callback(trace, service)
     for code in learner_files(trace):
-        if (step := code.as_step(instances(code.text, {}))) is not None:
+        if (step := code.as_step(instances(code.text, {}) or _return_response_alone(code))) is not None:
             return step
     if found is None:
         return compute_results(trace, [service], whole=True)
@@ -163,6 +163,19 @@ def return_response(trace: Trace, service: str) -> str | None:
         if changes and (step := code.as_step(changes)) is not None:
             return step
     return compute_results(trace, [service], whole=True)
+
+
+def _return_response_alone(code: Code) -> list[Edit]:
+    """Return the response alone where it is returned in a tuple, as in `return False, response`."""
+    tuples = []
+    for function in code.functions:
+        last = [each.arg for each in function.args.args][-1:]
+        for each in ast.walk(function):
+            if isinstance(each, ast.Return) and isinstance(each.value, ast.Tuple):
+                tuples += [
+                    (each, name.id) for name in each.value.elts if isinstance(name, ast.Name) and [name.id] == last
+                ]
+    return [edits.replace_statement(each, f"return {name}") for each, name in reversed(tuples)]
 
 
 def _fix_all_returns(trace: Trace, code: Code) -> list[Edit]:

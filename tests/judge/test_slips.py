@@ -155,6 +155,28 @@ def test_arguments_that_do_not_reach_the_node_are_named(text: str, step: str | N
     assert (found.hint if found else None) == step
 
 
+REFUSES_AFTERWARDS = """\
+class Talker(Node):
+    def __init__(self):
+        super().__init__('talker')
+        self.add_post_set_parameters_callback(self.check)
+
+    def check(self, params):
+        for p in params:
+            if p.name == 'publish_rate' and p.value <= 0:
+                return SetParametersResult(successful=False, reason='no')
+        return SetParametersResult(successful=True)
+"""
+
+
+def test_a_post_set_callback_cannot_refuse() -> None:
+    found = parameter_callback_slips.diagnose_broken_callback(trace_of(REFUSES_AFTERWARDS))
+    assert found is not None
+    assert found.hint == "line 4 becomes: self.add_on_set_parameters_callback(self.check)"
+    right = REFUSES_AFTERWARDS.replace("post_set", "on_set")
+    assert parameter_callback_slips.diagnose_broken_callback(trace_of(right)) is None
+
+
 def test_a_type_is_not_compared_with_a_number() -> None:
     text = "def f(p):\n  if p.type_ == ParameterType.PARAMETER_BOOL:\n    pass\nn.add_on_set_parameters_callback(f)"
     found = parameter_callback_slips.diagnose_broken_callback(trace_of(text))

@@ -7,7 +7,7 @@ import ast
 from tutor.judge.edits import remove_statement, replace_node, replace_nodes
 from tutor.judge.rewriting import parameter_callbacks, parameters
 from tutor.judge.rewriting.node import NodeFile, argument, find_in_files, started_node
-from tutor.judge.source import Function, where
+from tutor.judge.source import Function, calls_in, where
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
@@ -46,12 +46,28 @@ def diagnose_broken_callback(trace: Trace) -> Cause | None:
     """Whether a parameter callback is never called, compares what is never equal, or sets a wrong attribute."""
     found = find_in_files(
         trace,
+        _diagnose_refusal_afterwards,
         _diagnose_dotted_attribute,
         _diagnose_compared_type,
         _diagnose_compared_identity,
         _diagnose_class_attribute,
     )
     return found or diagnose_uncalled_callback(started_node(trace))
+
+
+def _diagnose_refusal_afterwards(file: NodeFile) -> Cause | None:
+    """Whether a post-set callback returns a SetParametersResult that refuses: rclpy ignores what it returns."""
+    for call in file.calls(parameter_callbacks.POST_SET):
+        function = file.function(argument(call, 0, "callback"))
+        if function is None or not _may_refuse(file, function) or calls_in(function, "get_parameter"):
+            continue
+        code = f"{ast.unparse(call.func).rpartition('.')[0]}.{parameter_callbacks.ON_SET}"
+        step = file.step([replace_node(file.text, call.func, code)])
+        text = (
+            f"{where(call)}: {function.name} is called after the values have been set, and what it returns is ignored"
+        )
+        return Cause("refused too late", text, step) if step else None
+    return None
 
 
 def _diagnose_dotted_attribute(file: NodeFile) -> Cause | None:
