@@ -149,3 +149,10 @@ def test_a_response_class_that_is_returned_becomes_an_instance(made: str) -> Non
     text = body(made, f"{name}.sum = 1", f"return {name}")
     fixed = text.replace("AddTwoInts.Response", "AddTwoInts.Response()")
     assert follow_step(text, lambda run: service_steps.return_response(run, "/divide")) == fixed
+
+
+def test_a_response_that_is_returned_in_a_tuple_is_returned_alone() -> None:
+    answers = ["if request.b == 0:", "    return False, response", "response.sum = 1", "return True, response"]
+    alone = [line.replace("False, ", "").replace("True, ", "") for line in answers]
+    found = follow_step(body(*answers), lambda seen: service_steps.return_response(seen, "/divide"))
+    assert found == body(*alone)

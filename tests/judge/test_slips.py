@@ -224,10 +224,11 @@ TIMERS = (
 )
 
 
-def test_a_second_timer_with_a_fixed_period_is_removed() -> None:
-    found = period_slips.diagnose_second_timer(node_file(TIMERS))
+@pytest.mark.parametrize("period", ["0.5", "1.0 / HZ"])
+def test_a_second_timer_with_a_fixed_period_is_removed(period: str) -> None:
+    found = period_slips.diagnose_second_timer(node_file(TIMERS.replace("0.5", period) + "HZ = 2.0\n"))
     assert found is not None
-    assert found.hint == "remove line 4: self.t = self.create_timer(0.5, self.tick)"
+    assert found.hint == f"remove line 4: self.t = self.create_timer({period}, self.tick)"
 
 
 @pytest.mark.parametrize(("old", "new"), [("rate, self.tick", "rate, self.tock"), ("    self.set_rate(2)\n", "")])
