@@ -63,7 +63,8 @@ def _diagnose_exit_code(seen: ClientRun, missing: Sequence[str], ended: str) -> 
         return unknown
     if (not_met := _diagnose_missing_calls(seen, missing)) is not None and _follows_from_silence(seen.trace):
         return not_met
-    if (asleep := find_in_files(seen.trace, diagnose_other_threads_wake_up)) is not None:
+    asleep = find_in_files(seen.trace, diagnose_other_threads_wake_up)
+    if asleep is not None and _follows_from_silence(seen.trace):
         return asleep
     cause = causes.diagnose_process(seen.trace)
     if cause is None or cause.name == "exit at once":
