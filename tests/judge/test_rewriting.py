@@ -316,6 +316,14 @@ def test_a_value_that_the_node_overwrites(file: NodeFile, right: str) -> None:
     assert parameter_slips.diagnose_override(other_set, PREFIX) is None
 
 
+def test_a_parameter_that_the_node_sets_through_a_variable_is_left_alone() -> None:
+    again = "        value = Parameter('message_prefix', value='Hello')\n        self.set_parameters([value])\n"
+    found = parameter_slips.diagnose_override(NodeFile(NODE + again), PREFIX)
+    assert found is not None
+    assert found.hint == "remove line 25: self.set_parameters([value])"
+    assert parameter_slips.diagnose_override(NodeFile(NODE + again), ENABLED) is None
+
+
 @pytest.mark.parametrize(
     ("file", "cause", "line"),
     [

@@ -55,6 +55,8 @@ def _diagnose_own_set(file: NodeFile, name: str) -> Cause | None:
     for call in file.calls("set_parameters", "set_parameters_atomically"):
         function = file.function_around(call)
         code = ast.unparse(call) if "[" in ast.unparse(call) or function is None else ast.unparse(function)
+        made = [each.id for given in call.args for each in ast.walk(given) if isinstance(each, ast.Name)]
+        code = " ".join([code, *(ast.unparse(value) for each in made for value in values_of(each, file.tree))])
         statement = file.statement(call)
         declared = [] if file.calls("declare_parameter", "declare_parameters") else _declarations(file)
         if any(repr(name) in each for each in declared):
