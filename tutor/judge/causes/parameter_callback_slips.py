@@ -143,20 +143,17 @@ def _diagnose_compared_identity(file: NodeFile) -> Cause | None:
         and isinstance(each.comparators[0], ast.Constant)
         and type(each.comparators[0].value) in (str, int, float)
     ]
-    equal = [
-        (
-            each,
-            ast.unparse(
-                ast.Compare(each.left, [ast.Eq() if isinstance(each.ops[0], ast.Is) else ast.NotEq()], each.comparators)
-            ),
-        )
-        for each in compared
-    ]
-    step = file.step(replace_nodes(file.text, *equal))
+    step = file.step(replace_nodes(file.text, *((each, _as_equality(each)) for each in compared)))
     if not compared or step is None:
         return None
     text = f"{where(compared[0])}: `is` compares whether both are the same object, which two equal texts need not be"
     return Cause("never the same object", text, step)
+
+
+def _as_equality(compared: ast.Compare) -> str:
+    """The code of a comparison with == or != in place of `is` or `is not`."""
+    operator = ast.Eq() if isinstance(compared.ops[0], ast.Is) else ast.NotEq()
+    return ast.unparse(ast.Compare(compared.left, [operator], compared.comparators))
 
 
 def diagnose_uncalled_callback(file: NodeFile) -> Cause | None:
