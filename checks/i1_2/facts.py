@@ -149,6 +149,16 @@ class Trial:
                 break
         return late
 
+    def was_hurried(self, messages: int) -> bool:
+        """Whether a node that keeps one message may have lost one shortly before this many had been sent.
+
+        That is so if it had less than half the usual time for one of the last messages: they were sent unevenly, or it
+        waited for a CPU.
+        """
+        spans = [(b.at - a.at, b.cpu_wait_s - a.cpu_wait_s) for a, b in pairwise(self.sent)]
+        usual_s = median(span_s for span_s, _ in spans) if spans else 0.0
+        return any(span_s - waited_s < usual_s / 2 for span_s, waited_s in spans[max(messages - 4, 0) : messages])
+
     @property
     def jumps(self) -> tuple[int, ...]:
         """For each jump after which a message was sent, the number of messages sent before it."""

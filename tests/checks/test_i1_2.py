@@ -942,6 +942,13 @@ class ToleratesOneMissing(FakeStats):
         return super().on_jump(last, number) if number > last + 2 else iter(())
 
 
+class LosesOne(FakeStats):
+    """Does not receive N = 100: the next message was in its queue of one before it was read."""
+
+    def receive(self, now: float, data: str) -> Iterator[Log]:
+        return super().receive(now, data) if data != "Hello World: 100" else iter(())
+
+
 class SkipsTheFirstGap(FakeStats):
     """Ignores the first gap as a false alarm."""
 
@@ -1283,6 +1290,28 @@ class RateOverTheLastSecond(FakeStats):
 def test_a_rate_that_rises_after_the_jump_is_no_loss() -> None:
     trials = (jump(RateOverTheLastSecond()), jump_twice(RateOverTheLastSecond()))
     assert_passed(judge_gaps(*trials, steady(RateOverTheLastSecond())))
+
+
+def with_delays(trial: Trial, number: int, *, sent_late_s: float = 0.0, cpu_wait_s: float = 0.0) -> Trial:
+    """The trial with this N sent late, and the node waiting for a CPU while it came."""
+    after = number + 1
+    sent = [
+        replace(
+            each,
+            at=each.at + sent_late_s * (each.number == number),
+            cpu_wait_s=each.cpu_wait_s + cpu_wait_s * (each.number >= after),
+        )
+        for each in trial.sent
+    ]
+    return replace(trial, sent=tuple(sent))
+
+
+def test_a_loss_is_a_false_alarm_unless_the_machine_may_have_caused_it() -> None:
+    jump_trial, steady_trial = jump(LosesOne()), steady(FakeStats())
+    assert_failed(judge_jumps(jump_trial, steady_trial), "false alarm")
+    assert_failed(judge_jumps(with_delays(jump_trial, 103, cpu_wait_s=0.1), steady_trial), "false alarm")
+    for delays in ({"cpu_wait_s": 0.1}, {"sent_late_s": 0.1}, {"cpu_wait_s": 0.04, "sent_late_s": 0.04}):
+        assert_undecided(judge_jumps(with_delays(jump_trial, 100, **delays), steady_trial))
 
 
 @pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])

@@ -27,8 +27,8 @@ def note(name):
         file.write(str(os.getpid()))
     os.rename(name + '.new', name)
 def forever():
-    while True:
-        time.sleep(1000)
+    while True:  # a signal that comes just before a sleep is only handled after it
+        time.sleep(0.1)
 """
 
 
