@@ -347,6 +347,18 @@ CASES = (
         log=("[INFO] [launch.user]: number 0!", "[INFO] [launch.user]: number 1!", "[INFO] [launch.user]: after"),
     ),
     Case(
+        id="opaque-coroutine",
+        source="launch: actions/opaque_coroutine.py, execute and __on_shutdown",
+        before="import asyncio\nimport launch\n"
+        "async def late(context, word):\n    await asyncio.sleep(0.01)\n    LogInfo(msg=word).execute(context)\n"
+        "async def cancelled(*, end):\n    try:\n        await asyncio.Event().wait()\n    finally:\n        end()\n"
+        "def end():\n    launch.logging.get_logger('launch.user').info('cancelled')\n",
+        actions="OpaqueCoroutine(coroutine=late, args=['late']), LogInfo(msg='first'), "
+        "OpaqueCoroutine(coroutine=cancelled, kwargs={'end': end}, ignore_context=True), "
+        "TimerAction(period=0.2, actions=[Shutdown()])",
+        log=tuple(f"[INFO] [launch.user]: {word}" for word in ("first", "late", "cancelled")),
+    ),
+    Case(
         id="executed-twice",
         source="launch: actions/execute_local.py, execute (executed more than once)",
         before="p = ExecuteProcess(cmd=['true'])\n",

@@ -1,7 +1,7 @@
 """Actions."""
 
 from ._composition import GroupAction, IncludeLaunchDescription, LogInfo, OpaqueFunction, Shutdown
-from ._events import EmitEvent, RegisterEventHandler, TimerAction, UnregisterEventHandler
+from ._events import EmitEvent, OpaqueCoroutine, RegisterEventHandler, TimerAction, UnregisterEventHandler
 from ._process import ExecuteLocal, ExecuteProcess
 from ._scope import (
     AppendEnvironmentVariable,
@@ -27,6 +27,7 @@ __all__ = [
     "GroupAction",
     "IncludeLaunchDescription",
     "LogInfo",
+    "OpaqueCoroutine",
     "OpaqueFunction",
     "PopEnvironment",
     "PopLaunchConfigurations",

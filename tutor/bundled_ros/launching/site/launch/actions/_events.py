@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Coroutine, Iterable
 from typing import Any
 
 from .._entities import (
@@ -170,3 +170,40 @@ class TimerAction(Action):
         if not cancelled.done():
             context.emit_event_sync(TimerEvent(timer_action=self))
         completed.set_result(None)
+
+
+class OpaqueCoroutine(Action):
+    """Runs a coroutine function in the launch's event loop. It is cancelled at shutdown."""
+
+    def __init__(
+        self,
+        *,
+        coroutine: Callable[..., Coroutine[Any, Any, None]],
+        args: Iterable[Any] | None = None,
+        kwargs: dict[str, Any] | None = None,
+        ignore_context: bool = False,
+        **left_over_kwargs: Any,
+    ) -> None:
+        super().__init__(**left_over_kwargs)
+        if not asyncio.iscoroutinefunction(coroutine):
+            raise TypeError(f"OpaqueCoroutine expected a coroutine function for 'coroutine', got '{type(coroutine)}'")
+        ensure_argument_type(args, (Iterable, type(None)), "args", "OpaqueCoroutine")
+        ensure_argument_type(kwargs, (dict, type(None)), "kwargs", "OpaqueCoroutine")
+        ensure_argument_type(ignore_context, bool, "ignore_context", "OpaqueCoroutine")
+        self._coroutine = coroutine
+        self._args = list(args or ())
+        self._kwargs = dict(kwargs or {})
+        self._ignore_context = ignore_context
+        self._task: asyncio.Task[None] | None = None
+
+    def execute(self, context: LaunchContext) -> None:
+        first = () if self._ignore_context else (context,)
+        self._task = context.asyncio_loop.create_task(self._coroutine(*first, *self._args, **self._kwargs))
+        context.register_event_handler(OnShutdown(on_shutdown=self._cancel))
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        return self._task
+
+    def _cancel(self, event: Event, context: LaunchContext) -> None:
+        if self._task is not None:
+            self._task.cancel()
