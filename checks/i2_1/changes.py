@@ -45,11 +45,16 @@ async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
     finally:
         switching.cancel()
         await asyncio.gather(switching, return_exceptions=True)
-    return replace(switched, after_prefix=prefixed.after_prefix, before=prefixed.before)
+    return replace(
+        switched,
+        after_prefix=prefixed.after_prefix,
+        before=prefixed.before,
+        sent_after_rate=prefixed.sent_after_rate,
+    )
 
 
 async def _set_prefix(bench: Bench) -> RuntimeChanges:
-    """Set message_prefix while the node publishes."""
+    """Set message_prefix while the node publishes; then publish_rate while `enabled` is off."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=3.0) as run:
         bench.report_progress(0.05, "waiting for it to publish")
         node, answering = await wait_until_publishing(run)
@@ -81,7 +86,23 @@ async def _set_prefix(bench: Bench) -> RuntimeChanges:
             idle_s=IDLE_S,
         )
         before = measure(run.samples_on(TOPIC))
-        return replace(seen, trace=run.trace(), set_prefix=answer, after_prefix=with_new_prefix(), before=before)
+        seen = replace(seen, set_prefix=answer, after_prefix=with_new_prefix(), before=before)
+        if seen.after_prefix is not None:
+            bench.report_progress(0.6, f"setting {RATE} to {UP_HZ} while {ENABLED} is false")
+            seen = replace(seen, sent_after_rate=await _set_rate_while_off(run, node, seen.period_s))
+        return replace(seen, trace=run.trace())
+
+
+async def _set_rate_while_off(run: Run, node: str, period_s: float) -> tuple[Sample, ...]:
+    """Set `enabled` to false and then a higher rate; return what is published in spite of it."""
+    set_off = await run.set_parameters(node, {ENABLED: False}, limit_s=ANSWER_S)
+    if not set_off.successful:
+        return ()
+    set_rate = await run.set_parameters(node, {RATE: UP_HZ}, limit_s=ANSWER_S)
+    quiet_from = max(set_off.answered_at + period_s, set_rate.answered_at) + 0.1
+    quiet_until = quiet_from + 3 / UP_HZ
+    await run.until(lambda: run.now() >= quiet_until, period_s + 2, idle_s=IDLE_S)
+    return tuple(sample for sample in run.samples_on(TOPIC) if sample.source_time > quiet_from)
 
 
 async def _switch_enabled(bench: Bench) -> RuntimeChanges:

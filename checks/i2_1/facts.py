@@ -89,7 +89,8 @@ class ParameterStarts:
 class RuntimeChanges:
     """A plain start on which parameters are set: message_prefix to `prefix`, enabled off, `later`, enabled on again.
 
-    `after_prefix` and `before` come from another start: the first message with the new prefix, and the rate up to then.
+    `after_prefix`, `before` and `sent_after_rate` come from another start: the first message with the new prefix, the
+    rate up to then, and the messages sent although enabled was off, after publish_rate was set.
     `resumed`: the first message after `enabled` was on again. `after_resume`: the messages from then on or from a
     period later, with their `rate`.
     """
@@ -100,6 +101,7 @@ class RuntimeChanges:
     after_prefix: Sample | None = None
     set_off: SetAnswer | None = None
     sent_while_off: tuple[Sample, ...] = ()
+    sent_after_rate: tuple[Sample, ...] = ()
     set_later: SetAnswer | None = None
     set_on: SetAnswer | None = None
     resumed: Sample | None = None

@@ -96,6 +96,17 @@ def judge_runtime(seen: RuntimeChanges, retimed: RateChanges) -> Verdict:
     # If a timer is left running whenever a parameter is set, it is up to `timer` to report that.
     if not verdict.passed or not judge_timer(retimed).passed:
         return verdict
+    if seen.sent_after_rate:
+        return failed(
+            EXPECTED_CHANGES,
+            f"{ENABLED} set to false, then {RATE} to {UP_HZ}: {counted(len(seen.sent_after_rate), 'message')}",
+            Cause(
+                "restarted by another parameter",
+                f"setting {RATE} starts the messages again, though {ENABLED} is still false",
+                steps.keep_timer_running(seen.trace),
+            ),
+            [text_of(sample) for sample in seen.sent_after_rate[:3]],
+        )
     return _fail_if_not_as_before(seen, EXPECTED_CHANGES, any_rate=False) or verdict
 
 

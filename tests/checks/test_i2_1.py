@@ -257,6 +257,12 @@ def test_messages_due_while_disabled_must_not_be_sent_later() -> None:
     )
 
 
+def test_a_rate_change_does_not_start_a_disabled_node() -> None:
+    seen = runtime_changes(sent_after_rate=samples(TOPIC, 10.0, count=3))
+    assert_failed(judge_with_timer(seen), "restarted by another parameter", "3 messages")
+    assert_passed(judge_with_timer(seen, rate_changes(UP_HZ + 1.0, DOWN_HZ + 11.0)))  # `timer` reports it
+
+
 def test_a_timer_that_a_rate_change_also_leaves_behind_is_reported_once() -> None:
     twice = rate_changes(UP_HZ + 1.0, DOWN_HZ + 11.0)
     assert_passed(judge_with_timer(runtime_changes(rate=rate(2.0)), twice))
