@@ -200,7 +200,7 @@ def diagnose_timer_loop(trace: Trace) -> Cause | None:
 def diagnose_whole_rate(trace: Trace, name: str) -> Cause | None:
     """Diagnose a rate that is cut to a whole number, so that a small one becomes 0."""
     read = file(trace)
-    if (cause := period_slips.diagnose_integer_period(read)) is not None:
+    if (cause := find_in_files(trace, slips.diagnose_xor, period_slips.diagnose_integer_period)) is not None:
         return cause
     kept = parameters.find_kept_value(read, name)
     if kept is None or not any(

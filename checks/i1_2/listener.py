@@ -63,7 +63,8 @@ class Listener:
     def logger(self) -> str:
         """The expression for the logger in the callback; "" if none is in scope."""
         node = ast.unparse(self.created.func.value) if isinstance(self.created.func, ast.Attribute) else "node"
-        if self.owner is not None and self.created in ast.walk(self.owner):
+        is_own = node == "self" and f"self.{self.function.name}" in map(ast.unparse, self.created.args)
+        if self.owner is not None and (is_own or self.created in ast.walk(self.owner)):
             return f"{node}.get_logger()"
         calls = [each for function in self.reached for each in ast.walk(function) if isinstance(each, ast.Call)]
         for call in calls:
@@ -83,9 +84,11 @@ class Listener:
 
 def find_listener(trace: Trace) -> Listener | None:
     """Find the callback of the node's subscription; None if there is none, or the file cannot be parsed."""
-    for file in source.files(trace):
-        for call in sorted(file.calls("create_subscription"), key=_is_for_another_topic):
-            for function in _passed_functions(call, file):
+    files = source.files(trace)
+    for created_in in files:
+        for call in sorted(created_in.calls("create_subscription"), key=_is_for_another_topic):
+            for passed in _passed_functions(call, created_in):
+                file, function = _find_override(passed, created_in, files)
                 parent = next(file.ancestors(function), None)
                 owner = parent if isinstance(parent, ast.ClassDef) else None
                 outer = file.function_around(function) if owner is None else None
@@ -94,6 +97,19 @@ def find_listener(trace: Trace) -> Listener | None:
                     file, call, function, reached, owner, outer, dict(_find_roles(function, reached, owner, file))
                 )
     return None
+
+
+def _find_override(function: Function, file: SourceFile, files: Sequence[SourceFile]) -> tuple[SourceFile, Function]:
+    """The method of a derived class in another file that overrides this one, and its file; else the function itself."""
+    owner = next(file.ancestors(function), None)
+    if isinstance(owner, ast.ClassDef):
+        for other in files:
+            for each in other.functions if other is not file else ():
+                derived = next(other.ancestors(each), None)
+                bases = derived.bases if isinstance(derived, ast.ClassDef) else []
+                if each.name == function.name and owner.name in map(last_name, bases):
+                    return other, each
+    return file, function
 
 
 def _is_for_another_topic(call: ast.Call) -> bool:

@@ -12,7 +12,7 @@ from checks.i1_2.reading import Number
 from checks.i1_2.summaries import Summary, find_summaries, last_due_count, possible_totals, slots
 from tutor.judge.causes import slips
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.verdict import Cause
 
 DELAY_S = 0.01
@@ -148,6 +148,8 @@ def diagnose_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: T
     texts, numbers = [line.text for line in summary.lines], [number.text for number in found]
     if (unformatted := slips.diagnose_missing_f(started_node(trial.trace), texts)) is not None:
         return unformatted
+    if (power := find_in_files(trial.trace, slips.diagnose_xor)) is not None:
+        return power
     hint = steps.measure_rate(trial.trace, texts, numbers) or (
         "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
     )

@@ -30,7 +30,7 @@ from checks.i2_1.failures import (
 )
 from checks.i2_1.program import whole_program
 from tutor.judge import causes, ending, tracebacks
-from tutor.judge.causes import callback_slips, names, parameter_slips, period_slips, spinning
+from tutor.judge.causes import callback_slips, names, parameter_slips, period_slips, slips, spinning
 from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.trace import Level, Trace
@@ -133,7 +133,7 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
 
 def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
     rate, trace = seen.rate, seen.trace
-    if (cause := find_in_files(trace, period_slips.diagnose_integer_period)) is not None:
+    if (cause := find_in_files(trace, slips.diagnose_xor, period_slips.diagnose_integer_period)) is not None:
         return cause
     if rate is not None and rate.in_bursts:
         return causes.diagnose_bursts(steps.send_once_per_tick(trace))

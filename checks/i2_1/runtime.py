@@ -207,6 +207,7 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
         return waits
     period_slip = find_in_files(
         trace,
+        slips.diagnose_xor,
         period_slips.diagnose_integer_period,
         period_slips.diagnose_nanoseconds,
         period_slips.diagnose_period_attribute,

@@ -30,9 +30,9 @@ from checks.i2_3.facts import (
 from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series, best_series
 from tutor.judge import causes, ending
-from tutor.judge.causes import names
+from tutor.judge.causes import names, slips
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.step_parsing import NotAnEdit, apply_step
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.verdict import Cause, Status, Undecided, Verdict, failed, passed, skipped, undecided
@@ -117,7 +117,8 @@ def _judge_answer_alone(seen: SingleCalls) -> Verdict:
 def _fail_too_quick(answer: CallAnswer, trace: Trace, expected: str) -> Verdict:
     source = started_node(trace)
     step = steps.fix_work_time(source) or "let the callback wait: time.sleep(3.0), then answer"
-    cause = steps.diagnose_early_answer(source) or Cause("too quick", f"the work takes {answer.took_s:.1f} s", step)
+    slip = find_in_files(trace, slips.diagnose_xor) or steps.diagnose_early_answer(source)
+    cause = slip or Cause("too quick", f"the work takes {answer.took_s:.1f} s", step)
     return failed(expected, _describe_answer(answer), cause)
 
 

@@ -176,3 +176,10 @@ def test_the_callback_is_the_one_for_the_topic_and_of_the_derived_class(code: st
     found = find_listener(trace(sources={"node.py": code}))
     assert found is not None
     assert (found.function.name, found.function.lineno) == (name, line)
+
+
+def test_the_callback_of_a_derived_class_may_be_in_another_file() -> None:
+    base, derived = DERIVED.split("class Stats")
+    found = find_listener(trace(sources={"stats.py": f"class Stats{derived}", "base.py": base}))
+    assert found is not None
+    assert (found.file.file, found.function.name, found.logger) == ("stats.py", "heard", "self.get_logger()")

@@ -119,3 +119,23 @@ def test_the_line_that_raises_is_removed() -> None:
     )
     assert shutdown_steps.remove_line(raising, replace(broken, line=8)) == "line 8 becomes: return"
     assert "stop before that" in shutdown_steps.remove_line(node(MAIN), None)
+
+
+def test_a_spin_that_is_the_target_of_a_thread_is_caught() -> None:
+    source = MAIN.replace(
+        "    try:", "    spinner = threading.Thread(target=rclpy.spin, args=(node,))\n    spinner.start()\n    try:"
+    ).replace("        rclpy.spin(node)", "        spinner.join()")
+    step = shutdown_steps.catch_interrupt(node(source))
+    for words in (
+        "def spin_until_shutdown(*arguments, spin=rclpy.spin):",
+        "spin(*arguments)",
+        "except ExternalShutdownException:",
+        "spinner = threading.Thread(target=spin_until_shutdown, args=(node,))",
+    ):
+        assert words in step
+
+
+def test_a_spin_in_an_imported_file_is_caught_there() -> None:
+    base = "class Base(Node):\n    def run(self):\n        rclpy.spin(self)\n"
+    run = replace(trace(), file="node.py", sources={"base.py": base, "node.py": MAIN})
+    assert shutdown_steps.catch_interrupt(run).startswith("in base.py, ")

@@ -44,6 +44,26 @@ def test_valid_comparisons_are_not_reported(text: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "step"),
+    [
+        ("t = 10^9", "line 1 becomes: t = 10**9"),
+        ("t = ns // 10 ^ 9 >= limit", "line 1 becomes: t = ns // 10**9 >= limit"),
+        ("x = a ^ b\nt = 3 * 10^6", "line 2 becomes: t = 3 * 10**6"),
+        ("n = 2^8 - 1", "line 1 becomes: n = 2**8 - 1"),
+    ],
+)
+def test_a_power_written_as_xor(text: str, step: str) -> None:
+    found = slips.diagnose_xor(node_file(text))
+    assert found is not None
+    assert found.hint == step
+
+
+@pytest.mark.parametrize("text", ["x = a ^ 1", "x = a ^ b", "x ^= 10", "t = 10**9", "x = 7 ^ 3"])
+def test_another_xor_is_no_slip(text: str) -> None:
+    assert slips.diagnose_xor(node_file(text)) is None
+
+
+@pytest.mark.parametrize(
     "text",
     [
         "p = Parameter('use_sim_time', Parameter.Type.BOOL, True)",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 
-from tutor.judge.edits import Edit, remove_statement, replace_lines, replace_pattern
+from tutor.judge.edits import Edit, insert_above, remove_statement, replace_lines, replace_node, replace_pattern
 from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.rewriting.program import SPINS, clean_ending, first_sound_step, guard_spin
 from tutor.judge.trace import Trace
@@ -17,10 +17,19 @@ SPIN_ENDINGS = ("KeyboardInterrupt", "ExternalShutdownException")
 
 def catch_interrupt(trace: Trace) -> str:
     """How to catch the exceptions that end a spin, and shut rclpy down only once."""
-    return first_sound_step(trace, _with_interrupt_caught, clean_ending) or (
-        "write around spin(): try, and except (KeyboardInterrupt, ExternalShutdownException): pass, with from "
-        "rclpy.executors import ExternalShutdownException at the top; and rclpy.try_shutdown() in place of "
-        "rclpy.shutdown()"
+
+    def is_other(name: str) -> bool:
+        return name != trace.file
+
+    steps = (first_sound_step(trace, _with_interrupt_caught, name=name) for name in sorted(trace.sources, key=is_other))
+    return (
+        next(filter(None, steps), None)
+        or first_sound_step(trace, clean_ending)
+        or (
+            "write around spin(): try, and except (KeyboardInterrupt, ExternalShutdownException): pass, with from "
+            "rclpy.executors import ExternalShutdownException at the top; and rclpy.try_shutdown() in place of "
+            "rclpy.shutdown()"
+        )
     )
 
 
@@ -91,4 +100,20 @@ def _with_interrupt_caught(file: NodeFile) -> list[Edit]:
                     *imported,
                     replace_lines(handler.lineno, re.sub(r"except\b.*?(?= as |:)", both, line, count=1)),
                 ]
-    return list(dict.fromkeys(found))
+    return list(dict.fromkeys([*found, *_guard_threads(file)]))
+
+
+def _guard_threads(file: NodeFile) -> list[Edit]:
+    """Catch the exception that ends a spin which is the target of a thread."""
+    found = []
+    for call in file.calls("Thread"):
+        target = next((each.value for each in call.keywords if each.arg == "target"), None)
+        if isinstance(target, ast.Attribute) and target.attr in SPINS and ast.unparse(target) != "self.spin":
+            name, imported = file.import_name("ExternalShutdownException", "rclpy.executors")
+            code = (
+                f"def spin_until_shutdown(*arguments, spin={ast.unparse(target)}):\n"
+                f"    try:\n        spin(*arguments)\n    except {name}:\n        pass\n"
+            )
+            above = insert_above(file.statement(call).lineno, code)
+            found += [*imported, above, replace_node(file.text, target, "spin_until_shutdown")]
+    return found

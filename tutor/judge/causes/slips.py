@@ -72,6 +72,22 @@ def _is_true(file: NodeFile, value: ast.expr) -> bool:
     return isinstance(value, ast.Constant) and value.value is True
 
 
+def diagnose_xor(file: NodeFile) -> Cause | None:
+    """Whether the file writes ^ for a power of 2 or 10, as in 10^9."""
+    for node in file.nodes:
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.BitXor):
+            continue
+        base = node.left.right if isinstance(node.left, ast.BinOp) else node.left  # x / 10^9 is (x / 10) ^ 9
+        power = node.right.left if isinstance(node.right, ast.BinOp) else node.right
+        match base, power:
+            case ast.Constant(value=2 | 10 as number), ast.Constant(value=int() as exponent):
+                pattern = rf"\b{number}\s*\^\s*{exponent}\b"
+                step = file.step(edits.replace_pattern(file.text, pattern, f"{number}**{exponent}"))
+                text = f"line {node.lineno}: {number}^{exponent} is {number ^ exponent}: ^ is a bitwise XOR, ** a power"
+                return Cause("^ is no power", text, step) if step else None
+    return None
+
+
 def diagnose_never_none(file: NodeFile) -> Cause | None:
     """Whether an attribute is compared with None to set it for the first time, but never is None: it begins as 0."""
     for test in file.nodes:

@@ -130,10 +130,13 @@ def diagnose_nothing_received(
 
 def _use_plain_depth(trace: Trace, topic: str) -> str | None:
     """The step that gives the subscription on `topic` the depth 10 for its QoS."""
-    file = started_node(trace)
-    made = [each for each in file.calls("create_subscription") if _may_name(argument(each, 1, "topic"), topic)]
-    given = [qos for each in made if (qos := argument(each, 3, "qos_profile")) is not None]
-    return file.step([replace_node(file.text, given[0], "10")]) if given else None
+
+    def in_file(file: NodeFile) -> str | None:
+        made = [each for each in file.calls("create_subscription") if _may_name(argument(each, 1, "topic"), topic)]
+        given = [qos for each in made if (qos := argument(each, 3, "qos_profile")) is not None]
+        return file.step([replace_node(file.text, given[0], "10")]) if given else None
+
+    return find_in_files(trace, in_file)
 
 
 def _may_name(code: ast.expr | None, topic: str) -> bool:
