@@ -31,7 +31,9 @@ def _with_guard_step(cause: Cause, trace: Trace) -> Cause:
     logs = own is not None and _LOG_CALL.search(own.code) is not None
     if found is not None and (logs or found.type in ("AttributeError", "NameError")):  # of the error branch itself
         return with_applicable_step(cause, trace, lambda: services.guard_division(trace))
-    return replace(cause, hint=services.guard_division(trace) or cause.hint)
+    in_helper = found is not None and found.type == "ZeroDivisionError" and not services.find_callback(trace, "/divide")
+    helper = division_by_zero.return_zero(trace) if in_helper else None
+    return replace(cause, hint=helper or services.guard_division(trace) or cause.hint)
 
 
 @with_applicable_steps

@@ -61,6 +61,24 @@ def log_division_by_zero(trace: Trace) -> str | None:
     return None
 
 
+def return_zero(trace: Trace) -> str | None:
+    """Step: let a node's method that returns the quotient of two numbers log an error and return 0."""
+    for division in _find_divisions(trace):
+        code, node, function = division.code, division.node, division.function
+        returned = next((each for each, _ in division.around if isinstance(each, ast.stmt)), None)
+        parameters = {each.arg for each in function.args.args} if isinstance(function, ast.FunctionDef) else set()
+        if not (isinstance(returned, ast.Return) and isinstance(node, ast.BinOp)):
+            continue
+        around = next((each for each in code.ancestors(node) if isinstance(each, ast.ClassDef)), None)
+        logger = f"{code.self_name(node)}.get_logger()"
+        logs = around is not None and logger in ast.unparse(around)  # its base class may be in another file
+        if isinstance(node.right, ast.Name) and node.right.id in parameters and (logs or code.node_method(node)):
+            guard = f"if {node.right.id} == 0:\n    {logger}.{_LOG_CALL}\n    return 0"
+            if (step := code.as_step(edits.insert_above(returned.lineno, guard))) is not None:
+                return step
+    return None
+
+
 def _find_divisions(trace: Trace) -> Iterator[_Division]:
     for code in learner_files(trace):
         for node in code.nodes:

@@ -6,7 +6,7 @@ import ast
 
 import pytest
 
-from checks.i1_3.division_by_zero import log_division_by_zero
+from checks.i1_3.division_by_zero import log_division_by_zero, return_zero
 from checks.i1_3.services import guard_division
 from tests.checks.builders import trace
 from tutor.judge.step_parsing import apply_step
@@ -126,4 +126,26 @@ def test_a_division_is_guarded_first_and_its_callback_rewritten_next() -> None:
     assert (
         f"{GUARD}\n        resp.sum = req.a // req.b\n        return resp"
         in apply_step(again, {"node.py": once})["node.py"]
+    )
+
+
+def test_a_method_that_returns_the_quotient_returns_zero() -> None:
+    text = (
+        "class Divide(Operation):\n    def ready(self):\n        self.get_logger().info('ready')\n"
+        "    def operate(self, a, b):\n        return a // b\n"
+    )
+    step = return_zero(trace(sources={"node.py": text + MAIN}))
+    assert step is not None
+    assert "write above line 5" in step
+    assert [line.strip() for line in step.splitlines()[1:]] == [
+        "if b == 0:",
+        "self.get_logger().error('division by zero')",
+        "return 0",
+    ]
+
+
+def test_a_function_without_a_logger_is_left_alone() -> None:
+    assert (
+        return_zero(trace(sources={"node.py": "class Divide:\n    def operate(self, a, b):\n        return a // b\n"}))
+        is None
     )

@@ -6,7 +6,8 @@ import pytest
 
 from tests.checks.builders import trace
 from tests.repairs import apply_step
-from tutor.judge.causes.printing import find_print, log_instead_of_print
+from tutor.judge.causes.printing import diagnose_own_logger, find_print, log_instead_of_print
+from tutor.judge.rewriting.node import node_file
 from tutor.judge.trace import Trace
 
 
@@ -79,3 +80,17 @@ def test_a_single_print_is_logged() -> None:
 def test_a_write_is_logged() -> None:
     run = printing("text = f'total: {total}\\n'", "sys.stdout.write(text)", "sys.stdout.flush()")
     assert follow_step(run, "total: 7")[1] == "self.get_logger().info(str(text))"
+
+
+def test_a_logger_that_replaces_that_of_the_node_gets_another_name() -> None:
+    found = diagnose_own_logger(
+        node_file("class N(Node):\n    def f(self):\n        self._logger = logging.getLogger('n')\n")
+    )
+    assert found is not None
+    assert found.hint == "line 3 becomes: self._python_logger = logging.getLogger('n')"
+
+
+def test_a_logger_under_another_name_replaces_none() -> None:
+    assert (
+        diagnose_own_logger(node_file("self.log = logging.getLogger('n')\nself._logger = self.get_logger()\n")) is None
+    )

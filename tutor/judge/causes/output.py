@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from tutor.judge import source, tracebacks
 from tutor.judge.causes import names, printing, slips
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.trace import Level, OutputLine, Trace
 from tutor.judge.verdict import Cause
 
@@ -35,6 +35,8 @@ def diagnose_printed(
     `what`: a noun phrase for it, to be used in a sentence. `after`: the output after the process was told to end;
     whatever appears only there was held back in a buffer until then.
     """
+    if (replaced := find_in_files(trace, printing.diagnose_own_logger)) is not None:
+        return replaced
     printed = [text for text in _printed_lines(trace.output) if says(text)]
     if printed:
         if (call := printing.find_python_logging(trace, printed[0])) is not None:

@@ -6,9 +6,10 @@ import ast
 import re
 
 from tutor.judge import source
-from tutor.judge.edits import describe_edits_of, replace_nodes, replace_statement
+from tutor.judge.edits import describe_edits_of, replace_nodes, replace_pattern, replace_statement
 from tutor.judge.rewriting.node import NodeFile
 from tutor.judge.trace import Trace
+from tutor.judge.verdict import Cause
 
 _VALUE = "\0"
 _PLACEHOLDER = re.compile(r"%[-\d.]*[a-z]|\{[^}]*\}")
@@ -72,6 +73,22 @@ def use_node_logger(file: NodeFile) -> str | None:
         if (method := file.node_method(each)) is not None and method.args.args
     ]
     return file.step(replace_nodes(file.text, *swaps))
+
+
+def diagnose_own_logger(file: NodeFile) -> Cause | None:
+    """Whether the file sets the attribute in which rclpy's Node keeps its logger to one of Python's own."""
+    for node in file.nodes:
+        match node:
+            case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr="_logger")], value=value) if (
+                ast.unparse(value).startswith("logging.")
+            ):
+                step = file.step(replace_pattern(file.text, r"\bself\._logger\b", "self._python_logger"))
+                text = (
+                    f"line {node.lineno}: {ast.unparse(node)} replaces the logger that rclpy keeps under this name: "
+                    "what get_logger() returns then knows nothing of ROS"
+                )
+                return Cause("node's logger replaced", text, step) if step else None
+    return None
 
 
 def log_instead_of_print(trace: Trace, call: ast.Call) -> str:

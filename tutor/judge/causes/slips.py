@@ -80,7 +80,7 @@ def diagnose_xor(file: NodeFile) -> Cause | None:
         base = node.left.right if isinstance(node.left, ast.BinOp) else node.left  # x / 10^9 is (x / 10) ^ 9
         power = node.right.left if isinstance(node.right, ast.BinOp) else node.right
         match base, power:
-            case ast.Constant(value=2 | 10 as number), ast.Constant(value=int() as exponent):
+            case ast.Constant(value=int() as number), ast.Constant(value=int() as exponent) if number in (2, 10):
                 pattern = rf"\b{number}\s*\^\s*{exponent}\b"
                 step = file.step(edits.replace_pattern(file.text, pattern, f"{number}**{exponent}"))
                 text = f"line {node.lineno}: {number}^{exponent} is {number ^ exponent}: ^ is a bitwise XOR, ** a power"
