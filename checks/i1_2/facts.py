@@ -56,6 +56,8 @@ FAST_ENOUGH_HZ = 20.0
 """A machine on which our average rate stays below this is too busy."""
 
 RESTART_AFTER, RESTART_MESSAGES = 13, 25
+RESTARTED_HZ = 9.4
+"""The rate of the second publisher: no rate over any of the messages since then is still UNTIMED_HZ."""
 ABSENT_S = 0.7
 """How long there is no publisher: nobody restarts a talker faster."""
 

@@ -15,7 +15,7 @@ from checks.i1_2.causes import (
     every_ten,
     last_logs,
 )
-from checks.i1_2.facts import FAST_HZ, SUMMARY_EVERY, Trial
+from checks.i1_2.facts import FAST_HZ, RESTARTED_HZ, SUMMARY_EVERY, Trial
 from checks.i1_2.summaries import Summary, count_complete, find_summaries, possible_totals
 from checks.i1_2.totals import counts_truly, total_as_rate, true_total
 from tutor.judge import ending
@@ -74,7 +74,8 @@ def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
     return passed(expected, f"{len(seen)} summaries state {stated}", [str(summary) for _, summary in seen])
 
 
-def judge_rate(steady: Trial, jump: Trial) -> Verdict:
+def judge_rate(steady: Trial, jump: Trial, restart: Trial | None = None) -> Verdict:
+    """Judge `rate`. `restart`: a run in which the rate changes."""
     summaries = [summary for summary in find_summaries(steady) if summary.messages > 1]  # one message gives no rate yet
     if not summaries:
         return skipped(NO_SUMMARY)
@@ -97,6 +98,13 @@ def judge_rate(steady: Trial, jump: Trial) -> Verdict:
         )
     if rates.is_doubtful_rate(stated, summaries, steady):
         return undecided("to send messages at an even rate")
+    if restart is not None and (kept := rates.find_kept_rate(restart)) is not None:
+        return failed(
+            "each summary states the messages per second, also when they change",
+            f"{kept.text} at first, and still {kept.text} when another talker sends {RESTARTED_HZ:g} a second",
+            rates.diagnose_kept_rate(kept, restart),
+            [str(summary) for summary in find_summaries(restart)],
+        )
     return passed(expected, f"{', '.join(number.text for number in stated)} messages per second", evidence)
 
 

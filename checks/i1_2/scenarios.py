@@ -20,6 +20,7 @@ from checks.i1_2.facts import (
     QUIET_S,
     RESTART_AFTER,
     RESTART_MESSAGES,
+    RESTARTED_HZ,
     SECOND_JUMP_AFTER,
     SOON_S,
     STEADY_HZ,
@@ -136,7 +137,7 @@ async def fast(bench: Bench) -> Trial:
 
 
 async def restart(bench: Bench) -> Trial:
-    """Send messages, remove the publisher, and let a new one start over at 0."""
+    """Send messages, remove the publisher, and let a new one start over at 0, at another rate."""
     async with bench.start(FILE) as run:
         sent: list[Sent] = []
         async with run.publisher(TOPIC, TYPE) as talker:
@@ -155,7 +156,7 @@ async def restart(bench: Bench) -> Trial:
             await run.until(lambda: talker.subscribers > 0, SPIN_S)
             if talker.subscribers:
                 await _pause(run, MATCH_S)
-                await _send(bench, run, talker, sent, range(RESTART_MESSAGES - RESTART_AFTER), UNTIMED_HZ)
+                await _send(bench, run, talker, sent, range(RESTART_MESSAGES - RESTART_AFTER), RESTARTED_HZ)
             cpu_wait_s = run.node_cpu_wait_s() - waited_before_s
             before_break = RESTART_AFTER if len(sent) >= RESTART_AFTER else 0
             return await _collect_last_logs(

@@ -1292,6 +1292,38 @@ def test_a_rate_that_rises_after_the_jump_is_no_loss() -> None:
     assert_passed(judge_gaps(*trials, steady(RateOverTheLastSecond())))
 
 
+class KeepsTheRate(FakeStats):
+    """Works the rate out for its first summary only."""
+
+    kept: float = 0.0
+
+    def rate(self) -> float:
+        self.kept = self.kept or super().rate()
+        return self.kept
+
+
+class AlsoStatesTheFirstRate(KeepsTheRate):
+    def summary(self) -> Iterator[Log]:
+        for level, text in super().summary():
+            yield level, f"{text}, now {FakeStats.rate(self):.2f}"
+
+
+class KeepsWholeRate(KeepsTheRate):
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"count={self.total} rate={self.rate():.0f} first={self.first} last={self.last}"
+
+
+def test_a_rate_that_is_kept_when_it_changes_is_wrong() -> None:
+    trials = steady(KeepsTheRate()), jump(KeepsTheRate())
+    assert_passed(judges.judge_rate(*trials))
+    assert_failed(judges.judge_rate(*trials, restart(KeepsTheRate())), "rate never updated", "still 8.89")
+
+
+@pytest.mark.parametrize("node", [FakeStats, AlsoStatesTheFirstRate, KeepsWholeRate])
+def test_another_rate_that_is_the_same_is_no_mistake(node: type[FakeStats]) -> None:
+    assert_passed(judges.judge_rate(steady(FakeStats()), jump(FakeStats()), restart(node())))
+
+
 def with_delays(trial: Trial, number: int, *, sent_late_s: float = 0.0, cpu_wait_s: float = 0.0) -> Trial:
     """The trial with this N sent late, and the node waiting for a CPU while it came."""
     after = number + 1
