@@ -134,7 +134,7 @@ def diagnose_name(trace: Trace, name: str) -> Cause:
     as_object = parameter_slips.diagnose_parameter_object(read, name) if shows_object else None
     cause = (
         as_object
-        or parameter_slips.diagnose_dropped_arguments(read)
+        or find_in_files(trace, parameter_slips.diagnose_dropped_arguments)
         or _diagnose_log_level(read, name)
         or slips.diagnose_missing_f(read, [log.text for log in trace.logs])
     )
@@ -194,7 +194,7 @@ def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
 
 def diagnose_timer_loop(trace: Trace) -> Cause | None:
     """Diagnose messages in bursts as those of several timers that a loop makes."""
-    return period_slips.diagnose_timer_loop(file(trace))
+    return find_in_files(trace, period_slips.diagnose_timer_loop)
 
 
 def diagnose_whole_rate(trace: Trace, name: str) -> Cause | None:

@@ -11,7 +11,7 @@ from checks.i1_2.summaries import Summary, is_in_time, last_due_count
 from checks.i1_2.totals import total_as_rate
 from tutor.judge import causes
 from tutor.judge.causes import slips
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.node import find_in_files
 from tutor.judge.trace import Level, LogRecord
 from tutor.judge.verdict import Cause
 
@@ -31,7 +31,8 @@ def diagnose_count(summary: Summary, trial: Trial) -> Cause:
 
 
 def _diagnose_missing_f(summary: Summary, trial: Trial) -> Cause | None:
-    return slips.diagnose_missing_f(started_node(trial.trace), [line.text for line in summary.lines])
+    texts = [line.text for line in summary.lines]
+    return find_in_files(trial.trace, lambda file: slips.diagnose_missing_f(file, texts))
 
 
 def _miscounted(summary: Summary, trial: Trial) -> tuple[str, str, str]:
@@ -115,7 +116,7 @@ def diagnose_incomplete_summary(summary: Summary, trial: Trial) -> Cause | None:
         return unformatted
     recent = trial.sent[last_due_count(summary.messages) - 1 : summary.messages_at_end]
     if first.number not in summary.quoted:
-        if (shared := slips.diagnose_shared_object(started_node(trial.trace))) is not None:
+        if (shared := find_in_files(trial.trace, slips.diagnose_shared_object)) is not None:
             return shared
         others = [number for number in summary.quoted if number not in {each.number for each in recent}]
         if others:
@@ -165,7 +166,7 @@ def diagnose_no_summary(trial: Trial) -> Cause:
     )
     if printed is not None:
         return printed
-    raised = None if trial.lines else slips.diagnose_raised_level(started_node(trace), Level.FATAL)
+    raised = None if trial.lines else find_in_files(trace, lambda file: slips.diagnose_raised_level(file, Level.FATAL))
     return raised or Cause(
         "no summary",
         "none of its log messages sums up the messages" if trial.lines else "no log message follows from a message",

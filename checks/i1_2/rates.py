@@ -14,7 +14,7 @@ from checks.i1_2.summaries import Summary, find_summaries, last_due_count, possi
 from tutor.judge.causes import slips
 from tutor.judge.edits import remove_lines, replace_node, replace_statement
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.node import NodeFile, find_in_files, started_node
+from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.source import last_name
 from tutor.judge.verdict import Cause
 
@@ -171,7 +171,7 @@ def diagnose_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: T
     """Which mistake explains the numbers in `summary`, which states no true rate."""
     found = _numbers_except_count(summary, trial)
     texts, numbers = [line.text for line in summary.lines], [number.text for number in found]
-    if (unformatted := slips.diagnose_missing_f(started_node(trial.trace), texts)) is not None:
+    if (unformatted := find_in_files(trial.trace, lambda file: slips.diagnose_missing_f(file, texts))) is not None:
         return unformatted
     if (power := find_in_files(trial.trace, slips.diagnose_xor)) is not None:
         return power
@@ -208,7 +208,7 @@ def diagnose_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: T
         )
     if not found:
         return Cause("no rate", "it contains no number other than the count", hint)
-    return slips.diagnose_never_none(started_node(trial.trace)) or Cause(
+    return find_in_files(trial.trace, slips.diagnose_never_none) or Cause(
         "wrong rate", f"none of {', '.join(number.text for number in found)} is the rate", hint
     )
 

@@ -21,7 +21,7 @@ from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names, spinning
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
 from tutor.judge.rewriting.callbacks import only_waits, outermost
-from tutor.judge.rewriting.node import node_file, started_node
+from tutor.judge.rewriting.node import find_in_files, node_file, started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
@@ -58,7 +58,7 @@ def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
     if broken is not None:
         asks = broken.name == names.UNHANDLED_EXCEPTION and "EOFError" in broken.text
         return with_applicable_step(broken, trace, lambda: _first_step(trace, steps.remove_input) if asks else None)
-    if (early := spinning.diagnose_spin_in_constructor(started_node(trace))) is not None:
+    if (early := find_in_files(trace, spinning.diagnose_spin_in_constructor)) is not None:
         return with_applicable_step(early, trace)
     offered = [s for s in trace.graph.servers if not s.is_standard]
     mistyped = [service for service in offered if service.name in missing and service.type != TYPE]

@@ -22,7 +22,7 @@ from tutor.judge import causes
 from tutor.judge.causes import names, parameter_slips
 from tutor.judge.rates import Rate
 from tutor.judge.rewriting import parameter_callbacks
-from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.rewriting.whole import with_applicable_steps
 from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
@@ -66,7 +66,7 @@ def fail_not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence
         text = "the parameter callback is an async def: rclpy does not await it, and so gets no SetParametersResult"
         cause = replace(cause, text=text)
     if "read-only" in answer.reason:
-        cause = parameter_slips.diagnose_read_only(started_node(trace)) or cause
+        cause = find_in_files(trace, parameter_slips.diagnose_read_only) or cause
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
 
 

@@ -105,7 +105,7 @@ def diagnose_wrong_sum(answer: CallAnswer, trace: Trace) -> Cause:
     """Why the sum may be wrong."""
     assert answer.response is not None
     source = started_node(trace)
-    if answer.took_s < SHORTEST_S and (early := steps.diagnose_early_answer(source)) is not None:
+    if answer.took_s < SHORTEST_S and (early := find_in_files(trace, steps.diagnose_early_answer)) is not None:
         return early
     if (late := late_binding.diagnose_late_binding(trace)) is not None:
         return late
@@ -135,8 +135,8 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
         )
         return (
             printed
-            or diagnose_unserved_node(source)
-            or diagnose_no_autostart(source)
+            or find_in_files(idle.trace, diagnose_unserved_node)
+            or find_in_files(idle.trace, diagnose_no_autostart)
             or diagnose_uncalled_setup(source, "create_timer")
             or tick_steps.diagnose_no_ticks(source)
             or Cause(
@@ -146,9 +146,9 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
                 or f"self.create_timer({1 / HZ:g}, self.tick, ...), and log every tenth tick's number at info",
             )
         )
-    if likely.hz < HZ and (nap := spinning.diagnose_nap_between_spins(source)) is not None:
+    if likely.hz < HZ and (nap := find_in_files(idle.trace, spinning.diagnose_nap_between_spins)) is not None:
         return nap
-    if likely.hz > HZ and (twins := diagnose_twin_timers(source)) is not None:
+    if likely.hz > HZ and (twins := find_in_files(idle.trace, diagnose_twin_timers)) is not None:
         return twins
     if likely.numbered or likely.hz > HZ:
         return Cause(
@@ -169,7 +169,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
     source = started_node(seen.trace)
-    if timer.fault is not Fault.FAST and (cancelled := diagnose_self_cancelling(source)) is not None:
+    if timer.fault is not Fault.FAST and (cancelled := find_in_files(seen.trace, diagnose_self_cancelling)) is not None:
         return cancelled
     if timer.fault is Fault.FAST:
         return Cause(
@@ -231,7 +231,7 @@ def diagnose_lost_calls(trace: Trace, batch: CallBatch, answered: Sequence[CallA
         )
     if (
         any(answer.took_s < SHORTEST_S for answer in answered)
-        and (early := steps.diagnose_early_answer(source)) is not None
+        and (early := find_in_files(trace, steps.diagnose_early_answer)) is not None
     ):
         return early
     sums = [answer.response["sum"] for answer in answered if answer.response is not None]

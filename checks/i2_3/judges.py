@@ -117,7 +117,7 @@ def _judge_answer_alone(seen: SingleCalls) -> Verdict:
 def _fail_too_quick(answer: CallAnswer, trace: Trace, expected: str) -> Verdict:
     source = started_node(trace)
     step = steps.fix_work_time(source) or "let the callback wait: time.sleep(3.0), then answer"
-    slip = find_in_files(trace, slips.diagnose_xor) or steps.diagnose_early_answer(source)
+    slip = find_in_files(trace, slips.diagnose_xor, steps.diagnose_early_answer)
     cause = slip or Cause("too quick", f"the work takes {answer.took_s:.1f} s", step)
     return failed(expected, _describe_answer(answer), cause)
 

@@ -78,7 +78,7 @@ def diagnose_printed(
             f"{step}: print() into a pipe or a file waits until its buffer is full, a log message goes out at once",
         )
     lowest = min((log.level for log in trace.logs), default=Level.FATAL)
-    if (raised := slips.diagnose_raised_level(started_node(trace), lowest)) is not None:
+    if (raised := find_in_files(trace, lambda file: slips.diagnose_raised_level(file, lowest))) is not None:
         return raised
     unused = None if source.calls(trace, "get_logger") else printing.find_python_logging(trace)
     return _diagnose_python_logging(trace, unused, what) if unused is not None else None

@@ -75,7 +75,7 @@ def _diagnose_exit(trace: Trace) -> Cause:
         return replace(guard, text=f"{ended}: {guard.text}")
     if trace.exit.code == 0 and (early_end := spinning.diagnose_early_end(trace, ended)) is not None:
         return early_end
-    if (exits := callback_slips.diagnose_exit_in_callback(started_node(trace), ended)) is not None:
+    if (exits := find_in_files(trace, lambda file: callback_slips.diagnose_exit_in_callback(file, ended))) is not None:
         return exits
     if trace.exit.code == 0 and trace.exit.after_s <= QUICK_S + 0.5:
         return Cause(
