@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from checks.i1_2 import backlog, rates, slowness
+from checks.i1_2 import backlog, kept_rate, rates, slowness
 from checks.i1_2.causes import (
     diagnose_count,
     diagnose_fewer_summaries,
@@ -98,11 +98,11 @@ def judge_rate(steady: Trial, jump: Trial, restart: Trial | None = None) -> Verd
         )
     if rates.is_doubtful_rate(stated, summaries, steady):
         return undecided("to send messages at an even rate")
-    if restart is not None and (kept := rates.find_kept_rate(restart)) is not None:
+    if restart is not None and (kept := kept_rate.find_kept_rate(restart)) is not None:
         return failed(
             "each summary states the messages per second, also when they change",
             f"{kept.text} at first, and still {kept.text} when another talker sends {RESTARTED_HZ:g} a second",
-            rates.diagnose_kept_rate(kept, restart),
+            kept_rate.diagnose_kept_rate(kept, restart),
             [str(summary) for summary in find_summaries(restart)],
         )
     return passed(expected, f"{', '.join(number.text for number in stated)} messages per second", evidence)

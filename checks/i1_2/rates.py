@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
@@ -12,10 +11,8 @@ from checks.i1_2.facts import STALL_S, SUMMARY_EVERY, Trial
 from checks.i1_2.reading import Number
 from checks.i1_2.summaries import Summary, find_summaries, last_due_count, possible_totals, slots
 from tutor.judge.causes import slips
-from tutor.judge.edits import remove_lines, replace_node, replace_statement
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.node import NodeFile, find_in_files
-from tutor.judge.source import last_name
+from tutor.judge.rewriting.node import find_in_files
 from tutor.judge.verdict import Cause
 
 DELAY_S = 0.01
@@ -106,28 +103,6 @@ def find_stated_rates(summaries: Sequence[Summary], allowed: Sequence[Range], ju
     return found
 
 
-def find_kept_rate(restart: Trial) -> Number | None:
-    """The rate that a node states before and after the publisher is replaced by one of another rate.
-
-    A rate of any of the messages has changed by then. None if it also states another true rate, or if the rate has no
-    decimals, and so may be the same by chance.
-    """
-    summaries = find_summaries(restart)
-    before = [each for each in summaries if each.messages <= restart.before_break]
-    after = [each for each in summaries if each.messages >= restart.before_break + MIN_WINDOW]
-    for number in before[0].numbers if before and after else ():
-        kept = all(number.text in {other.text for other in each.numbers} for each in (*before, *after))
-        if "." in number.text and kept and true_rates(before[0], restart).holds(number):
-            others = [
-                other
-                for each in after
-                for other in _numbers_except_count(each, restart)
-                if other.text != number.text and true_rates(each, restart).holds(other)
-            ]
-            return None if others else number
-    return None
-
-
 def is_doubtful_rate(numbers: Sequence[Number], summaries: Sequence[Summary], trial: Trial) -> bool:
     """Whether these numbers may only look like the rate, because a busy machine kept us from the planned send rate.
 
@@ -136,13 +111,18 @@ def is_doubtful_rate(numbers: Sequence[Number], summaries: Sequence[Summary], tr
     """
     strict = [true_rates(summary, trial, excused_s=STALL_S) for summary in summaries]
     true = all(one.holds(number) for one, number in zip(strict, numbers, strict=True))
-    if true and _elapsed(summaries[0], trial) <= SLOWEST_S and trial.delay_s(0) <= STALL_S:
+    late = trial.allowance_s > STALL_S and any(_lateness(summary, trial) > STALL_S for summary in summaries)
+    if true and not late and _elapsed(summaries[0], trial) <= SLOWEST_S and trial.delay_s(0) <= STALL_S:
         return False
-    elapsed = [_elapsed(summary, trial) for summary in summaries]
-    whole = [summary.messages / max(int(span), 1) for summary, span in zip(summaries, elapsed, strict=True)]
+    sent_s = [_elapsed(summary, trial) for summary in summaries]
+    logged_s = [span + max(_lateness(summary, trial), 0.0) for summary, span in zip(summaries, sent_s, strict=True)]
+    whole = [
+        [summary.messages / max(int(span), 1) for summary, span in zip(summaries, elapsed_s, strict=True)]
+        for elapsed_s in (sent_s, logged_s)
+    ]
     explained_otherwise = any(
         all(abs(number.value - other) < 0.01 + DELAY_S * other for number, other in zip(numbers, others, strict=True))
-        for others in (elapsed, whole)
+        for others in (sent_s, logged_s, *whole)
     )
     return explained_otherwise or not all(
         any(close.holds(number) for close in _well_measured(summary, trial))
@@ -154,6 +134,12 @@ def _elapsed(summary: Summary, trial: Trial) -> float:
     """Seconds from the first message to the one at which the summary was due."""
     count = last_due_count(summary.messages) or summary.messages
     return max(trial.sent[count - 1].at - trial.sent[0].at, DELAY_S)
+
+
+def _lateness(summary: Summary, trial: Trial) -> float:
+    """Seconds from the message at which the summary was due to its first line."""
+    count = last_due_count(summary.messages) or summary.messages
+    return summary.at - trial.sent[count - 1].at
 
 
 def _well_measured(summary: Summary, trial: Trial) -> Iterator[Range]:
@@ -169,7 +155,7 @@ def _well_measured(summary: Summary, trial: Trial) -> Iterator[Range]:
 
 def diagnose_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: Trial) -> Cause:
     """Which mistake explains the numbers in `summary`, which states no true rate."""
-    found = _numbers_except_count(summary, trial)
+    found = numbers_except_count(summary, trial)
     texts, numbers = [line.text for line in summary.lines], [number.text for number in found]
     if (unformatted := find_in_files(trial.trace, lambda file: slips.diagnose_missing_f(file, texts))) is not None:
         return unformatted
@@ -213,43 +199,11 @@ def diagnose_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: T
     )
 
 
-def diagnose_kept_rate(kept: Number, trial: Trial) -> Cause:
-    """Why a summary states the rate of an earlier one."""
-    step = find_in_files(trial.trace, _compute_again) or steps.measure_rate(
-        trial.trace, [line.text for line in find_summaries(trial)[-1].lines], [kept.text]
-    )
-    return Cause("rate never updated", "it is worked out once, and kept", step or "work it out for each summary again")
-
-
-def _compute_again(file: NodeFile) -> str | None:
-    """The step that leaves out a decorator, or a test for a first time, by which a quotient is kept."""
-    for function in file.functions:
-        for decorator in function.decorator_list:
-            name = last_name(decorator.func if isinstance(decorator, ast.Call) else decorator)
-            if name == "cached_property":
-                return file.step([replace_node(file.text, decorator, "property")])
-            if name in ("cache", "lru_cache"):
-                return file.step([remove_lines(file.text, decorator.lineno, decorator.end_lineno or decorator.lineno)])
-    for node in file.nodes:
-        match node:
-            case ast.If(
-                test=ast.Compare(left=kept, ops=[ast.Is()]) | ast.UnaryOp(op=ast.Not(), operand=kept),
-                body=[ast.Assign(targets=[target], value=value) as once],
-                orelse=[],
-            ) if ast.unparse(kept) == ast.unparse(target) and _divides(value):
-                return file.step([replace_statement(node, ast.unparse(once))])
-    return None
-
-
-def _divides(value: ast.expr) -> bool:
-    return any(isinstance(each, ast.Div) for each in ast.walk(value))
-
-
 def _find_whole_seconds(summary: Summary, trial: Trial) -> list[tuple[Number, int]]:
     """The numbers that are the messages per whole seconds, with that number of seconds."""
     count, since = _covered_count(summary, trial), trial.sent[0].at
     spans = {max(int(at - since), 1) for at in (trial.sent[count - 1].at, summary.at)}
-    positive = [number for number in _numbers_except_count(summary, trial) if number.value > 0]
+    positive = [number for number in numbers_except_count(summary, trial) if number.value > 0]
     return [
         (number, span)
         for number in positive
@@ -277,7 +231,7 @@ def _clock_lead(summary: Summary, trial: Trial) -> list[tuple[Number, _Span]]:
     """
     count, since = _covered_count(summary, trial), trial.sent[0].at
     soonest, latest = trial.sent[count - 1].at - since, summary.at - since
-    spans = ((number, count / number.value) for number in _numbers_except_count(summary, trial) if number.value > 0)
+    spans = ((number, count / number.value) for number in numbers_except_count(summary, trial) if number.value > 0)
     return [(number, _Span(span - latest, span - soonest)) for number, span in spans]
 
 
@@ -286,7 +240,7 @@ def _covered_count(summary: Summary, trial: Trial) -> int:
     return next((total for total in possible_totals(summary, trial) if summary.states(total)), summary.messages)
 
 
-def _numbers_except_count(summary: Summary, trial: Trial) -> list[Number]:
+def numbers_except_count(summary: Summary, trial: Trial) -> list[Number]:
     """The numbers in the summary, except its count."""
     covered = _covered_count(summary, trial)
     count = next((number for number in summary.numbers if number.value == covered), None)

@@ -1704,6 +1704,24 @@ def test_a_pace_at_which_truncated_seconds_look_right_is_undecided() -> None:
     assert_passed(judges.judge_rate(steady(FakeStats(), 4.4), jump(FakeStats())))
 
 
+class SinceItsStart(FakeStats):
+    def rate(self) -> float:
+        return self.total / (self.times[-1] - self.begin + 0.8)
+
+
+class PerWholeSecondsOfLateMessages(FakeStats):
+    def rate(self) -> float:
+        return self.total / int(self.times[-1] - self.begin + 0.2)
+
+
+@pytest.mark.parametrize(("node", "late_s"), [(SinceItsStart, 0.35), (PerWholeSecondsOfLateMessages, 0.2)])
+def test_a_wrong_rate_of_a_summary_that_the_machine_delays_is_undecided(node: type[FakeStats], late_s: float) -> None:
+    seen = steady(node(), late_s=late_s)
+    assert_undecided(judges.judge_rate(replace(seen, cpu_wait_s=0.5), jump(node())))
+    right = steady(FakeStats(), late_s=late_s)
+    assert_passed(judges.judge_rate(replace(right, cpu_wait_s=0.5), jump(FakeStats())))
+
+
 # Reading.
 
 

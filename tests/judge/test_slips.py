@@ -284,6 +284,19 @@ def test_a_loop_that_makes_timers_is_left_after_the_first_one(loop: str, step: s
             "x.add_node(a)\ny.add_node(b)\nx.spin()\ny.spin()\n",
             "remove line 6: y.spin()\nline 4 becomes: x.add_node(b)",
         ),
+        (
+            "for n in (x, y):\n  n.greet()\n  rclpy.spin(n)\n",
+            "lines 3 to 5 become:\n    executor = MultiThreadedExecutor()\n    for n in (x, y):\n        n.greet()\n"
+            "        executor.add_node(n)\n    executor.spin()\n"
+            "at the top of the file: from rclpy.executors import MultiThreadedExecutor",
+        ),
+        (
+            "for n in (x, y):\n  e = SingleThreadedExecutor()\n  e.add_node(n)\n  e.spin()\n",
+            "lines 3 to 6 become:\n    executor = MultiThreadedExecutor()\n    for n in (x, y):\n"
+            "        executor.add_node(n)\n    executor.spin()\n"
+            "at the top of the file: from rclpy.executors import MultiThreadedExecutor",
+        ),
+        ("for n in (x, y):\n  n.spin()\n", None),
         ("if second:\n  rclpy.spin(b)\nelse:\n  rclpy.spin(a)\n", None),
         ("rclpy.spin(a)\n", None),
     ],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import textwrap
 
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
@@ -15,7 +16,12 @@ _NODE_LISTS = tuple(f"self._{each}" for each in ("timers", "subscriptions", "ser
 
 def diagnose_unserved_node(file: NodeFile) -> Cause | None:
     """Whether executors cannot know what the node has to serve, or another node is spun in its place, or before it."""
-    return _diagnose_overwritten_attribute(file) or _diagnose_other_node_spun(file) or _diagnose_second_spin(file)
+    return (
+        _diagnose_overwritten_attribute(file)
+        or _diagnose_other_node_spun(file)
+        or _diagnose_second_spin(file)
+        or _diagnose_spin_for_each(file)
+    )
 
 
 def _diagnose_other_node_spun(file: NodeFile) -> Cause | None:
@@ -58,6 +64,32 @@ def _diagnose_second_spin(file: NodeFile) -> Cause | None:
             continue
         step = file.step(_spin_together(file, first, later))
         text = f"{source.where(later[0])} is never reached, because line {first.lineno} spins until the program ends"
+        return Cause("second spin", text, step) if step else None
+    return None
+
+
+def _diagnose_spin_for_each(file: NodeFile) -> Cause | None:
+    """Whether several nodes are spun one after the other in a `for` loop."""
+    for loop in (each for each in file.nodes if isinstance(each, ast.For)):
+        spin = next((each for each in file.calls("spin") if file.statement(each) in loop.body), None)
+        if spin is None:
+            continue
+        added = [*spin.args, *(argument for each in source.calls_in(loop, "add_node") for argument in each.args)]
+        if not added:
+            return None
+        name, imported = file.import_name("MultiThreadedExecutor", "rclpy.executors")
+        replaced = ("spin", "add_node", "SingleThreadedExecutor", "MultiThreadedExecutor")
+        kept = [ast.unparse(each) for each in loop.body if not source.calls_in(each, *replaced)]
+        body = "\n".join(
+            textwrap.indent(each, "    ") for each in (*kept, f"executor.add_node({ast.unparse(added[0])})")
+        )
+        head = f"for {ast.unparse(loop.target)} in {ast.unparse(loop.iter)}:"
+        code = f"executor = {name}()\n{head}\n{body}\nexecutor.spin()"
+        step = file.step([edits.replace_statement(loop, code), *imported])
+        text = (
+            f"{source.where(spin)} spins the first node of the loop until the program ends: the others never get "
+            "their turn"
+        )
         return Cause("second spin", text, step) if step else None
     return None
 
