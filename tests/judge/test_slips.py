@@ -307,6 +307,22 @@ def test_a_spin_after_another_one_is_never_reached(spins: str, step: str | None)
 
 
 @pytest.mark.parametrize(
+    ("spin", "step"),
+    [
+        ("rclpy.spin_once(n, timeout_sec=0.3)", "line 4 becomes: e.spin_once(timeout_sec=0.3)"),
+        ("rclpy.spin_until_future_complete(n, f)", "line 4 becomes: e.spin_until_future_complete(f)"),
+        ("rclpy.spin_once(other)", None),
+        ("e.spin_once()", None),
+    ],
+)
+def test_a_node_is_taken_out_of_its_executor(spin: str, step: str | None) -> None:
+    found = diagnose_unserved_node(
+        node_file(f"e = SingleThreadedExecutor()\nn = A()\ne.add_node(n)\n{spin}\ne.spin()\n")
+    )
+    assert (found.hint if found else None) == step
+
+
+@pytest.mark.parametrize(
     ("text", "refuses"),
     [
         ("if len(sys.argv) > 1:\n  print('usage:', sys.argv[0])\n  sys.exit(1)\n", True),

@@ -19,6 +19,7 @@ def diagnose_unserved_node(file: NodeFile) -> Cause | None:
     return (
         _diagnose_overwritten_attribute(file)
         or _diagnose_other_node_spun(file)
+        or _diagnose_node_taken(file)
         or _diagnose_second_spin(file)
         or _diagnose_spin_for_each(file)
     )
@@ -51,6 +52,29 @@ def _diagnose_overwritten_attribute(file: NodeFile) -> Cause | None:
         if step is not None:
             text = f"{source.where(each)} overwrites {taken}, by which rclpy's Node knows what it has to serve"
             return Cause("attribute of Node overwritten", text, step)
+    return None
+
+
+def _diagnose_node_taken(file: NodeFile) -> Cause | None:
+    """Whether rclpy.spin_once(node) takes a node out of the executor that it was added to before."""
+    owners = {
+        ast.unparse(each.args[0]): each
+        for each in file.calls("add_node")
+        if len(each.args) == 1 and isinstance(each.func, ast.Attribute)
+    }
+    for call in file.calls("spin_once", "spin_until_future_complete"):
+        added = owners.get(ast.unparse(call.args[0])) if call.args else None
+        if added is None or added.lineno > call.lineno or file.function_around(added) is not file.function_around(call):
+            continue
+        assert isinstance(added.func, ast.Attribute)
+        executor, method = ast.unparse(added.func.value), source.called_name(call)
+        own = ast.Call(ast.parse(f"{executor}.{method}", mode="eval").body, call.args[1:], call.keywords)
+        step = file.step([edits.replace_node(file.text, call, ast.unparse(own))])
+        text = (
+            f"{source.where(call)} moves the node to an executor of its own, and takes it out of {executor}, "
+            "which then has nothing to run"
+        )
+        return Cause("node taken from its executor", text, step) if step else None
     return None
 
 
