@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Sequence
 
 from checks.i1_2 import steps
@@ -11,7 +12,8 @@ from checks.i1_2.summaries import Summary, is_in_time, last_due_count
 from checks.i1_2.totals import total_as_rate
 from tutor.judge import causes
 from tutor.judge.causes import slips
-from tutor.judge.rewriting.node import find_in_files
+from tutor.judge.edits import replace_node
+from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.trace import Level, LogRecord
 from tutor.judge.verdict import Cause
 
@@ -126,6 +128,9 @@ def diagnose_incomplete_summary(summary: Summary, trial: Trial) -> Cause | None:
                 steps.keep_first_message(trial.trace)
                 or "set self.first_message only while it is None, and never again",
             )
+        is_cut = any("Hello World" in line.text for line in summary.lines)
+        if is_cut and (cut := find_in_files(trial.trace, _diagnose_slice)) is not None:
+            return cut
         return Cause(
             "first message missing",
             f"“{first.content}” is not in it",
@@ -148,6 +153,19 @@ def diagnose_incomplete_summary(summary: Summary, trial: Trial) -> Cause | None:
             steps.summarise_every_ten(trial.trace)
             or "put self.first_message after “first”, and the message that has just come after “last”",
         )
+    return None
+
+
+def _diagnose_slice(file: NodeFile) -> Cause | None:
+    """Whether the file cuts a text to its first characters."""
+    for node in file.nodes:
+        match node:
+            case ast.Subscript(slice=ast.Slice(lower=None, upper=ast.expr() as upper, step=None), value=value) if (
+                not ast.unparse(upper).startswith("-")
+            ):
+                step = file.step([replace_node(file.text, node, ast.unparse(value))])
+                text = f"line {node.lineno}: {ast.unparse(node)} cuts the text before its number"
+                return Cause("content cut off", text, step) if step else None
     return None
 
 

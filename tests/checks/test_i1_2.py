@@ -1324,6 +1324,20 @@ def test_another_rate_that_is_the_same_is_no_mistake(node: type[FakeStats]) -> N
     assert_passed(judges.judge_rate(steady(FakeStats()), jump(FakeStats()), restart(node())))
 
 
+class CutsTheContent(FakeStats):
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"count={self.total} rate={self.rate():.2f} first={self.first[:12]} last={self.last[:12]}"
+
+
+@pytest.mark.parametrize(
+    ("code", "cause"), [("x = text[:12]", "content cut off"), ("x = text[-3:]", "first message missing")]
+)
+def test_a_slice_explains_a_content_without_its_number(code: str, cause: str) -> None:
+    seen, jumped = steady(CutsTheContent()), jump(CutsTheContent())
+    seen = replace(seen, trace=replace(seen.trace, sources={"message_stats.py": code}))
+    assert_failed(judges.judge_slow_summary(seen, jumped), cause)
+
+
 def with_delays(trial: Trial, number: int, *, sent_late_s: float = 0.0, cpu_wait_s: float = 0.0) -> Trial:
     """The trial with this N sent late, and the node waiting for a CPU while it came."""
     after = number + 1
