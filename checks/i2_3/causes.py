@@ -15,7 +15,7 @@ from tutor.judge.causes import late_binding, names, spinning
 from tutor.judge.causes.period_slips import diagnose_no_autostart, diagnose_self_cancelling, diagnose_twin_timers
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
 from tutor.judge.causes.unserved import diagnose_unserved_node
-from tutor.judge.rewriting.node import NodeFile, find_in_files, started_node
+from tutor.judge.rewriting.node import NodeFile, file_of, find_in_files, started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -46,7 +46,7 @@ def diagnose_no_service(trace: Trace) -> Cause:
             )
     same_type = [service for service in offered if service.type == TYPE]
     if (unmatched := causes.diagnose_incompatible_service(_our_servers(trace))) is not None:
-        return unmatched
+        return replace(unmatched, hint=find_in_files(trace, steps.use_default_qos) or unmatched.hint)
     for service in same_type or offered:
         return Cause(
             "wrong service name",
@@ -67,7 +67,7 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
     if (unmatched := causes.diagnose_incompatible_service(_our_servers(seen.trace))) is not None:
-        return unmatched
+        return replace(unmatched, hint=find_in_files(seen.trace, steps.use_default_qos) or unmatched.hint)
     if (unserved := find_in_files(seen.trace, diagnose_unserved_node)) is not None:
         return unserved
     if not seen.spins and (empty := find_in_files(seen.trace, steps.diagnose_node_not_added)) is not None:
@@ -84,7 +84,7 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
         "no answer",
         f"the callback never returns{f', at {own}' if own else ''}",
         (
-            steps.remove_wait(started_node(seen.trace), own.code, own.line)
+            steps.remove_wait(file_of(seen.trace, own), own.code, own.line)
             if own
             else steps.fix_answer(started_node(seen.trace))
         )

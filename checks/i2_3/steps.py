@@ -11,7 +11,7 @@ import ast
 from checks.i2_3 import rewriting
 from checks.i2_3.facts import SERVICE, WORK_S
 from checks.i2_3.rewriting import combine_edits, service, service_callback, timer
-from tutor.judge.edits import Edit, remove_statement, replace_lines, replace_node, replace_statement
+from tutor.judge.edits import Edit, remove_keyword, remove_statement, replace_lines, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.rewriting.program import whole_program
 from tutor.judge.source import called_name, calls_in, last_name
@@ -30,11 +30,22 @@ def rewrite_everything(file: NodeFile) -> str | None:
         rewriting.rewrite_service_callback(file),
         rewriting.rewrite_timer_callback(file),
     )
-    return file.step(
+    proposals = (
         combine_edits(file, *parts, rewriting.rewrite_program(file)),
         combine_edits(file, *parts),
         rewriting.rewrite_program(file),
     )
+    return file.step(*(each for each in proposals if not all(map(_is_import, each))))
+
+
+def _is_import(edit: Edit) -> bool:
+    return edit.code.startswith(("from ", "import "))
+
+
+def use_default_qos(file: NodeFile) -> str | None:
+    """The step that leaves the service's QoS at its default."""
+    made = [each for each in file.calls("create_service") if any(one.arg == "qos_profile" for one in each.keywords)]
+    return file.step([remove_keyword(file.text, each, "qos_profile") for each in made])
 
 
 def fix_service(file: NodeFile) -> str | None:

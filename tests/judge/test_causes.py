@@ -226,8 +226,9 @@ def test_incompatible_qos_of_the_learners_own_endpoints(
     assert found is None or policy in found.text
 
 
-def test_a_service_with_best_effort_is_not_connected() -> None:
-    services = [ServiceEndpoint("/add", "T", "/node"), ServiceEndpoint("/divide", "T", "/node", "best_effort")]
+@pytest.mark.parametrize("qos", [("best_effort", "volatile"), ("reliable", "transient_local")])
+def test_a_service_with_an_unusual_qos_is_not_connected(qos: tuple[str, str]) -> None:
+    services = [ServiceEndpoint("/add", "T", "/node"), ServiceEndpoint("/divide", "T", "/node", *qos)]
     found = diagnose_incompatible_service(services)
     assert found is not None
     assert (found.name, "/divide" in found.text) == ("incompatible QoS", True)

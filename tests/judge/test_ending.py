@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from tests.checks.builders import (
@@ -181,3 +183,9 @@ def test_endings_that_are_never_chance(end: Ending | None) -> None:
 @pytest.mark.parametrize(("cpu_wait_share", "chance"), [(0.0, False), (0.1, False), (0.2, True), (1.5, True)])
 def test_a_process_that_goes_on_may_be_chance_on_a_busy_machine_only(cpu_wait_share: float, chance: bool) -> None:
     assert may_be_chance(Ending(None, 5.0, 5.0, cpu_wait_share=cpu_wait_share)) == chance
+
+
+def test_a_traceback_on_stdout_is_one_as_well() -> None:
+    end = ending(0, err=KEYBOARD_INTERRUPT)
+    end = replace(end, output=tuple(replace(line, stream="stdout") for line in end.output))
+    assert_failed(judge_ending(trace(), end), "traceback on exit", "KeyboardInterrupt")

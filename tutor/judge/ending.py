@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+from dataclasses import replace
 from functools import wraps
 from typing import Protocol
 
@@ -95,7 +96,9 @@ def judge_ending(trace: Trace, ending: Ending | None) -> Verdict:
             ),
             causes.output_tail(trace),
         )
-    found = [each for each in tracebacks.find_tracebacks(ending.output) if not _is_from_rclpy_cleanup(each, trace)]
+    printed = [replace(line, stream="stderr") for line in ending.output if line.stream == "stdout"]
+    seen = tracebacks.find_tracebacks(ending.output) or tracebacks.find_tracebacks(printed)
+    found = [each for each in seen if not _is_from_rclpy_cleanup(each, trace)]
     observed = f"ended {ending.took_s:.2f} s after Ctrl+C with {ending.exit}"
     if found and not _is_race_in_shutdown(found[-1]):
         return failed(

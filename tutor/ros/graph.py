@@ -9,7 +9,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from tutor.ros.participant import OUR_PREFIX
 from tutor.ros.qos import from_rclpy
-from tutor.ros_model import Graph, NodeName, ServiceEndpoint, TopicEndpoint, is_standard_topic
+from tutor.ros_model import Graph, NodeName, QoS, ServiceEndpoint, TopicEndpoint, is_standard_topic
 
 _NamesAndTypes = Sequence[tuple[str, Sequence[str]]]
 
@@ -68,15 +68,17 @@ def _service_endpoints(
         for service, types in services:
             endpoints = [ServiceEndpoint(service, type_name, full) for type_name in types]
             if not any(endpoint.is_standard for endpoint in endpoints):
-                reliability = _reliability(node, dds_topic.format(service), full)
-                endpoints = [ServiceEndpoint(service, type_name, full, reliability) for type_name in types]
+                qos = _find_qos(node, dds_topic.format(service), full)
+                endpoints = [
+                    ServiceEndpoint(service, type_name, full, qos.reliability, qos.durability) for type_name in types
+                ]
             found += endpoints
     return tuple(found)
 
 
-def _reliability(node: Node, dds_topic: str, full: str) -> str:
+def _find_qos(node: Node, dds_topic: str, full: str) -> QoS:
     senders = node.get_publishers_info_by_topic(dds_topic, no_mangle=True)
-    return next((from_rclpy(info.qos_profile).reliability for info in senders if _node_of(info) == full), "reliable")
+    return next((from_rclpy(info.qos_profile) for info in senders if _node_of(info) == full), QoS())
 
 
 def _node_of(info: TopicEndpointInfo) -> str:

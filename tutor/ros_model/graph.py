@@ -44,12 +44,13 @@ class TopicEndpoint:
 
 @dataclass(frozen=True, slots=True)
 class ServiceEndpoint:
-    """A service server or client of a node. `reliability` is that of its DDS writer (of responses or requests)."""
+    """A service server or client of a node. The QoS is that of its DDS writer (of responses or requests)."""
 
     name: str
     type: str
     node: str
     reliability: str = "reliable"
+    durability: str = "volatile"
 
     @property
     def is_standard(self) -> bool:

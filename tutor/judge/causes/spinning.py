@@ -9,7 +9,7 @@ from tutor.judge import edits, source, tracebacks
 from tutor.judge.causes import names
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.callbacks import Loop, only_waits, outermost
-from tutor.judge.rewriting.node import NodeFile, node_file, started_node
+from tutor.judge.rewriting.node import NodeFile, file_of, started_node
 from tutor.judge.rewriting.program import SPINS
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
@@ -28,7 +28,7 @@ def diagnose_not_spinning(trace: Trace, stuck: Sequence[Frame], nodes: str) -> C
     at = tracebacks.own_frame(mains[0] if mains else stuck, trace.folder)
     if at is None or "spin" in at.code or any(frame.path.endswith("rclpy/executors.py") for frame in stuck):
         return None
-    loop = outermost(_file(trace, at), at.line)
+    loop = outermost(file_of(trace, at), at.line)
     where = f"at {at}" + (
         f", in the loop of {_describe_loop(loop)}" if loop is not None and loop.lineno != at.line else ""
     )
@@ -140,13 +140,9 @@ def _spins_itself(file: NodeFile, statement: ast.stmt) -> bool:
     return any("self" in map(ast.unparse, call.args) for call in spins)
 
 
-def _file(trace: Trace, at: Frame) -> NodeFile:
-    return node_file(trace.sources.get(at.name, ""), at.name if len(trace.sources) > 1 else "")
-
-
 def _spin_instead(trace: Trace, at: Frame, loop: Loop | None) -> str:
     """The step that replaces the line, or the loop, at which the program is stuck by a timer and a spin."""
-    file = _file(trace, at)
+    file = file_of(trace, at)
     function = file.function_at(at.line)
     is_method = (
         function is not None and function.name != "main" and "self" in [each.arg for each in function.args.args[:1]]

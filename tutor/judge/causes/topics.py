@@ -153,15 +153,19 @@ def diagnose_incompatible_qos(publisher: TopicEndpoint, subscription: TopicEndpo
 
 
 def diagnose_incompatible_service(services: Iterable[ServiceEndpoint]) -> Cause | None:
-    """Whether one of the learner's service servers or clients is best effort, while the other side is reliable."""
+    """Whether one of the learner's service servers or clients has a QoS that the default does not match."""
     for service in services:
-        if service.reliability == "best_effort":
-            return Cause(
-                names.INCOMPATIBLE_QOS,
-                f"{service.name} was made with reliability best_effort, but the other side requires reliable: they are "
-                "not connected",
-                "leave qos_profile out: the default of services is right",
-            )
+        for policy, own, unmatched, default in (
+            ("reliability", service.reliability, "best_effort", "reliable"),
+            ("durability", service.durability, "transient_local", "volatile"),
+        ):
+            if own == unmatched:
+                return Cause(
+                    names.INCOMPATIBLE_QOS,
+                    f"{service.name} was made with {policy} {own}, but the other side is {default}, the default of "
+                    "services: they are not connected",
+                    "leave qos_profile out: the default of services is right",
+                )
     return None
 
 

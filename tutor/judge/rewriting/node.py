@@ -26,6 +26,7 @@ from tutor.judge.edits import (
 )
 from tutor.judge.source import Function, SourceFile
 from tutor.judge.trace import Trace
+from tutor.judge.tracebacks import Frame
 
 _SETUP_CALLS = ("create_publisher", "create_timer", "declare_parameter", "declare_parameters")
 
@@ -262,6 +263,11 @@ def node_file(text: str, file: str = "") -> NodeFile:
 def started_node(trace: Trace) -> NodeFile:
     """The node of the file that was run."""
     return node_file(trace.sources.get(trace.file, ""), trace.file if len(trace.sources) > 1 else "")
+
+
+def file_of(trace: Trace, at: Frame) -> NodeFile:
+    """The node of the file that a stack frame is in."""
+    return node_file(trace.sources.get(at.name, ""), at.name if len(trace.sources) > 1 else "")
 
 
 def find_in_files[T](trace: Trace, *finders: Callable[[NodeFile], T | None]) -> T | None:

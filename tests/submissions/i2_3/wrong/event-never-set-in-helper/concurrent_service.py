@@ -1,0 +1,5 @@
+from adder import Adder
+from runner import run
+
+if __name__ == '__main__':
+    run(Adder)
