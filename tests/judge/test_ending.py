@@ -189,3 +189,9 @@ def test_a_traceback_on_stdout_is_one_as_well() -> None:
     end = ending(0, err=KEYBOARD_INTERRUPT)
     end = replace(end, output=tuple(replace(line, stream="stdout") for line in end.output))
     assert_failed(judge_ending(trace(), end), "traceback on exit", "KeyboardInterrupt")
+
+
+def test_an_older_exception_that_is_printed_does_not_matter() -> None:
+    end = ending(0, err=CRASH)
+    end = replace(end, output=tuple(replace(line, stream="stdout") for line in end.output))
+    assert_passed(judge_ending(trace(), end))

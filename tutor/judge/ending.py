@@ -96,8 +96,7 @@ def judge_ending(trace: Trace, ending: Ending | None) -> Verdict:
             ),
             causes.output_tail(trace),
         )
-    printed = [replace(line, stream="stderr") for line in ending.output if line.stream == "stdout"]
-    seen = tracebacks.find_tracebacks(ending.output) or tracebacks.find_tracebacks(printed)
+    seen = tracebacks.find_tracebacks(ending.output) or _find_printed_endings(ending)
     found = [each for each in seen if not _is_from_rclpy_cleanup(each, trace)]
     observed = f"ended {ending.took_s:.2f} s after Ctrl+C with {ending.exit}"
     if found and not _is_race_in_shutdown(found[-1]):
@@ -114,6 +113,15 @@ def judge_ending(trace: Trace, ending: Ending | None) -> Verdict:
     crash = _diagnose_crash(ending.exit, ending, trace) if _crashed(ending) else None
     cause = causes.diagnose_torn_thread(ending.exit, ending.output) or crash or other
     return failed(expected, observed, cause, causes.output_tail(trace))
+
+
+def _find_printed_endings(ending: Ending) -> list[tracebacks.Traceback]:
+    """The tracebacks of the exceptions of Ctrl+C on stdout.
+
+    Others may be older, of exceptions that the program has dealt with: what it prints is held back in a buffer.
+    """
+    printed = [replace(line, stream="stderr") for line in ending.output if line.stream == "stdout"]
+    return [each for each in tracebacks.find_tracebacks(printed) if each.type.endswith(shutdown_steps.SPIN_ENDINGS)]
 
 
 def _diagnose_crash(process_exit: Exit, ending: Ending, trace: Trace) -> Cause:
