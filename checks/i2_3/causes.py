@@ -11,7 +11,7 @@ from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, CallBatch, IdleRun, Sin
 from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
-from tutor.judge.causes import late_binding, names, spinning
+from tutor.judge.causes import late_binding, names, slips, spinning
 from tutor.judge.causes.period_slips import diagnose_no_autostart, diagnose_self_cancelling, diagnose_twin_timers
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
 from tutor.judge.causes.unserved import diagnose_unserved_node
@@ -54,11 +54,16 @@ def diagnose_no_service(trace: Trace) -> Cause:
             steps.fix_service(started_node(trace))
             or f"name it '{SERVICE[1:]}', spelled exactly like this, without a namespace or ~ in front",
         )
-    return diagnose_uncalled_setup(started_node(trace), "create_service") or Cause(
-        "service missing",
-        f"the node is up, but offers no {SERVICE}",
-        steps.fix_service(started_node(trace))
-        or f"in __init__: self.create_service(AddTwoInts, '{SERVICE[1:]}', self.slow_add, callback_group=...)",
+    elsewhere = find_in_files(trace, slips.diagnose_other_domain)
+    return (
+        elsewhere
+        or diagnose_uncalled_setup(started_node(trace), "create_service")
+        or Cause(
+            "service missing",
+            f"the node is up, but offers no {SERVICE}",
+            steps.fix_service(started_node(trace))
+            or f"in __init__: self.create_service(AddTwoInts, '{SERVICE[1:]}', self.slow_add, callback_group=...)",
+        )
     )
 
 

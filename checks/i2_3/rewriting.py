@@ -145,9 +145,11 @@ def rewrite_timer_callback(file: NodeFile) -> list[Edit]:
         if counter and _is_initialised(file, counter, found)
         else [insert_above(statement.lineno, f"{counter or f'{self_name}.ticks'} = 0")]
     )
+    is_passed = not isinstance(argument(made, 1, "callback"), ast.Lambda | ast.Call)
     return [
         *setup,
-        *replace_parameters(file.text, found, [self_name]),  # a callback of ROS 1 takes an event, too
+        # A callback of ROS 1 takes an event, too; what a lambda passes is kept.
+        *(replace_parameters(file.text, found, [self_name]) if is_passed else []),
         with_body(found, _tick_code(counter or f"{self_name}.ticks", self_name)),
     ]
 

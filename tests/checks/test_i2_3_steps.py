@@ -290,3 +290,13 @@ def test_a_timer_callback_gets_no_event() -> None:
     after = apply_step(str(ported.step(rewriting.rewrite_timer_callback(ported))), {"my_node.py": ported.text})
     assert "def tick(self):" in after["my_node.py"]
     assert "event" not in after["my_node.py"]
+
+
+def test_what_a_lambda_passes_to_a_timer_callback_is_kept() -> None:
+    named = changed(
+        ("def tick(self):", "def tick(self, name):"),
+        ("self.tick,", "lambda: self.tick('fast'),"),
+        (TICK, "        print(name)\n"),
+    )
+    after = apply_step(str(named.step(rewriting.rewrite_timer_callback(named))), {"my_node.py": named.text})
+    assert "def tick(self, name):" in after["my_node.py"]

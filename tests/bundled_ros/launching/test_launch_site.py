@@ -163,10 +163,6 @@ def test_a_name_is_the_same_object_in_every_module(launcher: Launcher) -> None:
     ("statement", "named"),
     [
         (
-            "from launch.actions import OpaqueCoroutine\nOpaqueCoroutine()",
-            "launch.actions.opaque_coroutine.OpaqueCoroutine",
-        ),
-        (
             "import launch_testing.actions\nlaunch_testing.actions.ReadyToTest()",
             "launch_testing.actions.ready.ReadyToTest",
         ),
