@@ -6,7 +6,7 @@ import ast
 import re
 
 from tutor.judge.edits import Edit, insert_above, remove_statement, replace_lines, replace_node, replace_pattern
-from tutor.judge.rewriting.node import NodeFile
+from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.rewriting.program import SPINS, clean_ending, first_sound_step, guard_spin
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
@@ -17,13 +17,8 @@ SPIN_ENDINGS = ("KeyboardInterrupt", "ExternalShutdownException")
 
 def catch_interrupt(trace: Trace) -> str:
     """How to catch the exceptions that end a spin, and shut rclpy down only once."""
-
-    def is_other(name: str) -> bool:
-        return name != trace.file
-
-    steps = (first_sound_step(trace, _with_interrupt_caught, name=name) for name in sorted(trace.sources, key=is_other))
     return (
-        next(filter(None, steps), None)
+        find_in_files(trace, lambda file: file.step(_with_interrupt_caught(file)))
         or first_sound_step(trace, clean_ending)
         or (
             "write around spin(): try, and except (KeyboardInterrupt, ExternalShutdownException): pass, with from "
