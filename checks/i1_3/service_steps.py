@@ -10,6 +10,7 @@ from checks.i1_3.code import Code, learner_files
 from checks.i1_3.facts import OPERATOR_SIGNS
 from checks.i1_3.services import Changes, argument_names, compute_results, find_callback, find_offer, new_callback
 from tutor.judge import edits, source
+from tutor.judge.causes.topics import use_default_service_qos
 from tutor.judge.edits import Edit
 from tutor.judge.exceptions.callback_rewriting import instances
 from tutor.judge.rewriting.node import argument
@@ -136,12 +137,7 @@ def set_types(trace: Trace, wrong: Sequence[str]) -> str | None:
 
 def use_default_qos(code: Code) -> str | None:
     """Step: leave the QoS profile of services and service clients at its default."""
-    change = Changes(code)
-    for call in code.calls("create_service", "create_client"):
-        kept = [each for each in call.keywords if each.arg != "qos_profile"]
-        if len(kept) < len(call.keywords):
-            change.swaps.append((call, ast.unparse(ast.Call(call.func, call.args, kept))))
-    return change.as_step() if change.swaps else None
+    return code.as_step(use_default_service_qos(code))
 
 
 def return_response(trace: Trace, service: str) -> str | None:

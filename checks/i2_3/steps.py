@@ -11,7 +11,8 @@ import ast
 from checks.i2_3 import rewriting
 from checks.i2_3.facts import SERVICE, WORK_S
 from checks.i2_3.rewriting import combine_edits, service, service_callback, timer
-from tutor.judge.edits import Edit, remove_keyword, remove_statement, replace_lines, replace_node, replace_statement
+from tutor.judge.causes.topics import use_default_service_qos
+from tutor.judge.edits import Edit, remove_statement, replace_lines, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.rewriting.program import whole_program
 from tutor.judge.source import called_name, calls_in, last_name
@@ -44,8 +45,7 @@ def _is_import(edit: Edit) -> bool:
 
 def use_default_qos(file: NodeFile) -> str | None:
     """The step that leaves the service's QoS at its default."""
-    made = [each for each in file.calls("create_service") if any(one.arg == "qos_profile" for one in each.keywords)]
-    return file.step([remove_keyword(file.text, each, "qos_profile") for each in made])
+    return file.step(use_default_service_qos(file))
 
 
 def fix_service(file: NodeFile) -> str | None:

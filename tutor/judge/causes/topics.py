@@ -19,12 +19,13 @@ from tutor.judge.edits import (
     append_to_function,
     insert_above,
     insert_after,
+    remove_keyword,
     replace_node,
     replace_nodes,
     replace_statement,
 )
 from tutor.judge.rewriting.node import NodeFile, argument, find_in_files, node_file, started_node
-from tutor.judge.source import Function, called_name
+from tutor.judge.source import Function, SourceFile, called_name
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -167,6 +168,13 @@ def diagnose_incompatible_service(services: Iterable[ServiceEndpoint]) -> Cause 
                     "leave qos_profile out: the default of services is right",
                 )
     return None
+
+
+def use_default_service_qos(file: SourceFile) -> list[Edit]:
+    """Edits that leave the QoS profile of services and service clients at its default."""
+    calls = file.calls("create_service", "create_client")
+    given = [each for each in calls if any(keyword.arg == "qos_profile" for keyword in each.keywords)]
+    return [remove_keyword(file.text, each, "qos_profile") for each in given]
 
 
 def diagnose_wrong_topic(
