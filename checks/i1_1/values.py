@@ -21,7 +21,7 @@ from checks.i1_1.scenarios import cancel, plain_start, values_of
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
 from tutor.judge.trace import Trace
-from tutor.judge.waiting import wait_for_message
+from tutor.judge.waiting import IDLE_S, MESSAGE_GAP_S, wait_for_message
 
 
 async def collect_values(bench: Bench) -> CollectedValues:
@@ -112,8 +112,12 @@ async def collect_more_values(bench: Bench) -> CollectedValues:
 
 
 async def _collect(bench: Bench, enough: Callable[[Run], bool]) -> tuple[tuple[float, ...], Trace]:
-    """Start without parameters and return the values and the trace once `enough` holds."""
+    """Start without parameters and return the values and the trace once `enough` holds, or no more messages come."""
+
+    def is_silent() -> bool:
+        return run.now() >= run.samples_on(TOPIC)[-1].source_time + MESSAGE_GAP_S
+
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=1 + MIN_COLLECT_S) as run:
         if await wait_for_message(run, TOPIC, TYPE):
-            await run.until(lambda: enough(run), MAX_COLLECT_S)
+            await run.until(lambda: enough(run) or is_silent(), MAX_COLLECT_S, idle_s=IDLE_S)
         return tuple(values_of(run)), run.trace()
