@@ -172,7 +172,9 @@ def _diagnose_slice(file: NodeFile) -> Cause | None:
 def diagnose_no_summary(trial: Trial) -> Cause:
     """Find out why the node logs no summary."""
     trace = trial.trace
-    if trace.exit is not None or not trial.sent or not (trial.lines or trial.spins):
+    # A node that is stuck before it spins may log all the time nevertheless.
+    spins = trial.spins or (bool(trial.lines) and causes.diagnose_not_spinning(trace, trial.stuck, "") is None)
+    if trace.exit is not None or not trial.sent or not spins:
         return steps.keep_node_up(
             trace, causes.diagnose_nothing_received(trace, OURS, answers=trial.spins, stuck=trial.stuck)
         )

@@ -69,9 +69,10 @@ async def steady(bench: Bench) -> Trial:
         await _send(bench, run, talker, sent, range(STEADY_MESSAGES), random.uniform(*STEADY_HZ))
         trial = Trial(run.trace(), tuple(sent), cpu_wait_s=run.node_cpu_wait_s() - waited_before_s, spins=spins)
         trial = await _collect_last_logs(run, trial)
-        if not find_summaries(trial):
-            trial = replace(trial, ending=await run.interrupt() if run.exit is None else None)
-    if trial.sent and not trial.spins and not trial.lines and trial.trace.exit is None:
+        if find_summaries(trial):
+            return trial
+        trial = replace(trial, ending=await run.interrupt() if run.exit is None else None)
+    if trial.sent and not trial.spins and trial.trace.exit is None:
         return replace(trial, stuck=await _dump_stuck_node(bench))
     return trial
 

@@ -33,6 +33,7 @@ from checks.i1_2.scenarios import _logs_something_new
 from checks.i1_2.summaries import find_summaries
 from tests.checks.builders import (
     CRASH,
+    FOLDER,
     NO_NODE,
     NODE_UP,
     START,
@@ -44,6 +45,7 @@ from tests.checks.builders import (
     trace,
 )
 from tutor.judge.trace import LogRecord, Trace
+from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import TopicEndpoint
 
@@ -1429,6 +1431,13 @@ def test_a_gap_that_is_only_printed_fails() -> None:
 # A node that is missing or exits.
 
 
+class Waiting(FakeStats):
+    """Logs all the time, whatever comes."""
+
+    def receive(self, now: float, data: str) -> Iterator[Log]:
+        yield 20, "waiting for the publisher"
+
+
 def judge_silent(seen: Trace, **more: object) -> Verdict:
     steady_trial = replace(steady(FakeStats()), trace=seen, **more)  # type: ignore[arg-type]
     return judges.judge_slow_summary(steady_trial, steady_trial)
@@ -1438,6 +1447,10 @@ def test_causes_of_no_summary() -> None:
     listening = trace(graph=LISTENING)
     assert_failed(judge_silent(listening), "no summary")
     assert_failed(judge_silent(listening, spins=False), "no spin")
+    waits = trace(graph=LISTENING, logs=steady(Waiting()).trace.logs)
+    stuck_at = Frame(f"{FOLDER}/stats.py", 12, "wait", "sleep(1)"), Frame(f"{FOLDER}/stats.py", 20, "<module>", "main()")
+    assert_failed(judge_silent(waits, spins=False, stuck=stuck_at), "no spin", "line 12")
+    assert_failed(judge_silent(waits, spins=False), "no summary")
     assert_failed(judge_silent(NO_NODE, sent=()), "no node")
     assert_failed(judge_silent(trace(), sent=()), "no subscription")
     assert_failed(

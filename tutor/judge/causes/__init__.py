@@ -28,6 +28,7 @@ from tutor.judge.causes.process import (
     diagnose_torn_thread,
     output_tail,
 )
+from tutor.judge.causes.spinning import diagnose_not_spinning
 from tutor.judge.causes.topics import (
     diagnose_incompatible_qos,
     diagnose_incompatible_service,
@@ -52,6 +53,7 @@ __all__ = [
     "diagnose_no_answer",
     "diagnose_no_messages",
     "diagnose_no_spin",
+    "diagnose_not_spinning",
     "diagnose_nothing_received",
     "diagnose_old_timer",
     "diagnose_parameter_type",
