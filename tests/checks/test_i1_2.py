@@ -1448,7 +1448,8 @@ def test_causes_of_no_summary() -> None:
     assert_failed(judge_silent(listening), "no summary")
     assert_failed(judge_silent(listening, spins=False), "no spin")
     waits = trace(graph=LISTENING, logs=steady(Waiting()).trace.logs)
-    stuck_at = Frame(f"{FOLDER}/stats.py", 12, "wait", "sleep(1)"), Frame(f"{FOLDER}/stats.py", 20, "<module>", "main()")
+    file = f"{FOLDER}/stats.py"
+    stuck_at = Frame(file, 12, "wait", "time.sleep(1)"), Frame(file, 20, "<module>", "main()")
     assert_failed(judge_silent(waits, spins=False, stuck=stuck_at), "no spin", "line 12")
     assert_failed(judge_silent(waits, spins=False), "no summary")
     assert_failed(judge_silent(NO_NODE, sent=()), "no node")

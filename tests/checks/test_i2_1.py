@@ -563,6 +563,17 @@ def test_bad_launch_passes(seen: list[Trace]) -> None:
         (starts(err=crash("publish_rate = 0\n1 / publish_rate"), exit=exited(1)), "only a traceback", "ZeroDivision"),
         (starts(logs=[log("bad frequency 0.0", 40), log("going on")]), "parameter not named", "bad frequency 0.0"),
         (starts(err=CRASH, exit=exited(1)), "only a traceback", "AttributeError"),
+        (
+            starts(
+                err=crash(
+                    f"class ParameterAlreadyDeclaredException(Exception): ...\n"
+                    f"raise ParameterAlreadyDeclaredException('{RATE}')"
+                ),
+                exit=exited(1),
+            ),
+            "only a traceback",
+            "ParameterAlreadyDeclared",
+        ),
         (starts(logs=[log("publish_rate: 0.0 Hz")]), "no validation", ""),
         (starts(err="[INFO] [7.5] [node]: publish_rate: -1.0 Hz"), "no validation", ""),
     ],

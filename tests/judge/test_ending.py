@@ -41,6 +41,11 @@ IGNORED_IN_DEL = f"""Exception ignored in: <function Node.__del__ at 0x7f0>
   File "{RCLPY}/node.py", line 20, in __del__
     self.destroy()
 ValueError: gone"""
+IGNORED_IN_THREADING = f"""Exception ignored in: <module 'threading' from '/usr/lib/python3.12/threading.py'>
+{HEADER}
+  File "/usr/lib/python3.12/threading.py", line 1624, in _shutdown
+    lock.acquire()
+KeyboardInterrupt: """
 AT_EXIT = f"""Exception ignored in atexit callback: <function shutdown at 0x7f0>
 {HEADER}
   File "{RCLPY}/context.py", line 127, in shutdown
@@ -99,6 +104,7 @@ def test_clean_endings_pass(end: Ending) -> None:
         ),
         (ending(0, err=AT_EXIT), "shutdown() after Ctrl+C", "try_shutdown"),
         (ending(0, err=IGNORED_IN_DEL.replace(RCLPY, FOLDER)), "traceback on exit", "line 20"),
+        (ending(0, err=IGNORED_IN_THREADING), "traceback on exit", "main() has ended"),
         (ending(1), "non-zero exit", "exit code 1"),
         (ending(1, err=IGNORED_IN_DEL), "non-zero exit", "exit code 1"),
         (ending(2, err=TRY_SHUTDOWN_RACE), "non-zero exit", "exit code 2"),

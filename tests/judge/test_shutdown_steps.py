@@ -139,3 +139,25 @@ def test_a_spin_in_an_imported_file_is_caught_there() -> None:
     base = "class Base(Node):\n    def run(self):\n        rclpy.spin(self)\n"
     run = replace(trace(), file="node.py", sources={"base.py": base, "node.py": MAIN})
     assert shutdown_steps.catch_interrupt(run).startswith("in base.py, ")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "joined"),
+    [
+        ("spinner.start()\n", "spinner.start()\n", "    try:\n        spinner.join()\n    except KeyboardInterrupt:\n"),
+        (
+            "spinner.start()\n",
+            "try:\n        spinner.start()\n    except KeyboardInterrupt:\n        rclpy.try_shutdown()\n",
+            ": spinner.join()",
+        ),
+        (
+            "spinner.start()\n",
+            "for each in [spinner]:\n        each.start()\n",
+            "    try:\n        for each in [spinner]:\n            each.join()\n    except KeyboardInterrupt:\n",
+        ),
+        ("spinner.start()\n", "spinner.daemon = True\n", "wait for each thread at the end of main()"),
+    ],
+)
+def test_threads_are_waited_for(old: str, new: str, joined: str) -> None:
+    source = "def main():\n    spinner = Thread(target=spin, args=(Node('a'),))\n    spinner.start()\nmain()\n"
+    assert joined in shutdown_steps.wait_for_threads(node(source.replace(old, new)))

@@ -138,7 +138,14 @@ def _is_from_rclpy_cleanup(found: tracebacks.Traceback, trace: Trace) -> bool:
 
     Seen once in 200 runs with a fast timer (rclpy 7.1.6).
     """
-    return found.ignored and not found.at_exit and found.own(trace.folder) is None
+    return (
+        found.ignored and not found.at_exit and not _is_from_wait_for_threads(found) and found.own(trace.folder) is None
+    )
+
+
+def _is_from_wait_for_threads(found: tracebacks.Traceback) -> bool:
+    """Whether Ctrl+C interrupted Python while it waited, at the end of the program, for the other threads."""
+    return any(frame.function == "_shutdown" and frame.path.endswith("/threading.py") for frame in found.frames)
 
 
 def _is_race_in_shutdown(found: tracebacks.Traceback) -> bool:
@@ -157,6 +164,12 @@ def _diagnose_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
             "shutdown() after Ctrl+C",
             "rclpy has already shut its context down on Ctrl+C, so rclpy.shutdown() raises RCLError",
             shutdown_steps.catch_interrupt(trace),
+        )
+    if _is_from_wait_for_threads(found):
+        return Cause(
+            "traceback on exit",
+            "main() has ended, and Python waits for the threads, where nothing catches KeyboardInterrupt",
+            shutdown_steps.wait_for_threads(trace),
         )
     if any(found.type.endswith(name) for name in shutdown_steps.SPIN_ENDINGS):
         return Cause(

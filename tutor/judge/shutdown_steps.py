@@ -4,8 +4,17 @@ from __future__ import annotations
 
 import ast
 import re
+import textwrap
 
-from tutor.judge.edits import Edit, insert_above, remove_statement, replace_lines, replace_node, replace_pattern
+from tutor.judge.edits import (
+    Edit,
+    insert_above,
+    insert_after,
+    remove_statement,
+    replace_lines,
+    replace_node,
+    replace_pattern,
+)
 from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.rewriting.program import SPINS, clean_ending, first_sound_step, guard_spin
 from tutor.judge.trace import Trace
@@ -40,6 +49,13 @@ def exit_with_zero(trace: Trace) -> str:
     return first_sound_step(trace, clean_ending) or (
         "return normally from main() after Ctrl+C; call no sys.exit() with another code, and end what uses the node, "
         "such as threads, before you destroy it"
+    )
+
+
+def wait_for_threads(trace: Trace) -> str:
+    """How to wait for threads that are still running when main() has ended."""
+    return find_in_files(trace, lambda file: file.step(_with_threads_joined(file))) or (
+        "wait for each thread at the end of main(): try: thread.join(), except KeyboardInterrupt: pass"
     )
 
 
@@ -112,3 +128,30 @@ def _guard_threads(file: NodeFile) -> list[Edit]:
             above = insert_above(file.statement(call).lineno, code)
             found += [*imported, above, replace_node(file.text, target, "spin_until_shutdown")]
     return found
+
+
+def _with_threads_joined(file: NodeFile) -> list[Edit]:
+    """Wait for the threads below the statement that starts the last of them, and catch KeyboardInterrupt there."""
+    joins: list[str] = []
+    last: ast.stmt | None = None
+    for call in file.calls("start"):
+        if not isinstance(call.func, ast.Attribute) or "self" in ast.unparse(call.func):
+            continue
+        thread, statement = ast.unparse(call.func.value), file.statement(call)
+        loop = next(
+            (each for each in ast.walk(file.tree) if isinstance(each, ast.For) and statement in each.body), None
+        )
+        if loop is not None and ast.unparse(loop.target) == thread:
+            joins.append(f"for {thread} in {ast.unparse(loop.iter)}:\n    {thread}.join()")
+            last = loop
+        elif isinstance(call.func.value, ast.Name):
+            joins.append(f"{thread}.join()")
+            last = statement
+    if last is None:
+        return []
+    code = "\n".join(joins)
+    tries = [each for each in ast.walk(file.tree) if isinstance(each, ast.Try) and last in each.body]
+    caught = [ast.unparse(handler.type) for each in tries for handler in each.handlers if handler.type is not None]
+    if not any("KeyboardInterrupt" in each for each in caught):
+        code = f"try:\n{textwrap.indent(code, '    ')}\nexcept KeyboardInterrupt:\n    pass"
+    return [insert_after(last, code)]
