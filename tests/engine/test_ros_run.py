@@ -314,6 +314,18 @@ async def test_waiting_for_a_response_ends_when_the_node_blocks_forever(scene: S
         assert (answered.response, parameters, ended, run.exit) == (None, None, False, None)
 
 
+async def test_a_call_that_still_waits_when_our_participant_leaves_gets_no_response(scene: Scene) -> None:
+    from tutor.ros.observer import Observer
+
+    async with scene.bench(node(PUBLISHES)).start(FILE) as run:
+        observer = Observer(run._domain_id)  # type: ignore[attr-defined]
+        call = asyncio.ensure_future(observer.call("/nowhere", ADD, {"a": 1, "b": 1}, limit_s=60))
+        await asyncio.sleep(0.1)
+        assert not call.done()
+        observer.close()
+        assert await call is None
+
+
 LATCHED = """
 from rclpy.qos import DurabilityPolicy, QoSProfile
 publisher = node.create_publisher(String, "chatter", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))

@@ -174,14 +174,16 @@ class Observer:
             self._executor.create_task(self.node.destroy_client, client)
 
     async def wait_for_server(self, service: str, type_name: str, limit_s: float) -> bool:
-        """Wait until our client has discovered the server. Return False if it has not within `limit_s` seconds."""
-        client = self._client(service, type_name)
+        """Wait until our client has discovered the server. Return False if it has not within `limit_s` seconds.
+
+        Also return False once the observer is closed: a check may still ask a node while another part of it ends.
+        """
         deadline = self._loop.time() + limit_s
-        while not client.service_is_ready():
+        while not self._closed and not self._client(service, type_name).service_is_ready():
             if self._loop.time() >= deadline:
                 return False
             await asyncio.sleep(0.005)
-        return True
+        return not self._closed
 
     def pause(self, paused: bool) -> None:
         """Stop or resume taking received messages. May be called from any thread."""
