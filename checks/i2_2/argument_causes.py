@@ -19,6 +19,8 @@ from checks.i2_2.facts import (
 )
 from checks.i2_2.launch_file import Launch, launch
 from checks.i2_2.processes import ended_processes
+from tutor.judge.causes.parameter_slips import diagnose_dropped_arguments
+from tutor.judge.rewriting.node import find_in_files
 from tutor.judge.verdict import Cause
 from tutor.ros_model import Graph, TopicEndpoint
 
@@ -33,9 +35,11 @@ def diagnose_topic(default_run: LaunchRun, seen: LaunchRun, wanted: str) -> Caus
     graph, name, launch_file = seen.trace.graph, _original_topic(default_run), launch(seen.trace)
     senders = [each for each in publishers(graph) if each.topic == wanted]
     receivers = [each for each in subscriptions(graph) if each.topic == wanted]
+    dropped = find_in_files(seen.trace, diagnose_dropped_arguments)
     if not senders and not receivers:
         return (
-            _diagnose_altered_topic(launch_file, graph, wanted)
+            dropped
+            or _diagnose_altered_topic(launch_file, graph, wanted)
             or _diagnose_ignored_argument(seen, "topic", wanted, default_run)
             or _diagnose_remapping(seen, wanted)
             or source_causes.diagnose_topic_argument(launch_file, name)
@@ -53,11 +57,15 @@ def diagnose_topic(default_run: LaunchRun, seen: LaunchRun, wanted: str) -> Caus
         )
         stray = [each for each in others if each.node not in {one.node for one in present}] or others
         where = ", ".join(sorted({f"{each.node} {verb} {each.topic}" for each in stray})) or "the other node is missing"
-        return _diagnose_remapping(seen, wanted) or Cause(
-            "remapping missing on one node",
-            f"only {present[0].node} uses {wanted}; {where}",
-            steps.remap_nodes(launch_file, name)
-            or "give the other node the same remappings=[...], from the name that its own code uses",
+        return (
+            dropped
+            or _diagnose_remapping(seen, wanted)
+            or Cause(
+                "remapping missing on one node",
+                f"only {present[0].node} uses {wanted}; {where}",
+                steps.remap_nodes(launch_file, name)
+                or "give the other node the same remappings=[...], from the name that its own code uses",
+            )
         )
     still_used = sorted(shared_topics(default_run.trace.graph) & topics_in_use(graph))
     if still_used:
@@ -93,9 +101,11 @@ def diagnose_namespace(default_run: LaunchRun, seen: LaunchRun) -> Cause:
         )
     within = [each for each in endpoints if each.node.startswith(under)]
     outside = [each for each in endpoints if not each.node.startswith(under)]
+    dropped = find_in_files(seen.trace, diagnose_dropped_arguments)
     if not within:
         return (
-            _diagnose_ignored_argument(seen, "namespace", namespace)
+            dropped
+            or _diagnose_ignored_argument(seen, "namespace", namespace)
             or source_causes.diagnose_namespace_argument(launch_file)
             or Cause(
                 "namespace not used",
@@ -105,11 +115,15 @@ def diagnose_namespace(default_run: LaunchRun, seen: LaunchRun) -> Cause:
             )
         )
     if outside and not _are_two_nodes(within):
-        return source_causes.diagnose_namespace_argument(launch_file) or Cause(
-            "namespace missing on one node",
-            f"{list_nodes(within)} is under {under[:-1]}, {list_nodes(outside)} is not",
-            steps.put_into_namespace(launch_file)
-            or "give the other node the same namespace=LaunchConfiguration('namespace')",
+        return (
+            dropped
+            or source_causes.diagnose_namespace_argument(launch_file)
+            or Cause(
+                "namespace missing on one node",
+                f"{list_nodes(within)} is under {under[:-1]}, {list_nodes(outside)} is not",
+                steps.put_into_namespace(launch_file)
+                or "give the other node the same namespace=LaunchConfiguration('namespace')",
+            )
         )
     absolute = [each for each in within if not each.topic.startswith(under)]
     if absolute:

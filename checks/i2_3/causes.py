@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from checks.i2_3 import steps, tick_steps
+from checks.i2_3.callback_groups import diagnose_late_group
 from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, CallBatch, IdleRun, SingleCalls, right_sum
 from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series
@@ -132,6 +133,8 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
     if (broken := causes.diagnose_process(idle.trace)) is not None:
         return broken
     source = started_node(idle.trace)
+    if likely is None and (inactive := causes.diagnose_lifecycle(idle.trace)) is not None:
+        return inactive
     if likely is None:
         output_at_exit = idle.ending.output if idle.ending else ()
         lines = Counter(shape(line.text) for line in (*idle.trace.output, *output_at_exit))
@@ -208,6 +211,8 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     if _in_worker(seen.stuck):
         if (locked := causes.diagnose_lock_wait(seen.trace, seen.stuck)) is not None:
             return replace(locked, hint=steps.separate_groups(source) or locked.hint)
+        if own is not None and "sleep" in own.code and (late := find_in_files(seen.trace, diagnose_late_group)):
+            return late
         return Cause(
             names.BLOCKED_EXECUTOR,
             f"the timer stops while the service works{where}: {steps.what_timer_waits_for(source)}",

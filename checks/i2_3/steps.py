@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 
 from checks.i2_3 import rewriting
+from checks.i2_3.callback_groups import group_edits, group_of, is_reentrant, set_group
 from checks.i2_3.facts import SERVICE, WORK_S
 from checks.i2_3.rewriting import combine_edits, service, service_callback, timer
 from tutor.judge.causes.topics import use_default_service_qos
@@ -18,7 +19,6 @@ from tutor.judge.rewriting.program import whole_program
 from tutor.judge.source import called_name, calls_in, last_name
 from tutor.judge.verdict import Cause
 
-_GROUP = "callback_group"
 _MULTI_THREADED = "MultiThreadedExecutor"
 _THREADS = 8
 
@@ -133,13 +133,13 @@ def _remove_spinning_threads(file: NodeFile, executor: str) -> list[Edit]:
 
 
 def _with_group_edits(file: NodeFile, edits: list[Edit]) -> list[Edit]:
-    return combine_edits(file, edits, _group_edits(file)) if edits else []
+    return combine_edits(file, edits, group_edits(file)) if edits else []
 
 
 def separate_groups(file: NodeFile) -> str | None:
     """The step where the timer waits for the service although several threads run the callbacks."""
     return (
-        file.step(_add_threads(file), _group_edits(file), rewriting.rewrite_service_callback(file))
+        file.step(_add_threads(file), group_edits(file), rewriting.rewrite_service_callback(file))
         or file.step(
             combine_edits(file, rewriting.rewrite_service_callback(file), rewriting.rewrite_timer_callback(file))
         )
@@ -151,7 +151,7 @@ def _add_threads(file: NodeFile) -> list[Edit]:
     """More threads for a MultiThreadedExecutor that has only one, or another number if nothing else is wrong."""
     made = next(iter(file.calls(_MULTI_THREADED)), None)
     given = argument(made, 0, "num_threads") if made is not None else None
-    if given is None or ast.unparse(given) == str(_THREADS) or (ast.unparse(given) != "1" and _group_edits(file)):
+    if given is None or ast.unparse(given) == str(_THREADS) or (ast.unparse(given) != "1" and group_edits(file)):
         return []
     return [] if _has_enough_threads(file) else [replace_node(file.text, given, str(_THREADS))]
 
@@ -168,14 +168,14 @@ def what_timer_waits_for(file: NodeFile) -> str:
     made = timer(file)
     if edits := _add_threads(file):
         return f"the executor has too few threads (line {edits[0].first})"
-    if made is not None and not _group_edits(file) and _has_enough_threads(file):
+    if made is not None and not group_edits(file) and _has_enough_threads(file):
         return "Python runs one thread at a time, and this work lets no other one run, unlike time.sleep()"
-    if made is None or not _group_edits(file):
+    if made is None or not group_edits(file):
         return (
             "they are in one MutuallyExclusiveCallbackGroup (a node's default group is one), or the executor has too "
             "few threads"
         )
-    group = _group(made)
+    group = group_of(made)
     if any(each.arg is None for each in made.keywords):  # the group is in a dict of options
         return "both are in the same MutuallyExclusiveCallbackGroup"
     if not group:
@@ -183,59 +183,12 @@ def what_timer_waits_for(file: NodeFile) -> str:
     return f"both are in {group}, which is a MutuallyExclusiveCallbackGroup"
 
 
-def _group_edits(file: NodeFile) -> list[Edit]:
-    """Give the timer its own callback group if it shares the service's."""
-    timer_call, service_call = timer(file), service(file)
-    if timer_call is None or service_call is None or _group(timer_call) != _group(service_call):
-        return []
-    if _is_reentrant(file, _group(timer_call)):
-        return []
-    name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
-    spare = next(
-        (
-            kept
-            for each in file.calls("ReentrantCallbackGroup", "MutuallyExclusiveCallbackGroup")
-            if (kept := file.assigned_to(each)).startswith("self.")
-            and kept != _group(service_call)
-            and each.lineno < timer_call.lineno
-        ),
-        "",
-    )
-    return [*([] if spare else imported), set_group(file, timer_call, spare or f"{name}()")]
-
-
-def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:
-    """Create the timer or service of this call in another callback group."""
-    given = _given_group(call)
-    if given is not None:
-        return replace_node(file.text, given, group)
-    unpacked = [each for each in call.keywords if each.arg is None]  # a dict of options, which may hold a group
-    code = ast.unparse(ast.Call(call.func, call.args, [each for each in call.keywords if each not in unpacked]))
-    return replace_node(file.text, call, f"{code[:-1]}, {_GROUP}={group})")
-
-
-def _group(call: ast.Call) -> str:
-    """The expression for the callback group of a timer or service; "" is the node's default group."""
-    given = _given_group(call)
-    code = ast.unparse(given) if given is not None else ""
-    return "" if code in ("None", "self.default_callback_group") else code
-
-
-def _given_group(call: ast.Call) -> ast.expr | None:
-    return argument(call, 2 if called_name(call) == "create_timer" else len(call.args), _GROUP)
-
-
-def _is_reentrant(file: NodeFile, group: str) -> bool:
-    made = {file.assigned_to(each) for each in file.calls("ReentrantCallbackGroup")} - {""}
-    return "Reentrant" in group or group in made
-
-
 def allow_overlap(file: NodeFile) -> str | None:
     """The step where calls wait for each other: due to the service's callback group, or too few threads."""
     made = service(file)
     name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
     edits: list[Edit] = []
-    if made is not None and not _is_reentrant(file, _group(made)):
+    if made is not None and not is_reentrant(file, group_of(made)):
         edits += [*imported, set_group(file, made, f"{name}()")]
     multi = next(iter(file.calls(_MULTI_THREADED)), None)
     given = argument(multi, 0, "num_threads") if multi is not None else None

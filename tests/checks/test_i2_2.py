@@ -234,6 +234,21 @@ def test_the_default_topic_must_not_be_used_any_more() -> None:
     assert_failed(judges.judge_topic(DEFAULT_RUN, with_topic(seen)), "default topic still used", TALKER, "/chatter")
 
 
+def test_a_node_that_drops_its_ros_arguments_is_blamed() -> None:
+    program = "def main():\n    rclpy.init(args=remove_ros_args(sys.argv))\n    rclpy.spin(Node('ear'))\n"
+    for verdict in (
+        judges.judge_topic(DEFAULT_RUN, with_program(with_topic(pair("/news", "/chatter")), program)),
+        judges.judge_topic(DEFAULT_RUN, with_program(with_topic(pair("/chatter")), program)),
+    ):
+        assert_failed(verdict, "arguments left out", "in ear.py, line 2 becomes: rclpy.init()")
+
+
+def with_program(seen: LaunchRun, program: str) -> LaunchRun:
+    """The launch, with a program of the learner's beside the launch file."""
+    sources = {"my_launch.py": "def generate_launch_description(): ...", "ear.py": program}
+    return replace(seen, trace=replace(seen.trace, sources=sources))
+
+
 @pytest.mark.parametrize(("sent", "taken"), [("/news", "/chatter"), ("/chatter", "/news")])
 def test_one_node_is_not_remapped(sent: str, taken: str) -> None:
     command_lines = ["talker --ros-args -r chatter:=news", "listener --ros-args"]

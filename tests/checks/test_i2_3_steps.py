@@ -7,6 +7,7 @@ import ast
 import pytest
 
 from checks.i2_3 import rewriting, steps, tick_steps
+from checks.i2_3.callback_groups import diagnose_late_group
 from tests.checks.builders import trace
 from tests.judging import find_cases
 from tutor.content.submissions import Case
@@ -283,6 +284,28 @@ def test_work_that_stops_all_threads_is_not_put_down_to_the_executor() -> None:
     separate = changed(("        time.sleep(3.0)", "        sum(range(10**9))"))
     assert "one thread at a time" in steps.what_timer_waits_for(separate)
     assert "time.sleep(3.0)" in str(steps.separate_groups(separate))
+
+
+LATE = (GROUPS, "        self.start()\n" + GROUPS + "\n    def start(self):\n")
+
+
+def test_a_group_that_is_set_after_its_timer_was_created() -> None:
+    cause = diagnose_late_group(changed(LATE))
+    assert cause is not None
+    assert cause.name == "callback group set too late"
+    assert "line 17 creates the timer before line 13 sets self.other" in cause.text
+    assert "line 17 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=Reentrant" in str(cause.hint)
+
+
+@pytest.mark.parametrize(
+    "pairs",
+    [
+        (),  # the group is set in the same function, so it exists
+        (LATE, ("self.other = Mut", "self.another = Mut")),
+    ],
+)
+def test_a_group_that_is_set_in_time(pairs: tuple[tuple[str, str], ...]) -> None:
+    assert diagnose_late_group(changed(*pairs)) is None
 
 
 def test_a_timer_callback_gets_no_event() -> None:

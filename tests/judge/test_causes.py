@@ -421,6 +421,10 @@ def main():
             LIFECYCLE.replace("sensor = Sensor()", "rclpy.spin(Sensor())"),
             ["    node = Sensor()\n    node.trigger_configure()", "line 7 becomes: rclpy.spin(node)"],
         ),
+        (  # rclpy.lifecycle's Node
+            LIFECYCLE.replace("LifecycleNode", "Node"),
+            ["below line 7, with the same indentation:\n    sensor.trigger_configure()"],
+        ),
         (LIFECYCLE + "    sensor.trigger_activate()\n", ["line 3 becomes: return super().on_activate(state)"]),
     ],
 )

@@ -257,7 +257,7 @@ def _activate_in_program(file: NodeFile) -> list[Edit]:
     classes = [
         each.name
         for each in ast.walk(file.tree)
-        if isinstance(each, ast.ClassDef) and any("Lifecycle" in ast.unparse(base) for base in each.bases)
+        if isinstance(each, ast.ClassDef) and (_has_lifecycle_base(each) or _has_transitions(each))
     ]
     for call in file.calls(*classes):
         statement, node = file.statement(call), file.assigned_to(call)
@@ -267,6 +267,16 @@ def _activate_in_program(file: NodeFile) -> list[Edit]:
         code = f"node = {ast.unparse(call)}\nnode.trigger_configure()\nnode.trigger_activate()"
         return [insert_above(statement.lineno, code), replace_node(file.text, call, "node")]
     return []
+
+
+def _has_lifecycle_base(class_: ast.ClassDef) -> bool:
+    return any("Lifecycle" in ast.unparse(base) for base in class_.bases)
+
+
+def _has_transitions(class_: ast.ClassDef) -> bool:
+    """Whether the class is a lifecycle node under another name, such as rclpy.lifecycle's Node."""
+    methods = [each.name for each in class_.body if isinstance(each, ast.FunctionDef)]
+    return "on_configure" in methods or "on_activate" in methods
 
 
 def _diagnose_misplaced(

@@ -1,0 +1,83 @@
+"""I2.3: the callback groups of the timer and the service, and the edits that give them separate ones."""
+
+from __future__ import annotations
+
+import ast
+
+from checks.i2_3.rewriting import service, timer
+from tutor.judge.edits import Edit, replace_node
+from tutor.judge.rewriting.node import NodeFile, argument
+from tutor.judge.source import called_name
+from tutor.judge.verdict import Cause
+
+_GROUP = "callback_group"
+_GROUPS = "ReentrantCallbackGroup", "MutuallyExclusiveCallbackGroup"
+
+
+def group_edits(file: NodeFile) -> list[Edit]:
+    """Give the timer its own callback group if it shares the service's."""
+    timer_call, service_call = timer(file), service(file)
+    if timer_call is None or service_call is None or group_of(timer_call) != group_of(service_call):
+        return []
+    if is_reentrant(file, group_of(timer_call)):
+        return []
+    name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
+    spare = next(
+        (
+            kept
+            for each in file.calls(*_GROUPS)
+            if (kept := file.assigned_to(each)).startswith("self.")
+            and kept != group_of(service_call)
+            and each.lineno < timer_call.lineno
+        ),
+        "",
+    )
+    return [*([] if spare else imported), set_group(file, timer_call, spare or f"{name}()")]
+
+
+def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:
+    """Create the timer or service of this call in another callback group."""
+    given = _given_group(call)
+    if given is not None:
+        return replace_node(file.text, given, group)
+    unpacked = [each for each in call.keywords if each.arg is None]  # a dict of options, which may hold a group
+    code = ast.unparse(ast.Call(call.func, call.args, [each for each in call.keywords if each not in unpacked]))
+    return replace_node(file.text, call, f"{code[:-1]}, {_GROUP}={group})")
+
+
+def group_of(call: ast.Call) -> str:
+    """The expression for the callback group of a timer or service; "" is the node's default group."""
+    given = _given_group(call)
+    code = ast.unparse(given) if given is not None else ""
+    return "" if code in ("None", "self.default_callback_group") else code
+
+
+def _given_group(call: ast.Call) -> ast.expr | None:
+    return argument(call, 2 if called_name(call) == "create_timer" else len(call.args), _GROUP)
+
+
+def is_reentrant(file: NodeFile, group: str) -> bool:
+    """Whether this expression is, or is assigned, a ReentrantCallbackGroup."""
+    made = {file.assigned_to(each) for each in file.calls("ReentrantCallbackGroup")} - {""}
+    return "Reentrant" in group or group in made
+
+
+def diagnose_late_group(file: NodeFile) -> Cause | None:
+    """Whether the timer gets a group of its own that is still None when it is created.
+
+    Only for a timer that does share a group with the service, although by the source it should not.
+    """
+    made = timer(file)
+    given = _given_group(made) if made is not None else None
+    if made is None or not isinstance(given, ast.Attribute) or group_edits(file):
+        return None
+    groups = [call for call in file.calls(*_GROUPS) if file.assigned_to(call) == ast.unparse(given)]
+    if len(groups) != 1 or file.function_around(groups[0]) is file.function_around(made):
+        return None
+    name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
+    step = file.step([*imported, set_group(file, made, f"{name}()")])
+    text = (
+        f"line {given.lineno} creates the timer before line {groups[0].lineno} sets {ast.unparse(given)}, so that the "
+        "timer, like the service, is in the node's default group, which is a MutuallyExclusiveCallbackGroup"
+    )
+    return Cause("callback group set too late", text, step) if step else None
