@@ -113,9 +113,14 @@ async def collect_more_values(bench: Bench) -> CollectedValues:
 
 async def _collect(bench: Bench, enough: Callable[[Run], bool]) -> tuple[tuple[float, ...], Trace]:
     """Start without parameters and return the values and the trace once `enough` holds, or no more messages come."""
+    received, waited_s = 0, 0.0
 
     def is_silent() -> bool:
-        return run.now() >= run.samples_on(TOPIC)[-1].source_time + MESSAGE_GAP_S
+        nonlocal received, waited_s
+        samples = run.samples_on(TOPIC)
+        if len(samples) != received:
+            received, waited_s = len(samples), run.node_cpu_wait_s()
+        return run.now() >= samples[-1].received_at + MESSAGE_GAP_S + run.node_cpu_wait_s() - waited_s
 
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=1 + MIN_COLLECT_S) as run:
         if await wait_for_message(run, TOPIC, TYPE):

@@ -12,6 +12,7 @@ from checks.i1_2.summaries import Summary, is_in_time, last_due_count
 from checks.i1_2.totals import total_as_rate
 from tutor.judge import causes
 from tutor.judge.causes import slips
+from tutor.judge.causes.unserved import diagnose_unserved_node
 from tutor.judge.edits import replace_node
 from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.trace import Level, LogRecord
@@ -186,8 +187,13 @@ def diagnose_no_summary(trial: Trial) -> Cause:
     )
     if printed is not None:
         return printed
-    raised = None if trial.lines else find_in_files(trace, lambda file: slips.diagnose_raised_level(file, Level.FATAL))
-    return raised or Cause(
+    if not trial.lines:
+        silent = find_in_files(
+            trace, lambda file: slips.diagnose_raised_level(file, Level.FATAL), diagnose_unserved_node
+        )
+        if silent is not None:
+            return silent
+    return Cause(
         "no summary",
         "none of its log messages sums up the messages" if trial.lines else "no log message follows from a message",
         steps.summarise_every_ten(trace)

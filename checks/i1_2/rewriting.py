@@ -92,6 +92,7 @@ def _new_callback(trace: Trace) -> str | None:
 def _remove_timers(listener: Listener) -> Iterator[Edit]:
     """Remove timers that log, and their callbacks: the subscription's callback logs instead."""
     functions = {each.name: each for each in listener.file.functions}
+    replaced = list(ast.walk(listener.function))
     for call in listener.file.calls("create_timer"):
         names = [last_name(node) for each in call.args[1:2] for node in ast.walk(each)]
         name = next((each for each in names if each in functions), "")
@@ -99,7 +100,8 @@ def _remove_timers(listener: Listener) -> Iterator[Edit]:
             continue
         inside = [node for each in listener.file.reachable_from(functions[name]) for node in ast.walk(each)]
         if any(isinstance(each, ast.Call) and source.called_name(each) == "get_logger" for each in inside):
-            yield remove_statement(listener.text, listener.file.statement(call))
+            if call not in replaced:
+                yield remove_statement(listener.text, listener.file.statement(call))
             if len(re.findall(rf"\b{name}\b", listener.text)) == 2:
                 yield remove_statement(listener.text, functions[name])
 

@@ -59,6 +59,7 @@ def diagnose_topic(default_run: LaunchRun, seen: LaunchRun, wanted: str) -> Caus
         where = ", ".join(sorted({f"{each.node} {verb} {each.topic}" for each in stray})) or "the other node is missing"
         return (
             dropped
+            or _diagnose_other_namespace(launch_file, stray, wanted)
             or _diagnose_remapping(seen, wanted)
             or Cause(
                 "remapping missing on one node",
@@ -143,6 +144,20 @@ def diagnose_namespace(default_run: LaunchRun, seen: LaunchRun) -> Cause:
         f"{list_endpoints(endpoints)}: no node subscribes to what another one publishes",
         "give both nodes the same namespace and the same remappings",
     )
+
+
+def _diagnose_other_namespace(launch_file: Launch, stray: Sequence[TopicEndpoint], wanted: str) -> Cause | None:
+    """Find a node that uses the given topic, but within a namespace of its own."""
+    for each in stray:
+        namespace = each.node.rpartition("/")[0]
+        if namespace and f"{namespace}/{wanted.rpartition('/')[2]}" == each.topic != wanted:
+            return Cause(
+                "namespace of its own",
+                f"{each.node} is in the namespace {namespace}, and so it uses {each.topic} in place of {wanted}",
+                steps.put_into_namespace(launch_file)
+                or "give both nodes the same namespace=LaunchConfiguration('namespace')",
+            )
+    return None
 
 
 def _diagnose_broken(seen: LaunchRun) -> Cause | None:

@@ -60,7 +60,7 @@ def subscriptions(graph: Graph) -> list[TopicEndpoint]:
 
 
 def _is_standard(topic: str) -> bool:
-    return is_standard_topic(topic) or topic == "/clock" or any(part.startswith("_") for part in topic.split("/"))
+    return is_standard_topic(topic) or topic == "/clock" or bool({"_action", "_service_event"} & {*topic.split("/")})
 
 
 def find_pair(graph: Graph) -> Pair | None:

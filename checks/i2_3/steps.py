@@ -100,16 +100,20 @@ def use_threads(file: NodeFile) -> str | None:
 
 def _fix_executor(file: NodeFile) -> list[Edit]:
     spins = file.calls("spin")
-    spun, own = next((each for each in spins if each.args), None), next((each for each in spins if not each.args), None)
+    spun = next((each for each in spins if each.args), None)
     multi, single = (
         next(iter(file.calls(_MULTI_THREADED)), None),
         next(iter(file.calls("SingleThreadedExecutor")), None),
+    )
+    kept = file.assigned_to(multi) if multi is not None else ""
+    own = next(
+        (each for each in spins if not each.args and (not kept or ast.unparse(each.func) == f"{kept}.spin")), None
     )
     name, imported = file.import_name(_MULTI_THREADED, "rclpy.executors")
     if spun is not None and multi is not None and own is not None:
         statement = file.statement(spun)
         return [remove_statement(file.text, statement)]
-    if spun is not None and multi is not None and (kept := file.assigned_to(multi)) and len(spun.args) == 1:
+    if spun is not None and multi is not None and kept and len(spun.args) == 1:
         node = ast.unparse(spun.args[0])
         added = "" if file.calls("add_node") else f"{kept}.add_node({node})\n"
         few = argument(multi, 0, "num_threads")

@@ -151,6 +151,17 @@ def test_a_timer_that_logs_is_removed() -> None:
     assert "def tick" not in fixed
 
 
+def test_a_timer_that_the_callback_creates_goes_with_its_old_body() -> None:
+    created = TIMER.replace("        self.create_timer(1.0, self.tick)\n", "")
+    created = created.replace(
+        "(self, nachricht):\n", "(self, nachricht):\n        self.create_timer(1.0, self.tick)\n", 1
+    )
+    assert "create_timer" in created
+    fixed = rewrite(created)
+    assert "create_timer" not in fixed
+    assert "def tick" not in fixed
+
+
 @pytest.mark.parametrize("code", ["", "def f(:", "class Stats(Node):\n    pass\n"])
 def test_without_a_subscription_there_is_no_step(code: str) -> None:
     assert rewriting.rewrite_callback(trace(sources={"node.py": code})) is None

@@ -95,9 +95,15 @@ def test_nodes_on_any_topics_pass() -> None:
     assert_passed(judges.judge_starts(launched(pair("/chatter", "/chater"))))
 
 
+def test_a_node_whose_namespace_begins_with_an_underscore_counts() -> None:
+    seen = graph([endpoint("/chatter", TALKER)], [endpoint("/_opr/chatter", "/_opr/listener")])
+    assert_passed(judges.judge_starts(launched(seen)))
+
+
 def test_subscriptions_of_ros_itself_do_not_make_a_subscriber() -> None:
     seen = graph(
-        [endpoint("/chatter", TALKER)], [endpoint("/clock", LISTENER), endpoint("/parameter_events", LISTENER)]
+        [endpoint("/chatter", TALKER)],
+        [endpoint(topic, LISTENER) for topic in ("/clock", "/parameter_events", "/fibonacci/_action/feedback")],
     )
     assert_failed(judges.judge_starts(launched(seen)), "no subscriber", TALKER)
 
@@ -241,6 +247,11 @@ def test_a_node_that_drops_its_ros_arguments_is_blamed() -> None:
         judges.judge_topic(DEFAULT_RUN, with_program(with_topic(pair("/chatter")), program)),
     ):
         assert_failed(verdict, "arguments left out", "in ear.py, line 2 becomes: rclpy.init()")
+
+
+def test_a_namespace_of_its_own_is_named() -> None:
+    seen = graph([endpoint("/news", TALKER)], [endpoint("/opr/news", "/opr/listener")])
+    assert_failed(judges.judge_topic(DEFAULT_RUN, with_topic(seen)), "namespace of its own", "/opr/listener")
 
 
 def with_program(seen: LaunchRun, program: str) -> LaunchRun:

@@ -67,6 +67,18 @@ def changed(*pairs: tuple[str, str]) -> NodeFile:
     [
         (changed((BUILT, ""), ("executor.spin()", "rclpy.spin(node)")), "executor = MultiThreadedExecutor(num_thread"),
         (changed(("executor.spin()", "rclpy.spin(node)")), "line 32 becomes: executor.spin()"),
+        (  # the node has a method `spin`
+            changed(
+                (BUILT, ""),
+                (
+                    GROUPS,
+                    f"{GROUPS}        self.runner = MultiThreadedExecutor()\n        self.runner.add_node(self)\n",
+                ),
+                ("def tick(self):", "def spin(self):\n        rclpy.spin(self)\n\n    def tick(self):"),
+                ("executor.spin()", "node.spin()"),
+            ),
+            "line 25 becomes: self.runner.spin()",
+        ),
         (
             changed(("    executor.spin()", "    rclpy.spin(node)\n    executor.spin()")),
             "remove line 32: rclpy.spin(node)",

@@ -369,6 +369,24 @@ def test_the_step_for_an_unknown_exception_is_not_its_unchanged_line() -> None:
     assert "self.nothing()" not in cause.hint
 
 
+def test_a_node_that_is_created_on_import_needs_rclpy_before() -> None:
+    started = (
+        "import rclpy, base\n\n\nnode = base.N()\n\n\ndef main():\n    rclpy.init()\n    rclpy.spin(node)\n\nmain()\n"
+    )
+    err = f"""Traceback (most recent call last):
+  File "{FOLDER}/node.py", line 4, in <module>
+    node = base.N()
+  File "{FOLDER}/base.py", line 3, in __init__
+    super().__init__('n')
+rclpy.exceptions.NotInitializedException: rclpy.init() has not been called"""
+    sources = {"node.py": started, "base.py": "class N(Node):\n  def __init__(self):\n    super().__init__('n')\n"}
+    found = diagnose_process(trace(err=err, exit=exited(1), sources=sources))
+    assert found is not None
+    assert found.hint.startswith("in node.py, ")
+    assert "remove line 8: rclpy.init()" in found.hint
+    assert "write above line 4, with the same indentation: rclpy.init()" in found.hint
+
+
 def test_an_exception_chain_is_named_after_its_most_informative_member() -> None:
     wrapped = "try:\n    import std_msg\nexcept ImportError as error:\n    raise RuntimeError('set it up') from error"
     found = diagnose_process(trace(err=crash(wrapped), exit=exited(1)))

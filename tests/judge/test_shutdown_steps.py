@@ -141,6 +141,14 @@ def test_a_spin_in_an_imported_file_is_caught_there() -> None:
     assert shutdown_steps.catch_interrupt(run).startswith("in base.py, ")
 
 
+def test_what_main_does_when_it_is_interrupted_is_guarded() -> None:
+    source = MAIN.replace("        rclpy.spin(node)", "        wait()").replace(BOTH, "except ValueError:")
+    line = source[: source.index("wait()")].count("\n") + 1
+    called = Frame(f"{FOLDER}/node.py", 30, "<module>", "main()"), Frame(f"{FOLDER}/node.py", line, "main", "wait()")
+    step = shutdown_steps.catch_interrupt(node(source), (*called, Frame(f"{FOLDER}/node.py", 3, "wait", "sleep(1)")))
+    assert step == (f"line {line} becomes:\n    try:\n        wait()\n    except KeyboardInterrupt:\n        pass")
+
+
 @pytest.mark.parametrize(
     ("old", "new", "joined"),
     [

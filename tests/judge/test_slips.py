@@ -155,6 +155,30 @@ def test_another_node_spun_is_named() -> None:
     assert diagnose_unserved_node(node_file(CLASS + MAIN.format("own"))) is None
 
 
+PAIR = "class {}(Node):\n  def __init__(self):\n    super().__init__('n')\n    self.create_timer(1.0, self.go)\n".format
+
+
+@pytest.mark.parametrize(
+    ("last", "named"),
+    [
+        ("  rclpy.spin(two)\n", "not those of one"),
+        ("  rclpy.spin(one)\n", "not those of two"),
+        ("  executor.add_node(one)\n  rclpy.spin(two)\n", None),
+        ("  rclpy.spin(one)\n  rclpy.spin(two)\n", "is never reached"),
+    ],
+)
+def test_one_of_two_nodes_is_never_spun(last: str, named: str | None) -> None:
+    text = f"import rclpy\n{PAIR('A')}{PAIR('B')}def main():\n  one = A()\n  two = B()\n{last}"
+    found = diagnose_unserved_node(node_file(text))
+    assert (found is None) == (named is None)
+    if found is not None:
+        assert str(named) in found.text
+        assert "executor.add_node(one)" in found.hint
+        assert "executor.add_node(two)" in found.hint
+    helper = text.replace("    self.create_timer(1.0, self.go)\n", "", 1)  # the first node has nothing to serve
+    assert diagnose_unserved_node(node_file(helper)) is None or last.count("spin") == 2
+
+
 @pytest.mark.parametrize(
     ("text", "step"),
     [

@@ -175,7 +175,7 @@ def _diagnose_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
         return Cause(
             "traceback on exit",
             f"{found.type.rsplit('.', 1)[-1]} reaches the end of the program" + (f" ({own})" if own else ""),
-            shutdown_steps.catch_interrupt(trace),
+            shutdown_steps.catch_interrupt(trace, found.frames),
         )
     known = (
         causes.diagnose_known_exception(found, trace)

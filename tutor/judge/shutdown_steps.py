@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 import re
 import textwrap
+from collections.abc import Sequence
+from itertools import pairwise
 
 from tutor.judge.edits import (
     Edit,
@@ -14,7 +16,9 @@ from tutor.judge.edits import (
     replace_lines,
     replace_node,
     replace_pattern,
+    replace_statement,
 )
+from tutor.judge.rewriting.callbacks import outermost
 from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.rewriting.program import SPINS, clean_ending, first_sound_step, guard_spin
 from tutor.judge.trace import Trace
@@ -24,10 +28,14 @@ SPIN_ENDINGS = ("KeyboardInterrupt", "ExternalShutdownException")
 """The exceptions that rclpy ends a spin with on Ctrl+C."""
 
 
-def catch_interrupt(trace: Trace) -> str:
-    """How to catch the exceptions that end a spin, and shut rclpy down only once."""
+def catch_interrupt(trace: Trace, frames: Sequence[Frame] = ()) -> str:
+    """How to catch the exceptions that end a spin, and shut rclpy down only once.
+
+    `frames`: those of the KeyboardInterrupt, outermost first, if it interrupted something else.
+    """
     return (
         find_in_files(trace, lambda file: file.step(_with_interrupt_caught(file)))
+        or first_sound_step(trace, lambda file: _with_main_guarded(file, frames))
         or first_sound_step(trace, clean_ending)
         or (
             "write around spin(): try, and except (KeyboardInterrupt, ExternalShutdownException): pass, with from "
@@ -112,6 +120,18 @@ def _with_interrupt_caught(file: NodeFile) -> list[Edit]:
                     replace_lines(handler.lineno, re.sub(r"except\b.*?(?= as |:)", both, line, count=1)),
                 ]
     return list(dict.fromkeys([*found, *_guard_threads(file)]))
+
+
+def _with_main_guarded(file: NodeFile, frames: Sequence[Frame]) -> list[Edit]:
+    """Catch KeyboardInterrupt around what main() does when Ctrl+C is pressed."""
+    calls = [each for each in frames if each.name == (file.file or each.name)]
+    inner = next((after for before, after in pairwise(calls) if before.function == "<module>"), None)
+    statement = (outermost(file, inner.line) or file.statement_at(inner.line)) if inner is not None else None
+    if statement is None or isinstance(statement, ast.Return):
+        return []
+    lines = file.text.splitlines()[statement.lineno - 1 : statement.end_lineno]
+    body = textwrap.indent(textwrap.dedent("\n".join(lines)), "    ")
+    return [replace_statement(statement, f"try:\n{body}\nexcept KeyboardInterrupt:\n    pass")]
 
 
 def _guard_threads(file: NodeFile) -> list[Edit]:

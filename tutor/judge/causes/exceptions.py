@@ -6,7 +6,7 @@ import ast
 import re
 from dataclasses import replace
 
-from tutor.judge import exceptions
+from tutor.judge import edits, exceptions
 from tutor.judge.causes import names, parameters
 from tutor.judge.rewriting.node import node_file
 from tutor.judge.rewriting.parameters import declare_once
@@ -90,6 +90,8 @@ def _look_up(each: Traceback, last: Traceback, trace: Trace) -> Cause | None:
     found = exceptions.explain(seen, table, cause=names.UNHANDLED_EXCEPTION, after=_describe_last(each, last))
     if found is None and each.type.endswith("InvalidParameterTypeException"):
         return parameters.diagnose_parameter_type(_describe(each, last, trace))
+    if found is not None and each.type.endswith("NotInitializedException") and file != trace.file:
+        return replace(found, hint=_initialise_before_import_time(trace, each) or found.hint)
     if found is not None and each.type.endswith("ParameterAlreadyDeclaredException") and own is not None:
         node = node_file(seen.source)
         found = replace(found, hint=node.step(declare_once(node, own.line)) or found.hint)
@@ -98,3 +100,15 @@ def _look_up(each: Traceback, last: Traceback, trace: Trace) -> Cause | None:
     if found is not None and len(trace.sources) > 1 and _EDITS.match(found.hint):
         return replace(found, hint=f"in {file}, {found.hint}")
     return found
+
+
+def _initialise_before_import_time(trace: Trace, raised: Traceback) -> str | None:
+    """The step that calls rclpy.init() above the line, outside of all functions, that creates the node."""
+    started = node_file(trace.sources.get(trace.file, ""), trace.file)
+    line = next((each.line for each in raised.frames if (each.name, each.function) == (trace.file, "<module>")), None)
+    made = started.statement_at(line) if line is not None else None
+    inits = [each for each in started.calls("init") if ast.unparse(each.func) == "rclpy.init"]
+    if made is None or len(inits) != 1 or started.function_around(inits[0]) is None:
+        return None
+    removed = edits.remove_statement(started.text, started.statement(inits[0]))
+    return started.step([edits.insert_above(made.lineno, "rclpy.init()"), removed])

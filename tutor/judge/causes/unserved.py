@@ -19,6 +19,7 @@ def diagnose_unserved_node(file: NodeFile) -> Cause | None:
     return (
         _diagnose_overwritten_attribute(file)
         or _diagnose_other_node_spun(file)
+        or _diagnose_node_left_out(file)
         or _diagnose_node_taken(file)
         or _diagnose_second_spin(file)
         or _diagnose_spin_for_each(file)
@@ -37,6 +38,35 @@ def _diagnose_other_node_spun(file: NodeFile) -> Cause | None:
     step = file.step([edits.replace_node(file.text, spun, name)])
     text = f"{source.where(spins[0])} runs the callbacks of {ast.unparse(spun)}, not those of {name}"
     return Cause("another node spun", text, step) if step else None
+
+
+def _diagnose_node_left_out(file: NodeFile) -> Cause | None:
+    """Whether one of several nodes with callbacks is never spun."""
+    spins = [call for call in file.calls("spin") if len(call.args) == 1 and isinstance(call.args[0], ast.Name)]
+    if len(spins) != 1 or file.calls("add_node") or not isinstance(file.statement(spins[0]), ast.Expr):
+        return None
+    made = [call for call in file.calls(*file.node_classes) if _has_callbacks(file, call)]
+    nodes = [file.assigned_to(each) for each in made if file.function_around(each) is file.function_around(spins[0])]
+    spun = ast.unparse(spins[0].args[0])
+    left_out = [each for each in nodes if each != spun]
+    if spun not in nodes or not left_out or "" in nodes:
+        return None
+    name, imported = file.import_name("MultiThreadedExecutor", "rclpy.executors")
+    added = [f"executor.add_node({each})" for each in nodes]
+    code = "\n".join([f"executor = {name}()", *added, "executor.spin()"])
+    step = file.step([edits.replace_statement(file.statement(spins[0]), code), *imported])
+    text = f"{source.where(spins[0])} runs the callbacks of {spun}, not those of {' and '.join(left_out)}"
+    return Cause("another node spun", text, step) if step else None
+
+
+def _has_callbacks(file: NodeFile, made: ast.Call) -> bool:
+    """Whether the class of this node creates anything that an executor has to serve."""
+    own = next(
+        (each for each in file.nodes if isinstance(each, ast.ClassDef) and each.name == source.called_name(made)), None
+    )
+    return own is not None and bool(
+        source.calls_in(own, "create_subscription", "create_timer", "create_service", "create_client")
+    )
 
 
 def _diagnose_overwritten_attribute(file: NodeFile) -> Cause | None:

@@ -13,7 +13,7 @@ from tutor.judge import edits
 from tutor.judge.edits import Edit
 from tutor.judge.exceptions.rewriting import REWRITERS
 from tutor.judge.known_exception import WORD, KnownException
-from tutor.judge.source import Function, SourceFile
+from tutor.judge.source import Function, SourceFile, called_name
 from tutor.judge.tracebacks import Frame, Traceback, is_in_folder
 from tutor.judge.verdict import Cause
 
@@ -208,16 +208,41 @@ def _edit_function(function: Function | None, given: Mapping[str, str]) -> Seque
 
 
 def _move(text: str, statement: ast.stmt, place: Mapping[str, str]) -> Sequence[Edit] | None:
-    """Move a statement above or below another one, given as {"above" or "below": line}."""
-    other = SourceFile(text).statement_at(int(next(iter(place.values()))))
+    """Move a statement above or below another one, given as {"above" or "below": line}.
+
+    Declarations of parameters that follow one another are moved together.
+    """
+    file = SourceFile(text)
+    other = file.statement_at(int(next(iter(place.values()))))
     if other is None or statement.lineno == other.lineno:
         return None
-    end = statement.end_lineno or statement.lineno
-    code = textwrap.dedent("\n".join(text.splitlines()[statement.lineno - 1 : end]))
+    found = file.statement_at(statement.lineno) or statement
+    moved = _declarations_around(found, file.block_of(found) or [found])
+    start, end = moved[0].lineno, moved[-1].end_lineno or moved[-1].lineno
+    if start <= other.lineno <= end:
+        start, end = statement.lineno, statement.end_lineno or statement.lineno
+    code = textwrap.dedent("\n".join(text.splitlines()[start - 1 : end]))
     return [
         edits.insert_above(other.lineno, code) if "above" in place else edits.insert_after(other, code),
-        edits.remove_lines(text, statement.lineno, end),
+        edits.remove_lines(text, start, end),
     ]
+
+
+def _declarations_around(statement: ast.stmt, block: Sequence[ast.stmt]) -> Sequence[ast.stmt]:
+    """The statement; with its neighbours if they all are nothing but declarations of parameters."""
+    first = last = block.index(statement)
+    if not _declares_only(statement):
+        return [statement]
+    while first > 0 and _declares_only(block[first - 1]):
+        first -= 1
+    while last + 1 < len(block) and _declares_only(block[last + 1]):
+        last += 1
+    return block[first : last + 1]
+
+
+def _declares_only(statement: ast.stmt) -> bool:
+    call = statement.value if isinstance(statement, ast.Expr) else None
+    return isinstance(call, ast.Call) and called_name(call) == "declare_parameter"
 
 
 def _groups(match: re.Match[str]) -> dict[str, str]:
