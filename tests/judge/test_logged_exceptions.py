@@ -42,6 +42,22 @@ def test_an_undefined_name_is_found() -> None:
     assert "line 3" in found.text
 
 
+def test_a_parameter_that_is_read_too_early_is_found_where_it_is_read() -> None:
+    source = """\
+def main():
+    try:
+        print("name of the sensor", "name")
+        name = node.get_parameter("name").value
+        node.declare_parameter("name", "a")
+    except Exception as error:
+        node.get_logger().error(f"no: {error}")
+"""
+    found = diagnose_logged_exception(trace(source, logged="no: Invalid access to undeclared parameter(s): name"))
+    assert found is not None
+    assert "name is read before line 5 declares it" in found.text
+    assert found.hint.startswith("write above line 4")
+
+
 @pytest.mark.parametrize(
     ("source", "logged"),
     [
