@@ -51,10 +51,7 @@ def _diagnose_node_left_out(file: NodeFile) -> Cause | None:
     left_out = [each for each in nodes if each != spun]
     if spun not in nodes or not left_out or "" in nodes:
         return None
-    name, imported = file.import_name("MultiThreadedExecutor", "rclpy.executors")
-    added = [f"executor.add_node({each})" for each in nodes]
-    code = "\n".join([f"executor = {name}()", *added, "executor.spin()"])
-    step = file.step([edits.replace_statement(file.statement(spins[0]), code), *imported])
+    step = file.step(_spin_in_place_of(file, spins[0], nodes))
     text = f"{source.where(spins[0])} runs the callbacks of {spun}, not those of {' and '.join(left_out)}"
     return Cause("another node spun", text, step) if step else None
 
@@ -152,10 +149,7 @@ def _spin_together(file: NodeFile, first: ast.Call, later: list[ast.Call]) -> li
     """Let one executor with several threads spin the nodes of all these calls."""
     removed = [edits.remove_statement(file.text, file.statement(each)) for each in later]
     if all(len(each.args) == 1 for each in (first, *later)):  # rclpy.spin(node)
-        name, imported = file.import_name("MultiThreadedExecutor", "rclpy.executors")
-        added = [f"executor.add_node({ast.unparse(each.args[0])})" for each in (first, *later)]
-        code = "\n".join([f"executor = {name}()", *added, "executor.spin()"])
-        return [edits.replace_statement(file.statement(first), code), *removed, *imported]
+        return [*_spin_in_place_of(file, first, [ast.unparse(each.args[0]) for each in (first, *later)]), *removed]
     owners = [ast.unparse(each.func.value) for each in (first, *later) if isinstance(each.func, ast.Attribute)]
     moved = [
         edits.replace_node(file.text, each.func.value, owners[0])
@@ -163,3 +157,11 @@ def _spin_together(file: NodeFile, first: ast.Call, later: list[ast.Call]) -> li
         if isinstance(each.func, ast.Attribute) and ast.unparse(each.func.value) in owners[1:]
     ]
     return [*moved, *removed] if moved and not any(each.args for each in (first, *later)) else []
+
+
+def _spin_in_place_of(file: NodeFile, spin: ast.Call, nodes: list[str]) -> list[Edit]:
+    """Spin all these nodes, given as expressions, with one executor in place of this call."""
+    name, imported = file.import_name("MultiThreadedExecutor", "rclpy.executors")
+    added = [f"executor.add_node({each})" for each in nodes]
+    code = "\n".join([f"executor = {name}()", *added, "executor.spin()"])
+    return [edits.replace_statement(file.statement(spin), code), *imported]
