@@ -7,7 +7,7 @@ import ast
 from checks.i2_3.rewriting import service, timer
 from tutor.judge.edits import Edit, replace_node
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.source import called_name
+from tutor.judge.source import Function, called_name, calls_in
 from tutor.judge.verdict import Cause
 
 _GROUP = "callback_group"
@@ -72,7 +72,8 @@ def diagnose_late_group(file: NodeFile) -> Cause | None:
     if made is None or not isinstance(given, ast.Attribute) or group_edits(file):
         return None
     groups = [call for call in file.calls(*_GROUPS) if file.assigned_to(call) == ast.unparse(given)]
-    if len(groups) != 1 or file.function_around(groups[0]) is file.function_around(made):
+    creator = file.function_around(made)
+    if len(groups) != 1 or creator is None or not _is_set_after(file, groups[0], creator):
         return None
     name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
     step = file.step([*imported, set_group(file, made, f"{name}()")])
@@ -81,3 +82,17 @@ def diagnose_late_group(file: NodeFile) -> Cause | None:
         "timer, like the service, is in the node's default group, which is a MutuallyExclusiveCallbackGroup"
     )
     return Cause("callback group set too late", text, step) if step else None
+
+
+def _is_set_after(file: NodeFile, group: ast.Call, creator: Function) -> bool:
+    """Whether `super().__init__()` must have called `creator`, since nothing does so once the group is set."""
+    init = file.function_around(group)
+    if init is None or init.name != "__init__" or creator is init:
+        return False
+    supers = [each for each in calls_in(init, "__init__") if each.lineno < group.lineno]
+    others = [
+        each
+        for each in file.calls(creator.name)
+        if (each.lineno > group.lineno and each in ast.walk(init)) or not ast.unparse(each.func).startswith("self.")
+    ]
+    return bool(supers) and not others

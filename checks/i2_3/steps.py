@@ -167,12 +167,15 @@ def _has_enough_threads(file: NodeFile) -> bool:
     return given is not None and (rewriting.number(given) or 0) >= 3
 
 
-def what_timer_waits_for(file: NodeFile) -> str:
-    """Why the timer waits for the service although the executor has threads, as part of a sentence."""
+def what_timer_waits_for(file: NodeFile, *, sleeps: bool = False) -> str:
+    """Why the timer waits for the service although the executor has threads, as part of a sentence.
+
+    `sleeps`: whether the service sleeps meanwhile, which lets other threads run.
+    """
     made = timer(file)
     if edits := _add_threads(file):
         return f"the executor has too few threads (line {edits[0].first})"
-    if made is not None and not group_edits(file) and _has_enough_threads(file):
+    if made is not None and not sleeps and not group_edits(file) and _has_enough_threads(file):
         return "Python runs one thread at a time, and this work lets no other one run, unlike time.sleep()"
     if made is None or not group_edits(file):
         return (

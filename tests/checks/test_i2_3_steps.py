@@ -295,18 +295,20 @@ def test_a_wait_that_returns_at_once_becomes_a_sleep() -> None:
 def test_work_that_stops_all_threads_is_not_put_down_to_the_executor() -> None:
     separate = changed(("        time.sleep(3.0)", "        sum(range(10**9))"))
     assert "one thread at a time" in steps.what_timer_waits_for(separate)
+    assert "MutuallyExclusiveCallbackGroup" in steps.what_timer_waits_for(separate, sleeps=True)
     assert "time.sleep(3.0)" in str(steps.separate_groups(separate))
 
 
-LATE = (GROUPS, "        self.start()\n" + GROUPS + "\n    def start(self):\n")
+LATE = (GROUPS, GROUPS + "\n    def start(self):\n")
+"""Something, such as the constructor of a base class, calls start() before the groups are set."""
 
 
 def test_a_group_that_is_set_after_its_timer_was_created() -> None:
     cause = diagnose_late_group(changed(LATE))
     assert cause is not None
     assert cause.name == "callback group set too late"
-    assert "line 17 creates the timer before line 13 sets self.other" in cause.text
-    assert "line 17 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=Reentrant" in str(cause.hint)
+    assert "line 16 creates the timer before line 12 sets self.other" in cause.text
+    assert "line 16 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=Reentrant" in str(cause.hint)
 
 
 @pytest.mark.parametrize(
@@ -314,6 +316,15 @@ def test_a_group_that_is_set_after_its_timer_was_created() -> None:
     [
         (),  # the group is set in the same function, so it exists
         (LATE, ("self.other = Mut", "self.another = Mut")),
+        (LATE, ("node = ConcurrentService()", "node = ConcurrentService()\n    node.start()")),
+        (  # set in a method that is called before
+            (
+                GROUPS,
+                f"        self.make_groups()\n        self.start()\n\n    def make_groups(self):\n{GROUPS}\n"
+                "    def start(self):\n",
+            ),
+        ),
+        ((GROUPS, f"{GROUPS}        self.start()\n\n    def start(self):\n"),),
     ],
 )
 def test_a_group_that_is_set_in_time(pairs: tuple[tuple[str, str], ...]) -> None:
