@@ -46,8 +46,8 @@ def diagnose_no_service(trace: Trace) -> Cause:
                 or f"create it with AddTwoInts: self.create_service(AddTwoInts, '{SERVICE[1:]}', ...)",
             )
     same_type = [service for service in offered if service.type == TYPE]
-    if (unmatched := causes.diagnose_incompatible_service(_our_servers(trace))) is not None:
-        return replace(unmatched, hint=find_in_files(trace, steps.use_default_qos) or unmatched.hint)
+    if (unmatched := _diagnose_service_qos(trace)) is not None:
+        return unmatched
     for service in same_type or offered:
         return Cause(
             "wrong service name",
@@ -72,8 +72,8 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
     """Why a call got no answer."""
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
-    if (unmatched := causes.diagnose_incompatible_service(_our_servers(seen.trace))) is not None:
-        return replace(unmatched, hint=find_in_files(seen.trace, steps.use_default_qos) or unmatched.hint)
+    if (unmatched := _diagnose_service_qos(seen.trace)) is not None:
+        return unmatched
     if (unserved := find_in_files(seen.trace, diagnose_unserved_node)) is not None:
         return unserved
     if not seen.spins and (empty := find_in_files(seen.trace, steps.diagnose_node_not_added)) is not None:
@@ -101,6 +101,12 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
 def _with_step(cause: Cause, file: NodeFile) -> Cause:
     """The cause with the step that rewrites the callback, or else all: one service and one timer are all it needs."""
     return replace(cause, hint=steps.fix_answer(file) or cause.hint)
+
+
+def _diagnose_service_qos(trace: Trace) -> Cause | None:
+    """Whether the QoS of the service keeps clients from it."""
+    cause = causes.diagnose_incompatible_service(_our_servers(trace))
+    return cause and replace(cause, hint=find_in_files(trace, steps.use_default_qos) or cause.hint)
 
 
 def _our_servers(trace: Trace) -> list[ServiceEndpoint]:

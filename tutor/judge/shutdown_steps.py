@@ -20,7 +20,7 @@ from tutor.judge.edits import (
 )
 from tutor.judge.rewriting.callbacks import outermost
 from tutor.judge.rewriting.node import NodeFile, find_in_files
-from tutor.judge.rewriting.program import SPINS, clean_ending, first_sound_step, guard_spin
+from tutor.judge.rewriting.program import SPINS, clean_ending, code_of, first_sound_step, guard_spin
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 
@@ -129,9 +129,11 @@ def _with_main_guarded(file: NodeFile, frames: Sequence[Frame]) -> list[Edit]:
     statement = (outermost(file, inner.line) or file.statement_at(inner.line)) if inner is not None else None
     if statement is None or isinstance(statement, ast.Return):
         return []
-    lines = file.text.splitlines()[statement.lineno - 1 : statement.end_lineno]
-    body = textwrap.indent(textwrap.dedent("\n".join(lines)), "    ")
-    return [replace_statement(statement, f"try:\n{body}\nexcept KeyboardInterrupt:\n    pass")]
+    return [replace_statement(statement, _with_interrupts_caught(code_of(file, statement)))]
+
+
+def _with_interrupts_caught(code: str) -> str:
+    return f"try:\n{textwrap.indent(code, '    ')}\nexcept KeyboardInterrupt:\n    pass"
 
 
 def _guard_threads(file: NodeFile) -> list[Edit]:
@@ -158,10 +160,8 @@ def _with_threads_joined(file: NodeFile) -> list[Edit]:
         if not isinstance(call.func, ast.Attribute) or "self" in ast.unparse(call.func):
             continue
         thread, statement = ast.unparse(call.func.value), file.statement(call)
-        loop = next(
-            (each for each in ast.walk(file.tree) if isinstance(each, ast.For) and statement in each.body), None
-        )
-        if loop is not None and ast.unparse(loop.target) == thread:
+        loop = next(file.ancestors(statement), None)
+        if isinstance(loop, ast.For) and ast.unparse(loop.target) == thread:
             joins.append(f"for {thread} in {ast.unparse(loop.iter)}:\n    {thread}.join()")
             last = loop
         elif isinstance(call.func.value, ast.Name):
@@ -170,8 +170,8 @@ def _with_threads_joined(file: NodeFile) -> list[Edit]:
     if last is None:
         return []
     code = "\n".join(joins)
-    tries = [each for each in ast.walk(file.tree) if isinstance(each, ast.Try) and last in each.body]
+    tries = [each for each in file.ancestors(last) if isinstance(each, ast.Try) and last in each.body]
     caught = [ast.unparse(handler.type) for each in tries for handler in each.handlers if handler.type is not None]
     if not any("KeyboardInterrupt" in each for each in caught):
-        code = f"try:\n{textwrap.indent(code, '    ')}\nexcept KeyboardInterrupt:\n    pass"
+        code = _with_interrupts_caught(code)
     return [insert_after(last, code)]

@@ -162,13 +162,14 @@ def _make_edits(text: str, edit: Mapping[str, str | list[str]], words: Mapping[s
 
 def _edit_statement(text: str, given: Mapping[str, str]) -> Sequence[Edit] | None:
     number = next(given[key] for key in ("unwrapped", "moved", "removed", "above", "below") if key in given)
-    statement = SourceFile(text).statement_at(int(number))
+    file = SourceFile(text)
+    statement = file.statement_at(int(number))
     if statement is None:
         return None
     first, last = statement.lineno, statement.end_lineno or statement.lineno
     match given:
         case {"moved": _, **place}:
-            return _move(text, statement, place)
+            return _move(file, statement, place)
         case {"removed": _}:
             return [edits.remove_lines(text, first, last)]
         case {"above": _, "code": code}:
@@ -207,32 +208,30 @@ def _edit_function(function: Function | None, given: Mapping[str, str]) -> Seque
     return [edits.append_to_function(function, given["end"])]
 
 
-def _move(text: str, statement: ast.stmt, place: Mapping[str, str]) -> Sequence[Edit] | None:
+def _move(file: SourceFile, statement: ast.stmt, place: Mapping[str, str]) -> Sequence[Edit] | None:
     """Move a statement above or below another one, given as {"above" or "below": line}.
 
     Declarations of parameters that follow one another are moved together.
     """
-    file = SourceFile(text)
     other = file.statement_at(int(next(iter(place.values()))))
     if other is None or statement.lineno == other.lineno:
         return None
-    found = file.statement_at(statement.lineno) or statement
-    moved = _declarations_around(found, file.block_of(found) or [found])
+    moved = _declarations_around(statement, file.block_of(statement))
     start, end = moved[0].lineno, moved[-1].end_lineno or moved[-1].lineno
     if start <= other.lineno <= end:
         start, end = statement.lineno, statement.end_lineno or statement.lineno
-    code = textwrap.dedent("\n".join(text.splitlines()[start - 1 : end]))
+    code = textwrap.dedent("\n".join(file.text.splitlines()[start - 1 : end]))
     return [
         edits.insert_above(other.lineno, code) if "above" in place else edits.insert_after(other, code),
-        edits.remove_lines(text, start, end),
+        edits.remove_lines(file.text, start, end),
     ]
 
 
 def _declarations_around(statement: ast.stmt, block: Sequence[ast.stmt]) -> Sequence[ast.stmt]:
     """The statement; with its neighbours if they all are nothing but declarations of parameters."""
-    first = last = block.index(statement)
     if not _declares_only(statement):
         return [statement]
+    first = last = block.index(statement)
     while first > 0 and _declares_only(block[first - 1]):
         first -= 1
     while last + 1 < len(block) and _declares_only(block[last + 1]):

@@ -45,7 +45,7 @@ def whole_program(file: NodeFile, *, threads: bool = False) -> list[Edit]:
     same = takewhile(lambda pair: pair[0] is pair[1], zip(scope.body, kept, strict=False))
     prefix = [each for each, _ in same]
     rest = scope.body[len(prefix) :]
-    lines = [_code(file, each) for each in kept[len(prefix) :]]
+    lines = [code_of(file, each) for each in kept[len(prefix) :]]
     nodes, created = _name_nodes(file, kept)
     if not nodes:
         return []
@@ -94,7 +94,7 @@ def guard_spin(file: NodeFile, call: ast.Call) -> list[Edit]:
         return []
     except_line, imported = _except_interrupt(file)
     end = "" if file.calls("try_shutdown", "shutdown") else "\nfinally:\n    rclpy.try_shutdown()"
-    body = textwrap.indent(_code(file, statement), "    ")
+    body = textwrap.indent(code_of(file, statement), "    ")
     code = f"try:\n{body}\n{except_line}:\n    pass{end}"
     return [*imported, replace_statement(statement, code)]
 
@@ -300,7 +300,7 @@ def _event_set_at_end(file: NodeFile, scope: _Scope, call: ast.Call) -> str:
     )
 
 
-def _code(file: NodeFile, statement: ast.stmt) -> str:
+def code_of(file: NodeFile, statement: ast.stmt) -> str:
     """A statement as written, dedented; if it shares its lines with other code, as unparsed."""
     lines = file.text.splitlines()[first_line(statement) - 1 : statement.end_lineno]
     code = textwrap.dedent("\n".join(lines))
