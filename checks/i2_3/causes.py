@@ -217,9 +217,9 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     if _in_worker(seen.stuck):
         if (locked := causes.diagnose_lock_wait(seen.trace, seen.stuck)) is not None:
             return replace(locked, hint=steps.separate_groups(source) or locked.hint)
-        sleeps = own is not None and "sleep" in own.code
-        if sleeps and (late := find_in_files(seen.trace, diagnose_late_group)) is not None:
+        if (late := find_in_files(seen.trace, diagnose_late_group)) is not None:
             return late
+        sleeps = own is not None and "sleep" in own.code
         return Cause(
             names.BLOCKED_EXECUTOR,
             f"the timer stops while the service works{where}: {steps.what_timer_waits_for(source, sleeps=sleeps)}",
