@@ -29,13 +29,13 @@ _BUSY_NS = 1_000_000
 """A participant that uses 1 ms of CPU time in 10 ms is receiving a lot: ten times as much as for a 1 kHz topic."""
 
 _STUCK_S = 1.5
-"""If the limit is exceeded for this long while nobody is receiving any more, all participants drop what they receive.
+"""If the limit is exceeded for this long while nobody is receiving, all participants drop what they receive."""
 
-Unsubscribing takes some tenths of a second while Fast DDS is busy with incoming data on the topic.
+_UNSURE_S = 7.5
+"""The same while a participant waits for a CPU, since it may be receiving, which shows only once it gets to run; and
+once a participant has been told to unsubscribe, which takes some tenths of a second while Fast DDS is busy with
+incoming data on the topic, and much longer on a busy machine.
 """
-
-_STARVED_S = 7.5
-"""The same while a participant waits for a CPU: it may be receiving, which shows only once it gets to run."""
 
 
 class Guarded(Protocol):
@@ -116,7 +116,8 @@ def _large_bytes() -> int | None:
 def _run() -> None:
     global _thread
     baseline = _large_bytes() or 0
-    exceeded_since: float | None = None
+    exceeded = dropping = False
+    idle_s = 0.0  # how long we have seen nobody receiving: a time in which we ourselves did not run does not count
     while True:
         with _lock:
             watched = tuple(_guarded)
@@ -124,20 +125,21 @@ def _run() -> None:
                 _thread = None
                 return
         time.sleep(_POLL_S)
-        exceeds = _exceeds(baseline + MAX_BYTES + len(watched) * _OBSERVER_BYTES)
-        if exceeds or exceeded_since is not None:  # an innocent node loses nothing: its messages wait
+        exceeded_before = exceeded
+        exceeded = _exceeds(baseline + MAX_BYTES + len(watched) * _OBSERVER_BYTES)
+        if exceeded or exceeded_before:  # an innocent node loses nothing: its messages wait
             for participant in watched:
-                participant.pause(exceeds)
-        if not exceeds:
-            exceeded_since = None
+                participant.pause(exceeded)
+        if not exceeded:
+            dropping, idle_s = False, 0.0
             continue
-        now = time.monotonic()
-        receiving, starved = _receiving(watched)
+        receiving, waits_for_cpu = _receiving(watched)
         if receiving:
-            exceeded_since = now
-        elif exceeded_since is None or now - exceeded_since < (_STARVED_S if starved else _STUCK_S):
-            exceeded_since = exceeded_since or now
-            continue
+            dropping, idle_s = True, 0.0
+        else:
+            idle_s += _POLL_S + _SAMPLE_S
+            if idle_s < (_UNSURE_S if waits_for_cpu or dropping else _STUCK_S):
+                continue
         for participant in receiving or watched:
             participant.drop_received()
 
