@@ -56,10 +56,10 @@ def changed(cases: Sequence[Case], paths: Iterable[str]) -> list[Case]:
 
 
 def broken_criteria(case: Case) -> tuple[str, ...]:
-    """Return the criteria that a wrong submission breaks, in alphabetical order; () for any other one."""
+    """Return the criteria that a wrong or hostile submission breaks, in alphabetical order; () for a right one."""
     expected = case.expected
     broken = {*expected.fails, *expected.fails_any, *expected.bonus_failed}
-    return tuple(sorted(broken)) if case.kind == WRONG else ()
+    return () if case.kind == RIGHT else tuple(sorted(broken))
 
 
 def shows(case: Case) -> frozenset[tuple[str, str]]:

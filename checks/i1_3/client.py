@@ -13,6 +13,7 @@ from checks.i1_3.facts import CLIENT, CLIENT_S, OPERATOR_SIGNS, SERVER, SERVER_D
 from tutor.judge import causes, edits, source, tracebacks
 from tutor.judge.causes import period_slips
 from tutor.judge.causes.asyncio_threads import diagnose_other_threads_wake_up
+from tutor.judge.causes.spinning import diagnose_untimed_spins_in_turn
 from tutor.judge.rewriting.node import find_in_files
 from tutor.judge.rewriting.program import call_main, first_sound_step
 from tutor.judge.trace import Trace
@@ -112,6 +113,8 @@ def _diagnose_hang(seen: ClientRun, missing: Sequence[str]) -> Cause:
         return unknown
     if (asleep := find_in_files(seen.trace, diagnose_other_threads_wake_up)) is not None:
         return asleep
+    if (in_turn := find_in_files(seen.trace, diagnose_untimed_spins_in_turn)) is not None:
+        return in_turn
     if not seen.served and (unit := find_in_files(seen.trace, period_slips.diagnose_milliseconds)) is not None:
         return unit
     own = tracebacks.own_frame(seen.stuck, seen.trace.folder)

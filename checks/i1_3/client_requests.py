@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Sequence
 
 from checks.i1_3.code import Code
@@ -16,6 +17,9 @@ from tutor.judge.trace import Trace
 WAIT_FOR_SERVICE = "wait_for_service(timeout_sec=10.0)"
 _READY = "service_is_ready", "server_is_ready"
 _SPINS = "spin_until_future_complete", "spin_once_until_future_complete"
+
+_FUTURE_USES = re.compile("done|result|future|spin|wait|gather")
+"""Calls with names like these take a future, or are methods of one."""
 
 
 def find_requests(code: Code, *names: str) -> list[tuple[ast.Call, str]]:
@@ -130,7 +134,22 @@ def _wait_for_answer(code: Code, call: ast.Call, client: str, change: Changes) -
     if call.func.attr == "call_async" and isinstance(parent, ast.Attribute) and parent.attr == "result":
         outer = next(code.ancestors(parent))
         replaced = outer if isinstance(outer, ast.Call) else call
-    change.swaps.append((replaced, "future.result()"))
+    is_future = isinstance(statement, ast.Return) and statement.value is call and _is_used_as_future(code, call)
+    change.swaps.append((replaced, "future" if is_future else "future.result()"))
+
+
+def _is_used_as_future(code: Code, call: ast.Call) -> bool:
+    """Whether a caller waits for what the function around `call` returns, or asks it for its result."""
+    function = code.function_around(call)
+    for each in code.calls(function.name) if function is not None else ():
+        name, caller = code.assigned_to(each), code.function_around(each)
+        inside = ast.walk(caller) if caller is not None else code.nodes
+        waits = [
+            other for other in inside if isinstance(other, ast.Call) and _FUTURE_USES.search(source.called_name(other))
+        ]
+        if name and any(ast.unparse(used) == name for other in waits for used in _inputs(other)):
+            return True
+    return False
 
 
 def _wait_for_future(code: Code, request: ast.Assign, future: str, change: Changes) -> None:

@@ -86,6 +86,15 @@ def test_the_client_waits_for_the_answer(asks: str, answers: str) -> None:
     assert follow_step(ASK.format(asks), wait_for_answers_step) == ASK.format(answers)
 
 
+@pytest.mark.parametrize("use", ["answer = wait_for('add', future)", "print(future.result())", "spinner.spin(future)"])
+def test_a_future_is_still_returned_to_a_caller_that_waits_for_it(use: str) -> None:
+    caller = f"\n\ndef main(node):\n    future = node.ask(1, 2)\n    {use}\n"
+    wait = "rclpy.spin_until_future_complete(self, future)"
+    asks = f"future = client.call_async(request)\n        {wait}\n        return future"
+    before = ASK.format("return client.call_async(request)") + caller
+    assert follow_step(before, wait_for_answers_step) == ASK.format(asks) + caller
+
+
 @pytest.mark.parametrize(
     "asks",
     [

@@ -12,6 +12,7 @@ from tutor.judge.causes.spinning import (
     diagnose_nap_between_spins,
     diagnose_spin_in_constructor,
     diagnose_untimed_spin_once,
+    diagnose_untimed_spins_in_turn,
 )
 from tutor.judge.causes.topics import diagnose_no_messages
 from tutor.judge.rewriting.node import node_file
@@ -216,3 +217,22 @@ def test_a_loop_that_publishes_stops_in_a_spin_once_that_waits_for_a_callback(
     else:
         assert found is not None
         assert all(part in found.hint for part in step)
+
+
+def test_a_spin_once_for_each_node_in_turn_gets_a_timeout() -> None:
+    loop = "while rclpy.ok():\n    for node in self.nodes:\n        rclpy.spin_once(node, executor=self.executor)\n"
+    found = diagnose_untimed_spins_in_turn(node_file(loop))
+    assert found is not None
+    assert found.hint == "line 3 becomes: rclpy.spin_once(node, executor=self.executor, timeout_sec=0.1)"
+
+
+@pytest.mark.parametrize(
+    "loop",
+    [
+        "for node in nodes:\n    rclpy.spin_once(node, timeout_sec=0.1)",
+        "for future in futures:\n    while not future.done():\n        rclpy.spin_once(talker)",
+        "while rclpy.ok():\n    rclpy.spin_once(talker)",
+    ],
+)
+def test_other_calls_of_spin_once_are_left_alone(loop: str) -> None:
+    assert diagnose_untimed_spins_in_turn(node_file(loop)) is None

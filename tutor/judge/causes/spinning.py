@@ -85,6 +85,25 @@ def diagnose_untimed_spin_once(file: NodeFile) -> Cause | None:
     return None
 
 
+def diagnose_untimed_spins_in_turn(file: NodeFile) -> Cause | None:
+    """Whether a loop spins one node after the other without a timeout, so that all of them wait for each."""
+    for loop in file.nodes:
+        if not isinstance(loop, ast.For) or not isinstance(loop.target, ast.Name):
+            continue
+        for call in source.calls_in(loop, "spin_once"):
+            given = [*call.args, *(each.value for each in call.keywords)]
+            if not call.args or any(each.arg == "timeout_sec" for each in call.keywords):
+                continue
+            if loop.target.id in map(ast.unparse, given):
+                spin = f"{ast.unparse(call)[:-1]}, timeout_sec=0.1)"
+                text = (
+                    f"{source.where(call)} waits until this node has something to do, and until then none of the "
+                    "others gets a turn"
+                )
+                return Cause("spin_once waits", text, file.step(edits.replace_nodes(file.text, (call, spin))) or "")
+    return None
+
+
 def _publishes(file: NodeFile, loop: Loop) -> bool:
     """Whether a loop publishes, itself or in a function that it calls."""
     functions = [found for call in source.calls_in(loop) if (found := file.function(call.func)) is not None]

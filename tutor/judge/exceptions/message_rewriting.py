@@ -60,7 +60,8 @@ def _looks_like_type(name: str) -> bool:
 def fields(text: str, words: Words) -> Sequence[Edit] | None:
     """Replace each field that the message does not have by its only one, in this function and in all like it.
 
-    A text for an integer field is logged as an error instead, and a truth value is left out, or 0.
+    A text for an integer field is logged as an error instead, or used where the field is read below, and a truth
+    value is left out, or 0.
     """
     file, line = SourceFile(text), int(words["number"])
     used = [each for each in file.nodes if isinstance(each, ast.Attribute)]
@@ -80,7 +81,10 @@ def fields(text: str, words: Words) -> Sequence[Edit] | None:
     changed: list[Edit] = []
     swaps: list[tuple[ast.expr, str]] = []
     for each in assigned:
-        if _is_text(each.value) and file.class_of(each) is not None:
+        if _is_text(each.value) and (reads := _reads_below(file, each, wrong)):
+            swaps += [(read, ast.unparse(each.value)) for read in reads]
+            changed.append(edits.remove_statement(text, each))
+        elif _is_text(each.value) and file.class_of(each) is not None:
             changed.append(edits.replace_statement(each, f"self.get_logger().error({ast.unparse(each.value)})"))
         elif isinstance(each.value, ast.Constant) and isinstance(each.value.value, bool):
             if len(file.block_of(each)) > 1:
@@ -88,8 +92,23 @@ def fields(text: str, words: Words) -> Sequence[Edit] | None:
             else:
                 swaps.append((each.value, "0"))
     lines = {edit.first for edit in changed}
-    swaps += [(each, f"{ast.unparse(each.value)}.{words['found']}") for each in wrong if each.lineno not in lines]
+    swapped = {node for node, _ in swaps}
+    swaps += [
+        (each, f"{ast.unparse(each.value)}.{words['found']}")
+        for each in wrong
+        if each.lineno not in lines and each not in swapped
+    ]
     return [*edits.replace_nodes(text, *swaps), *changed]
+
+
+def _reads_below(file: SourceFile, assigned: ast.Assign, among: Sequence[ast.Attribute]) -> list[ast.Attribute]:
+    """Where an assigned attribute is read below, in the same block."""
+    block = file.block_of(assigned)
+    below = {id(node) for each in block[block.index(assigned) + 1 :] for node in ast.walk(each)}
+    target = ast.unparse(assigned.targets[0])
+    return [
+        each for each in among if id(each) in below and isinstance(each.ctx, ast.Load) and ast.unparse(each) == target
+    ]
 
 
 def _is_text(value: ast.expr) -> bool:
