@@ -1,6 +1,6 @@
 """Judge a sample of tests/submissions against their expect.yaml files, small enough to end in minutes.
 
-`tests.sampling` chooses the sample; a wrong submission is judged by the criteria that it breaks only. `python -m
+`tests.sampling` chooses the sample; a wrong or hostile one is judged by the criteria that it breaks only. `python -m
 tests.soundness` judges all submissions by all criteria. The hostile ones are judged with the sample (`python -m
 tests.hostile` shows what they cost), except those in `EXCLUDED`.
 """
@@ -156,9 +156,11 @@ def test_the_sample_has_right_submissions_and_each_criterion_and_cause() -> None
     assert sample(cases[::-1]) == sample(cases)[::-1]
 
 
-def test_a_wrong_submission_of_the_sample_is_judged_by_what_it_breaks() -> None:
-    assert broken_criteria(_case("r1", "right")) == broken_criteria(_case("h1", "hostile", fails=("a",))) == ()
-    assert broken_criteria(_case("one", fails=("b",), fails_any=("a",), bonus_failed=("c",))) == ("a", "b", "c")
+def test_a_wrong_or_hostile_submission_is_judged_by_what_it_breaks() -> None:
+    assert broken_criteria(_case("r1", "right", bonus_failed=("a",))) == ()
+    for kind in ("wrong", "hostile"):
+        case = _case("one", kind, fails=("b",), fails_any=("a",), bonus_failed=("c",))
+        assert broken_criteria(case) == ("a", "b", "c")
     assert all(broken_criteria(case) for case in sample(ALL_CASES) if case.kind == "wrong")
 
 
