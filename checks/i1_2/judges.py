@@ -150,6 +150,14 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
         for summary in summaries:
             if (cause := diagnose_incomplete_summary(summary, trial)) is not None:
                 return failed(expected, f"it is incomplete {summary}", cause, evidence)
+    late = find_summaries(jump)
+    if not survives_jump and jump.trace.exit is None and len(late) > len(jump.sent) // SUMMARY_EVERY + 1:
+        return failed(
+            expected,
+            f"{len(late)} summaries for {len(jump.sent)} messages",
+            Cause("too many summaries", "from some message on, a summary comes too often", every_ten(jump)),
+            [str(summary) for summary in late[-6:]],
+        )
     complete = find_summaries(steady)
     return passed(
         expected,

@@ -169,7 +169,10 @@ def judge_operations(seen: ServiceCalls) -> Verdict:
                 f"{answer.response['sum']}",
                 late_binding.diagnose_loop(seen.trace, seen.answers)
                 or _with_computing_step(
-                    _diagnose_negatives(answer, seen.answers) or _diagnose_result(answer, right), seen
+                    _diagnose_negatives(answer, seen.answers)
+                    or _diagnose_zero(answer, seen.answers)
+                    or _diagnose_result(answer, right),
+                    seen,
                 ),
                 [f"{name} answered {result}" for name, result in _operands_and_results(seen.of(answer.service))],
             )
@@ -206,6 +209,19 @@ def _diagnose_negatives(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Ca
         "negative operands refused",
         f"{answer.service} answers {negative[0][0]} whenever an operand is negative, and is right otherwise",
         "take the test for negative numbers out of the callback: it computes with them as with any others",
+    )
+
+
+def _diagnose_zero(answer: CallAnswer, answers: Sequence[CallAnswer]) -> Cause | None:
+    """Diagnose a service that refuses b = 0, which only a division must, and is right otherwise."""
+    others = [each for each in answers if each.service == answer.service and each.request["b"] != 0 and each.response]
+    right = [correct_result(each.service, each.request["a"], each.request["b"]) for each in others]
+    if answer.request["b"] != 0 or [each.response["sum"] for each in others if each.response] != right:
+        return None
+    return Cause(
+        "zero refused",
+        f"{answer.service} computes with every other number, but not with b = 0, which only a division must refuse",
+        "test for zero in the callback of /divide only",
     )
 
 

@@ -115,8 +115,8 @@ async def call_with_random_operands(bench: Bench) -> ServiceCalls:
         offered = [name for name in OPERATOR_SIGNS if name not in missing_services(graph_before.servers)]
         bench.report_progress(0.3, "calculating with positive and negative numbers")
         chosen = random_operands()
-        a, b = chosen[0]  # swapped as well, but not to divide: the quotient would not be a whole number
-        swapped = [(name, b, a) for name in offered if name != "/divide"]
+        # Swapped as well, but not to divide: the quotient would not be a whole number, or the divisor is 0.
+        swapped = [(name, b, a) for name in offered if name != "/divide" for a, b in (chosen[0], chosen[-1])]
         answers = await _make_calls(run, [*((name, a, b) for name in offered for a, b in chosen), *swapped])
         return ServiceCalls(await _trace_after_calls(run, graph_before, had_node), answers)
 

@@ -1167,6 +1167,19 @@ def test_surplus_or_incomplete_summaries_already_fail_in_the_fast_stretch() -> N
         assert_failed(early, cause)
 
 
+class BoundedList(FakeStats):
+    """Counts what is in a list of at most 20 messages, so that from the 20th on every message brings a summary."""
+
+    def receive(self, now: float, data: str) -> Iterator[Log]:
+        self.total = min(self.total, 19)
+        yield from super().receive(now, data)
+
+
+def test_summaries_that_come_too_often_later_on_fail_even_if_the_count_is_wrong() -> None:
+    assert_failed(judges.judge_slow_summary(steady(BoundedList()), jump(BoundedList())), "too many summaries")
+    assert_failed(judge_trials(BoundedList)["count"], "wrong count")
+
+
 @pytest.mark.parametrize("make", [FakeStats, CountsFromOne, FirstOverwritten])
 def test_a_slow_or_partial_fast_stretch_gives_no_early_verdict(make: type[FakeStats]) -> None:
     slow = feed(make(), range(7, 7 + FAST_MESSAGES), FAST_HZ / 2)

@@ -715,6 +715,14 @@ def test_a_server_that_refuses_negative_operands() -> None:
     assert_failed(judge_operations(seen), "negative operands refused", "/add answers 0")
 
 
+def test_a_server_that_refuses_zero_in_other_operations() -> None:
+    asked = [right_answer("/add", -40, 4), called("/add", 7, 0, 0), right_answer("/subtract", 9, 3)]
+    seen = ServiceCalls(SERVING, tuple(asked))
+    assert_failed(judge_operations(seen), "zero refused", "/add computes with every other number")
+    asked[0] = called("/add", -40, 4, 0)
+    assert "zero refused" not in judge_operations(replace(seen, answers=tuple(asked))).cause
+
+
 def test_one_wrong_result_is_not_a_refusal_of_negative_operands() -> None:
     asked = (right_answer("/divide", 6, 3), right_answer("/divide", -1, -1), called("/divide", 0, -1, 1))
     assert_failed(judge_operations(ServiceCalls(SERVING, (*ANSWERS, *asked))), "wrong result", "1 instead of 0")
