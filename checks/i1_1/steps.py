@@ -41,7 +41,7 @@ def draw_values(trace: Trace | None) -> str:
     return (
         read.step(
             seeding,
-            [*publishing.send_data(read, draw), *imported],
+            [*publishing.send_data(read, draw, message_class=TYPE.rpartition("/")[2]), *imported],
             [*publishing.whole_timer_callback(read, draw), *imported] if whole.is_usual(read) else [],
             whole_program(read),
         )

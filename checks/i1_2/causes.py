@@ -12,7 +12,7 @@ from checks.i1_2.summaries import Summary, is_in_time, last_due_count
 from checks.i1_2.totals import total_as_rate
 from tutor.judge import causes
 from tutor.judge.causes import slips
-from tutor.judge.causes.unserved import diagnose_unserved_node
+from tutor.judge.causes.unserved import diagnose_unserved
 from tutor.judge.edits import replace_node
 from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.trace import Level, LogRecord
@@ -188,8 +188,8 @@ def diagnose_no_summary(trial: Trial) -> Cause:
     if printed is not None:
         return printed
     if not trial.lines:
-        silent = find_in_files(
-            trace, lambda file: slips.diagnose_raised_level(file, Level.FATAL), diagnose_unserved_node
+        silent = find_in_files(trace, lambda file: slips.diagnose_raised_level(file, Level.FATAL)) or diagnose_unserved(
+            trace
         )
         if silent is not None:
             return silent

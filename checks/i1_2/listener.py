@@ -66,10 +66,13 @@ class Listener:
         is_own = node == "self" and f"self.{self.function.name}" in map(ast.unparse, self.created.args)
         if self.owner is not None and (is_own or self.created in ast.walk(self.owner)):
             return f"{node}.get_logger()"
-        calls = [each for function in self.reached for each in ast.walk(function) if isinstance(each, ast.Call)]
-        for call in calls:
-            if isinstance(call.func, ast.Attribute) and call.func.attr in _LEVELS:
-                return ast.unparse(call.func.value)
+        for function in self.reached:
+            is_foreign = self.file.class_of(function) is not self.owner  # its `self` is another object
+            for call in (each for each in ast.walk(function) if isinstance(each, ast.Call)):
+                if isinstance(call.func, ast.Attribute) and call.func.attr in _LEVELS:
+                    logger = ast.unparse(call.func.value)
+                    if not (is_foreign and logger.startswith("self.")):
+                        return logger
         return "" if self.owner else f"{node}.get_logger()"
 
     def name(self, role: str) -> str:

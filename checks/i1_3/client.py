@@ -14,7 +14,7 @@ from tutor.judge import causes, edits, source, tracebacks
 from tutor.judge.causes import period_slips
 from tutor.judge.causes.asyncio_threads import diagnose_other_threads_wake_up
 from tutor.judge.causes.spinning import diagnose_untimed_spins_in_turn
-from tutor.judge.rewriting.node import find_in_files
+from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.rewriting.program import call_main, first_sound_step
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
@@ -113,6 +113,9 @@ def _diagnose_hang(seen: ClientRun, missing: Sequence[str]) -> Cause:
         return unknown
     if (asleep := find_in_files(seen.trace, diagnose_other_threads_wake_up)) is not None:
         return asleep
+    zero = bool(seen.served) and seen.served[-1].response["sum"] == 0
+    if zero and (falsy := find_in_files(seen.trace, _diagnose_falsy_zero)) is not None:
+        return falsy
     if (in_turn := find_in_files(seen.trace, diagnose_untimed_spins_in_turn)) is not None:
         return in_turn
     if not seen.served and (unit := find_in_files(seen.trace, period_slips.diagnose_milliseconds)) is not None:
@@ -139,6 +142,23 @@ def _diagnose_hang(seen: ClientRun, missing: Sequence[str]) -> Cause:
         f"the client was still busy{where}" if where else "the client does not end by itself",
         "wait for each service, use call_async(), spin until its future is done, and return after the last answer",
     )
+
+
+def _diagnose_falsy_zero(file: NodeFile) -> Cause | None:
+    """Whether the client takes a result of 0 for no result: it goes on, or ends, only if the result is true."""
+    kept = [each for each in file.nodes if isinstance(each, ast.Assign) and source.last_name(each.value) == "sum"]
+    results = {ast.unparse(each.targets[0]) for each in kept}
+    for each in file.nodes:
+        if not isinstance(each, ast.If | ast.While):
+            continue
+        negated = isinstance(each.test, ast.UnaryOp) and isinstance(each.test.op, ast.Not)
+        result = each.test.operand if isinstance(each.test, ast.UnaryOp) and negated else each.test
+        if (isinstance(result, ast.Attribute) and result.attr == "sum") or ast.unparse(result) in results:
+            right = f"{ast.unparse(result)} is {'' if negated else 'not '}None"
+            step = file.step([edits.replace_node(file.text, each.test, right)])
+            text = f"line {each.lineno} takes the result 0 for none: the number 0 counts as false"
+            return Cause("zero is false", text, step) if step else None
+    return None
 
 
 def _replace_spin(trace: Trace, own: tracebacks.Frame) -> str:

@@ -15,24 +15,25 @@ _GROUPS = "ReentrantCallbackGroup", "MutuallyExclusiveCallbackGroup"
 
 
 def group_edits(file: NodeFile) -> list[Edit]:
-    """Give the timer its own callback group if it shares the service's."""
-    timer_call, service_call = timer(file), service(file)
-    if timer_call is None or service_call is None or group_of(timer_call) != group_of(service_call):
-        return []
-    if is_reentrant(file, group_of(timer_call)):
-        return []
+    """Give each timer that shares the service's callback group another one: what one timer logs, another may count."""
+    shared, service_call = timers_in_its_group(file), service(file)
+    own = group_of(service_call) if service_call is not None else ""
     name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
-    spare = next(
-        (
-            kept
-            for each in file.calls(*_GROUPS)
-            if (kept := file.assigned_to(each)).startswith("self.")
-            and kept != group_of(service_call)
-            and each.lineno < timer_call.lineno
-        ),
-        "",
-    )
-    return [*([] if spare else imported), set_group(file, timer_call, spare or f"{name}()")]
+    others = [each for each in file.calls(*_GROUPS) if file.assigned_to(each) not in ("", own)]
+    found: list[Edit] = []
+    for timer_call in shared:
+        kept = [file.assigned_to(each) for each in others if each.lineno < timer_call.lineno]
+        spare = next((each for each in kept if each.startswith("self.")), "")
+        found += [*([] if spare else imported), set_group(file, timer_call, spare or f"{name}()")]
+    return found
+
+
+def timers_in_its_group(file: NodeFile) -> list[ast.Call]:
+    """The calls that create timers in the service's callback group, if that is a MutuallyExclusiveCallbackGroup."""
+    service_call = service(file)
+    if service_call is None or timer(file) is None or is_reentrant(file, own := group_of(service_call)):
+        return []
+    return [each for each in file.timers if group_of(each) == own]
 
 
 def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:

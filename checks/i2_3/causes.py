@@ -15,8 +15,8 @@ from tutor.judge import causes, tracebacks
 from tutor.judge.causes import late_binding, names, slips, spinning
 from tutor.judge.causes.period_slips import diagnose_no_autostart, diagnose_self_cancelling, diagnose_twin_timers
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
-from tutor.judge.causes.unserved import diagnose_unserved_node
-from tutor.judge.rewriting.node import NodeFile, file_of, find_in_files, started_node
+from tutor.judge.causes.unserved import diagnose_unserved
+from tutor.judge.rewriting.node import NodeFile, file_calling, file_of, find_in_files, started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -42,7 +42,7 @@ def diagnose_no_service(trace: Trace) -> Cause:
             return Cause(
                 "wrong type",
                 f"{SERVICE} has the type {service.type}, not {TYPE}",
-                steps.fix_service(started_node(trace))
+                steps.fix_service(_serving_file(trace))
                 or f"create it with AddTwoInts: self.create_service(AddTwoInts, '{SERVICE[1:]}', ...)",
             )
     same_type = [service for service in offered if service.type == TYPE]
@@ -52,17 +52,17 @@ def diagnose_no_service(trace: Trace) -> Cause:
         return Cause(
             "wrong service name",
             f"there is {service.name} instead of {SERVICE}",
-            steps.fix_service(started_node(trace))
+            steps.fix_service(_serving_file(trace))
             or f"name it '{SERVICE[1:]}', spelled exactly like this, without a namespace or ~ in front",
         )
     elsewhere = find_in_files(trace, slips.diagnose_other_domain)
     return (
         elsewhere
-        or diagnose_uncalled_setup(started_node(trace), "create_service")
+        or diagnose_uncalled_setup(_serving_file(trace), "create_service")
         or Cause(
             "service missing",
             f"the node is up, but offers no {SERVICE}",
-            steps.fix_service(started_node(trace))
+            steps.fix_service(_serving_file(trace))
             or f"in __init__: self.create_service(AddTwoInts, '{SERVICE[1:]}', self.slow_add, callback_group=...)",
         )
     )
@@ -74,17 +74,17 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
         return broken
     if (unmatched := _diagnose_service_qos(seen.trace)) is not None:
         return unmatched
-    if (unserved := find_in_files(seen.trace, diagnose_unserved_node)) is not None:
+    if (unserved := diagnose_unserved(seen.trace)) is not None:
         return unserved
     if not seen.spins and (empty := find_in_files(seen.trace, steps.diagnose_node_not_added)) is not None:
         return empty
     if not seen.spins or causes.is_in_blocking_call(seen.stuck):
-        return _with_step(causes.diagnose_no_answer(seen.trace, seen.stuck), started_node(seen.trace))
+        return _with_step(causes.diagnose_no_answer(seen.trace, seen.stuck), _serving_file(seen.trace))
     blocked = causes.diagnose_blocked(seen.trace, seen.stuck, spins=True)
     if blocked is not None and blocked.name != names.BLOCKED_EXECUTOR:
-        return _with_step(blocked, started_node(seen.trace))
+        return _with_step(blocked, _serving_file(seen.trace))
     if (locked := causes.diagnose_lock_wait(seen.trace, seen.stuck)) is not None:
-        return _with_step(replace(locked, name="no answer"), started_node(seen.trace))
+        return _with_step(replace(locked, name="no answer"), _serving_file(seen.trace))
     own = tracebacks.own_frame(seen.stuck, seen.trace.folder)
     return Cause(
         "no answer",
@@ -92,10 +92,15 @@ def diagnose_no_answer(seen: SingleCalls) -> Cause:
         (
             steps.remove_wait(file_of(seen.trace, own), own.code, own.line)
             if own
-            else steps.fix_answer(started_node(seen.trace))
+            else steps.fix_answer(_serving_file(seen.trace))
         )
         or "let the callback wait 3 s, fill in response.sum and return the response; never wait without a timeout",
     )
+
+
+def _serving_file(trace: Trace) -> NodeFile:
+    """The file that creates the service, which the file that was run may import; else the latter."""
+    return file_calling(trace, "create_service")
 
 
 def _with_step(cause: Cause, file: NodeFile) -> Cause:
@@ -116,7 +121,7 @@ def _our_servers(trace: Trace) -> list[ServiceEndpoint]:
 def diagnose_wrong_sum(answer: CallAnswer, trace: Trace) -> Cause:
     """Why the sum may be wrong."""
     assert answer.response is not None
-    source = started_node(trace)
+    source = _serving_file(trace)
     if answer.took_s < SHORTEST_S and (early := find_in_files(trace, steps.diagnose_early_answer)) is not None:
         return early
     if (late := late_binding.diagnose_late_binding(trace)) is not None:
@@ -138,7 +143,7 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
     """Why no 10 Hz timer was seen while the service was idle."""
     if (broken := causes.diagnose_process(idle.trace)) is not None:
         return broken
-    source = started_node(idle.trace)
+    source = file_calling(idle.trace, "create_timer")
     if likely is None and (inactive := causes.diagnose_lifecycle(idle.trace)) is not None:
         return inactive
     if likely is None:
@@ -149,7 +154,7 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
         )
         return (
             printed
-            or find_in_files(idle.trace, diagnose_unserved_node)
+            or diagnose_unserved(idle.trace)
             or find_in_files(idle.trace, diagnose_no_autostart)
             or diagnose_uncalled_setup(source, "create_timer")
             or tick_steps.diagnose_no_ticks(source)
@@ -182,7 +187,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     """Why the timer does not keep its pace during a call."""
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
-    source = started_node(seen.trace)
+    source = _serving_file(seen.trace)
     if timer.fault is not Fault.FAST and (cancelled := find_in_files(seen.trace, diagnose_self_cancelling)) is not None:
         return cancelled
     if timer.fault is Fault.FAST:
@@ -211,7 +216,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
         return Cause(
             names.BLOCKED_EXECUTOR,
             "the timer stops during a call",
-            steps.use_threads(source)
+            steps.use_threads(started_node(seen.trace))
             or "use a MultiThreadedExecutor, and put the timer and the service into different callback groups",
         )
     if _in_worker(seen.stuck):
@@ -229,7 +234,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     return Cause(
         names.BLOCKED_EXECUTOR,
         f"one thread runs all callbacks, and while the service works{where}, the timer waits",
-        steps.use_threads(source)
+        steps.use_threads(started_node(seen.trace))
         or "use executor = MultiThreadedExecutor(num_threads=4), executor.add_node(node), executor.spin()",
     )
 
@@ -238,7 +243,7 @@ def diagnose_lost_calls(trace: Trace, batch: CallBatch, answered: Sequence[CallA
     """Why some of three concurrent calls did not get their own sum."""
     if (broken := causes.diagnose_process(trace)) is not None:
         return broken
-    source = started_node(trace)
+    source = _serving_file(trace)
     if len(answered) < len(batch.answers):
         return Cause(
             "no answer",

@@ -32,7 +32,7 @@ from checks.i2_3.ticks import HZ, Series, best_series
 from tutor.judge import causes, ending
 from tutor.judge.causes import names, slips
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.node import find_in_files, started_node
+from tutor.judge.rewriting.node import file_calling, find_in_files, started_node
 from tutor.judge.step_parsing import NotAnEdit, apply_step
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.verdict import Cause, Status, Undecided, Verdict, failed, passed, skipped, undecided
@@ -63,7 +63,9 @@ def _with_applicable_step(verdict: Verdict, trace: Trace) -> Verdict:
     try:
         apply_step(verdict.hint, trace.sources)
     except NotAnEdit:
-        return replace(verdict, hint=steps.rewrite_everything(started_node(trace)) or verdict.hint)
+        files = started_node(trace), file_calling(trace, "create_service")
+        step = next((step for each in files if (step := steps.rewrite_everything(each))), "")
+        return replace(verdict, hint=step or verdict.hint)
     return verdict
 
 
@@ -102,7 +104,7 @@ def _judge_answer_alone(seen: SingleCalls) -> Verdict:
         answer = call.answer
         if answer.response is not None and answer.response["sum"] != right_sum(answer):
             return failed(expected, _describe_answer(answer), why.diagnose_wrong_sum(answer, seen.trace))
-    source = started_node(seen.trace)
+    source = file_calling(seen.trace, "create_service")
     observed, took = _describe_answer(best.answer), f"the work takes {best.answer.took_s:.1f} s"
     if best.answer.took_s < SHORTEST_S:
         return _fail_too_quick(best.answer, seen.trace, expected)
@@ -115,7 +117,7 @@ def _judge_answer_alone(seen: SingleCalls) -> Verdict:
 
 
 def _fail_too_quick(answer: CallAnswer, trace: Trace, expected: str) -> Verdict:
-    source = started_node(trace)
+    source = file_calling(trace, "create_service")
     step = steps.fix_work_time(source) or "let the callback wait: time.sleep(3.0), then answer"
     slip = find_in_files(trace, slips.diagnose_xor, steps.diagnose_early_answer)
     cause = slip or Cause("too quick", f"the work takes {answer.took_s:.1f} s", step)
@@ -232,7 +234,7 @@ def judge_parallel(single: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
     cause = Cause(
         "one call at a time",
         "the calls wait for each other",
-        steps.allow_overlap(started_node(concurrent.trace))
+        steps.allow_overlap(file_calling(concurrent.trace, "create_service"))
         or "put the service into a ReentrantCallbackGroup, and give the executor threads enough: num_threads=8",
     )
     return failed(expected, observed, cause)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 
 from checks.i2_3 import rewriting
-from checks.i2_3.callback_groups import group_edits, group_of, is_reentrant, set_group
+from checks.i2_3.callback_groups import group_edits, group_of, is_reentrant, set_group, timers_in_its_group
 from checks.i2_3.facts import SERVICE, WORK_S
 from checks.i2_3.rewriting import combine_edits, service, service_callback, timer
 from tutor.judge.causes.topics import use_default_service_qos
@@ -172,22 +172,23 @@ def what_timer_waits_for(file: NodeFile, *, sleeps: bool = False) -> str:
 
     `sleeps`: whether the service sleeps meanwhile, which lets other threads run.
     """
-    made = timer(file)
+    made, shared = timer(file), timers_in_its_group(file)
     if edits := _add_threads(file):
         return f"the executor has too few threads (line {edits[0].first})"
-    if made is not None and not sleeps and not group_edits(file) and _has_enough_threads(file):
+    if made is not None and not sleeps and not shared and _has_enough_threads(file):
         return "Python runs one thread at a time, and this work lets no other one run, unlike time.sleep()"
-    if made is None or not group_edits(file):
+    if made is None or not shared:
         return (
             "they are in one MutuallyExclusiveCallbackGroup (a node's default group is one), or the executor has too "
             "few threads"
         )
-    group = group_of(made)
-    if any(each.arg is None for each in made.keywords):  # the group is in a dict of options
-        return "both are in the same MutuallyExclusiveCallbackGroup"
+    group = group_of(shared[0])
+    who = "both" if made in shared else f"the service and the timer of line {shared[0].lineno}"
+    if any(each.arg is None for each in shared[0].keywords):  # the group is in a dict of options
+        return f"{who} are in the same MutuallyExclusiveCallbackGroup"
     if not group:
-        return "both are in the node's default group, which is a MutuallyExclusiveCallbackGroup"
-    return f"both are in {group}, which is a MutuallyExclusiveCallbackGroup"
+        return f"{who} are in the node's default group, which is a MutuallyExclusiveCallbackGroup"
+    return f"{who} are in {group}, which is a MutuallyExclusiveCallbackGroup"
 
 
 def allow_overlap(file: NodeFile) -> str | None:

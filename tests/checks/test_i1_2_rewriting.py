@@ -162,6 +162,29 @@ def test_a_timer_that_the_callback_creates_goes_with_its_old_body() -> None:
     assert "def tick" not in fixed
 
 
+def test_a_callback_of_another_object_gets_no_logger_of_the_node() -> None:
+    code = """\
+class Parser:
+    def __init__(self, on_text):
+        self.on_text = on_text
+
+    def receive(self, msg):
+        self.on_text(msg.data)
+
+
+class Stats(Node):
+    def __init__(self):
+        super().__init__("message_stats")
+        self.parser = Parser(self.count)
+        self.create_subscription(String, "chatter", self.parser.receive, 10)
+
+    def count(self, text):
+        self.get_logger().info(text)
+"""
+    fixed = rewrite(code)
+    assert fixed.index("class Stats") < fixed.index("self.get_logger().info(f'first: ")
+
+
 @pytest.mark.parametrize("code", ["", "def f(:", "class Stats(Node):\n    pass\n"])
 def test_without_a_subscription_there_is_no_step(code: str) -> None:
     assert rewriting.rewrite_callback(trace(sources={"node.py": code})) is None

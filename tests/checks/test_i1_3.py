@@ -502,6 +502,24 @@ def test_a_client_that_can_never_connect_is_not_retried() -> None:
     assert not replace(demonstration((), 1), cpu_wait_s=2.5, clients=unconnected).slowed
 
 
+@pytest.mark.parametrize(
+    ("test", "step"),
+    [
+        ("if answer.sum:", "line 3 becomes: if answer.sum is not None:"),
+        ("while not result:", "line 3 becomes: while result is None:"),
+        ("if answer.ok:", ""),
+    ],
+)
+def test_a_client_that_takes_zero_for_no_result(test: str, step: str) -> None:
+    source = f"def ask(self, answer):\n    result = answer.sum\n    {test}\n        self.next()\n"
+    zero = replace(SERVED[1], request={"a": 5, "b": 5}, response={"sum": 0})
+    hanging = demonstration((SERVED[0], zero, zero), None)
+    assert hanging.trace is not None
+    verdict = judge_client(replace(hanging, trace=replace(hanging.trace, sources={"calculator_client.py": source})))
+    assert ("zero is false" in verdict.cause) is bool(step)
+    assert step in verdict.hint
+
+
 def test_an_idle_client_is_reported_with_the_time_that_it_was_watched() -> None:
     hanging = demonstration(SERVED[:1], None)
     assert "still running after 15 s" in judge_client(hanging).observed

@@ -260,6 +260,17 @@ def with_program(seen: LaunchRun, program: str) -> LaunchRun:
     return replace(seen, trace=replace(seen.trace, sources=sources))
 
 
+@pytest.mark.parametrize(("more", "is_named"), [("", True), (", condition=IfCondition(plain)", False)])
+def test_a_launch_file_that_sets_the_argument_itself(more: str, is_named: bool) -> None:
+    line = f"SetLaunchConfiguration('topic', 'chatter'{more}),"
+    source = f"description = LaunchDescription([\n    talker,\n    {line}\n])\n"
+    seen = with_topic(pair("/news", "/chatter"))
+    seen = replace(seen, trace=replace(seen.trace, sources={"my_launch.py": source}))
+    verdict = judges.judge_topic(DEFAULT_RUN, seen)
+    assert ("argument overwritten" in verdict.cause) is is_named
+    assert ("remove line 3: SetLaunchConfiguration" in verdict.hint) is is_named
+
+
 @pytest.mark.parametrize(("sent", "taken"), [("/news", "/chatter"), ("/chatter", "/news")])
 def test_one_node_is_not_remapped(sent: str, taken: str) -> None:
     command_lines = ["talker --ros-args -r chatter:=news", "listener --ros-args"]

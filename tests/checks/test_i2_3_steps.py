@@ -139,6 +139,15 @@ def test_a_single_thread_is_replaced_by_several(file: NodeFile, step: str) -> No
             "the node's default group",
             "line 13 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())",
         ),
+        (  # it counts what the other timer logs
+            changed(
+                (GROUPS, "        self.create_timer(0.1, self.count)\n"),
+                (", callback_group=self.group", ""),
+                ("=self.other", "=ReentrantCallbackGroup()"),
+            ),
+            "the service and the timer of line 11 are in the node's default group",
+            "line 11 becomes: self.create_timer(0.1, self.count, callback_group=ReentrantCallbackGroup())",
+        ),
         (
             changed((", callback_group=self.group", ", **options()"), (", callback_group=self.other", ", **options()")),
             "both are in the same MutuallyExclusiveCallbackGroup",

@@ -223,6 +223,14 @@ def test_the_message_is_replaced(code: str) -> None:
     )
 
 
+def test_a_message_of_another_class_is_left_alone() -> None:
+    lines = ("status = Bool()", "status.data = True", "msg = String()", "msg.data = 'x'", "self.publisher.publish(msg)")
+    code = "\n        ".join(lines)
+    file = changed(("self.publisher.publish(String(data=self.prefix))", code))
+    after = apply_edits(file, publishing.send_data(file, "'y'", message_class="String"))
+    assert after == file.text.replace("msg.data = 'x'", "msg.data = 'y'")
+
+
 def test_the_timer_callback_is_rewritten_as_a_whole() -> None:
     code = publishing.prefixed_text(changed(), PREFIX)
     assert apply_edits(changed(), publishing.whole_timer_callback(changed(), code, enabled=ENABLED)).endswith(
@@ -314,6 +322,16 @@ def test_a_value_that_the_node_overwrites(file: NodeFile, right: str) -> None:
     assert parameter_slips.diagnose_override(corrected, RATE) is None
     other_set = changed((COUNT, f"{COUNT}        self.set_parameters([Parameter('publish_rate', value=1.0)])\n"))
     assert parameter_slips.diagnose_override(other_set, PREFIX) is None
+
+
+def test_the_message_of_a_parameters_value_is_not_the_value() -> None:
+    read = "        rate = float(self.get_parameter('publish_rate').get_parameter_value())\n"
+    found = parameter_slips.diagnose_override(NodeFile(NODE + read), RATE)
+    assert found is not None
+    assert found.name == "parameter value not read"
+    assert found.hint == "line 24 becomes: rate = float(self.get_parameter('publish_rate').value)"
+    field = read.replace("value())", "value().double_value)")
+    assert parameter_slips.diagnose_override(NodeFile(NODE + field), RATE) is None
 
 
 def test_a_parameter_that_the_node_sets_through_a_variable_is_left_alone() -> None:

@@ -169,3 +169,11 @@ def test_what_main_does_when_it_is_interrupted_is_guarded() -> None:
 def test_threads_are_waited_for(old: str, new: str, joined: str) -> None:
     source = "def main():\n    spinner = Thread(target=spin, args=(Node('a'),))\n    spinner.start()\nmain()\n"
     assert joined in shutdown_steps.wait_for_threads(node(source.replace(old, new)))
+
+
+@pytest.mark.parametrize("end", ["sys.exit(main())", "raise SystemExit(main())"])
+def test_a_program_no_longer_exits_with_what_main_returns(end: str) -> None:
+    source = f"def main():\n    robot = Robot()\n    return robot.run()\n\n\n{end}\n"
+    assert shutdown_steps.exit_with_zero(node(source)) == "line 6 becomes: main()"
+    nothing = source.replace("return robot.run()", "robot.run()")
+    assert "line 6" not in shutdown_steps.exit_with_zero(node(nothing))

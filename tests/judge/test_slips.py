@@ -10,7 +10,7 @@ from tests.checks.builders import trace
 from tutor.judge.causes import late_binding, parameter_callback_slips, parameter_slips, period_slips, slips
 from tutor.judge.causes.printing import use_node_logger
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
-from tutor.judge.causes.unserved import diagnose_unserved_node
+from tutor.judge.causes.unserved import diagnose_unserved, diagnose_unserved_node
 from tutor.judge.rewriting.node import find_in_files, node_file
 from tutor.judge.trace import Level, Trace
 
@@ -153,6 +153,40 @@ def test_another_node_spun_is_named() -> None:
     assert found is not None
     assert found.hint == "line 7 becomes: rclpy.spin(own)"
     assert diagnose_unserved_node(node_file(CLASS + MAIN.format("own"))) is None
+
+
+OUTER = """\
+class Robot(Node):
+    def __init__(self):
+        super().__init__('robot')
+        self.arm = Arm()
+
+
+def main():
+    robot = Robot()
+    rclpy.spin(robot)
+"""
+ARM = "class Arm(Node):\n    def __init__(self):\n        self.create_timer(1.0, self.move)\n"
+
+
+@pytest.mark.parametrize(
+    ("spin", "step"),
+    [
+        ("rclpy.spin(robot)", "in node.py, line 9 becomes:\n    executor = MultiThreadedExecutor()"),
+        ("executor.add_node(robot)", "in node.py, write below line 9, with the same indentation: executor.add_node("),
+        ("executor.add_node(robot)\n    executor.add_node(robot.arm)", None),
+    ],
+)
+def test_a_node_inside_of_another_one_is_spun_as_well(spin: str, step: str | None) -> None:
+    sources = {"node.py": OUTER.replace("rclpy.spin(robot)", spin), "arm.py": ARM}
+    found = diagnose_unserved(replace(trace(), sources=sources))
+    if step is None:
+        assert found is None
+    else:
+        assert found is not None
+        assert found.name == "another node spun"
+        assert found.hint.startswith(step)
+        assert "executor.add_node(robot.arm)" in found.hint
 
 
 PAIR = "class {}(Node):\n  def __init__(self):\n    super().__init__('n')\n    self.create_timer(1.0, self.go)\n".format

@@ -54,10 +54,25 @@ def allow_interrupt(trace: Trace) -> str:
 
 def exit_with_zero(trace: Trace) -> str:
     """How to end the program with exit code 0."""
-    return first_sound_step(trace, clean_ending) or (
-        "return normally from main() after Ctrl+C; call no sys.exit() with another code, and end what uses the node, "
-        "such as threads, before you destroy it"
+    return (
+        find_in_files(trace, _without_status)
+        or first_sound_step(trace, clean_ending)
+        or "return normally from main() after Ctrl+C; call no sys.exit() with another code, and end what uses the "
+        "node, such as threads, before you destroy it"
     )
+
+
+def _without_status(file: NodeFile) -> str | None:
+    """The step that no longer exits with what a function returns, such as True, which is exit code 1."""
+    for call in file.calls("exit", "SystemExit"):
+        inner = call.args[0] if len(call.args) == 1 else None
+        function = file.function(inner.func) if isinstance(inner, ast.Call) else None
+        statement = file.statement(call)
+        if inner is None or function is None or not isinstance(statement, ast.Expr | ast.Raise):
+            continue
+        if any(isinstance(each, ast.Return) and each.value is not None for each in ast.walk(function)):
+            return file.step([replace_statement(statement, ast.unparse(inner))])
+    return None
 
 
 def wait_for_threads(trace: Trace) -> str:

@@ -17,6 +17,7 @@ from tutor.judge.source import called_name, values_of, where
 from tutor.judge.verdict import Cause
 
 _OVERWRITTEN = "value overwritten by the node"
+_CONVERSIONS = frozenset({"float", "int", "str", "round"})
 
 
 def diagnose_override(file: NodeFile, name: str, *whole: list[Edit]) -> Cause | None:
@@ -25,12 +26,34 @@ def diagnose_override(file: NodeFile, name: str, *whole: list[Edit]) -> Cause | 
     `whole`: edits of the whole program, for the case that no smaller edit is right.
     """
     return (
-        _diagnose_own_set(file, name)
+        _diagnose_value_message(file, name)
+        or _diagnose_own_set(file, name)
         or _diagnose_ignored_overrides(file, name)
         or _diagnose_own_arguments(file, name)
         or _diagnose_parameter_overrides(file, name, *whole)
         or _diagnose_reassignment(file, name)
     )
+
+
+def _diagnose_value_message(file: NodeFile, name: str) -> Cause | None:
+    """Whether get_parameter_value(), a message with a field for each type, is converted as if it were the value."""
+    swaps: list[tuple[ast.expr, str]] = []
+    own: ast.Call | None = None
+    for call in file.calls("get_parameter_value"):
+        around = next(file.ancestors(call), None)
+        if (
+            isinstance(around, ast.Call)
+            and called_name(around) in _CONVERSIONS
+            and isinstance(call.func, ast.Attribute)
+        ):
+            swaps.append((call, f"{ast.unparse(call.func.value)}.value"))
+            if repr(name) in ast.unparse(call):
+                own = call
+    step = file.step(replace_nodes(file.text, *swaps)) if own is not None else None
+    if own is None or step is None:
+        return None
+    text = f"{where(own)} is a message with a field for each type of value, which cannot be converted to the value"
+    return Cause("parameter value not read", text, step)
 
 
 def _diagnose_parameter_overrides(file: NodeFile, name: str, *whole: list[Edit]) -> Cause | None:

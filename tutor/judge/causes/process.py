@@ -12,7 +12,7 @@ from tutor.judge.causes import callback_slips, names, slips, spinning
 from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.exceptions import diagnose_known_exception, diagnose_traceback
 from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
-from tutor.judge.causes.unserved import diagnose_unserved_node
+from tutor.judge.causes.unserved import diagnose_unserved
 from tutor.judge.edits import remove_statement
 from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.rewriting.program import call_main, first_sound_step, whole_program
@@ -141,7 +141,7 @@ def diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = Fa
         return broken
     return (
         diagnose_logged_exception(trace)
-        or find_in_files(trace, diagnose_unserved_node)
+        or diagnose_unserved(trace)
         or diagnose_blocked(trace, stuck, spins=spins)
         or spinning.diagnose_not_spinning(trace, stuck, node_names(trace))
         or diagnose_no_spin(trace)

@@ -13,7 +13,7 @@ from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
 from tutor.judge.causes.spinning import diagnose_spin_in_constructor, diagnose_untimed_spin_once
 from tutor.judge.causes.uncalled import diagnose_uncalled_setup
-from tutor.judge.causes.unserved import diagnose_unserved_node
+from tutor.judge.causes.unserved import diagnose_unserved, diagnose_unserved_node
 from tutor.judge.edits import (
     Edit,
     append_to_function,
@@ -87,7 +87,7 @@ def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause
         diagnose_untimed_spin_once,
     )
     file = started_node(trace)
-    if (cause := slip or diagnose_uncalled_setup(file, "create_timer")) is not None:
+    if (cause := slip or diagnose_unserved(trace) or diagnose_uncalled_setup(file, "create_timer")) is not None:
         return cause
     if file.publisher and not file.calls("publish"):
         text = f"there is a publisher on {topic}, but nothing calls publish()"
@@ -112,7 +112,7 @@ def diagnose_nothing_received(
             return replace(mismatched[0], hint=_use_plain_depth(trace, ours.topic) or mismatched[0].hint)
         if not answers:
             return diagnose_no_answer(trace, stuck)
-        return find_in_files(trace, diagnose_unserved_node) or Cause(
+        return diagnose_unserved(trace) or Cause(
             "callback does nothing",
             f"there is a subscription on {ours.topic}, but its messages have no effect",
             "is the right callback given to create_subscription, and the subscription kept in self?",

@@ -8,10 +8,18 @@ import textwrap
 
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
-from tutor.judge.rewriting.node import NodeFile
+from tutor.judge.rewriting.node import NodeFile, find_in_files, node_files
+from tutor.judge.source import last_name
+from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
 _NODE_LISTS = tuple(f"self._{each}" for each in ("timers", "subscriptions", "services", "clients", "guards"))
+_SPINS = "spin", "spin_once", "spin_until_future_complete"
+
+
+def diagnose_unserved(trace: Trace) -> Cause | None:
+    """Why the executor does not serve a node, as far as the source shows it: in one file, or in several together."""
+    return find_in_files(trace, diagnose_unserved_node) or _diagnose_inner_node(trace)
 
 
 def diagnose_unserved_node(file: NodeFile) -> Cause | None:
@@ -54,6 +62,38 @@ def _diagnose_node_left_out(file: NodeFile) -> Cause | None:
     step = file.step(_spin_in_place_of(file, spins[0], nodes))
     text = f"{source.where(spins[0])} runs the callbacks of {spun}, not those of {' and '.join(left_out)}"
     return Cause("another node spun", text, step) if step else None
+
+
+def _diagnose_inner_node(trace: Trace) -> Cause | None:
+    """Whether a node creates another one, and only the outer one is spun."""
+    files = [*node_files(trace)]
+    nodes = {name for file in files for name in file.node_classes}
+    served = {last_name(each) for file in files for call in file.calls("add_node", *_SPINS) for each in call.args}
+    for file in files:
+        for call in file.calls(*nodes):
+            outer, inner = file.class_of(call), file.assigned_to(call)
+            if outer is None or outer.name not in nodes or not inner.startswith("self.") or inner[5:] in served:
+                continue
+            if any(_has_callbacks(each, call) for each in files):
+                step = next((found for each in files if (found := _serve_inner_node(each, outer.name, inner[5:]))), "")
+                text = f"{source.where(call)} creates another node, and only the one around it is spun"
+                return Cause("another node spun", text, step) if step else None
+    return None
+
+
+def _serve_inner_node(file: NodeFile, outer: str, inner: str) -> str | None:
+    """The step that lets the executor of the outer node, given by its class, serve the inner one as well."""
+    made = {file.assigned_to(each) for each in file.calls(outer)} - {""}
+    for call in file.calls("add_node", "spin"):
+        node = ast.unparse(call.args[0]) if len(call.args) == 1 else ""
+        statement = file.statement(call)
+        if node not in made or not isinstance(statement, ast.Expr):
+            continue
+        both = [node, f"{node}.{inner}"]
+        if source.called_name(call) == "spin":
+            return file.step(_spin_in_place_of(file, call, both))
+        return file.step([edits.insert_after(statement, f"{ast.unparse(call.func)}({both[1]})")])
+    return None
 
 
 def _has_callbacks(file: NodeFile, made: ast.Call) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 import textwrap
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -265,15 +265,25 @@ def started_node(trace: Trace) -> NodeFile:
     return node_file(trace.sources.get(trace.file, ""), trace.file if len(trace.sources) > 1 else "")
 
 
+def file_calling(trace: Trace, *names: str) -> NodeFile:
+    """The node of the first file that calls one of these functions; else that of the file that was run."""
+    return find_in_files(trace, lambda file: file if file.calls(*names) else None) or started_node(trace)
+
+
 def file_of(trace: Trace, at: Frame) -> NodeFile:
     """The node of the file that a stack frame is in."""
     return node_file(trace.sources.get(at.name, ""), at.name if len(trace.sources) > 1 else "")
 
 
+def node_files(trace: Trace) -> Iterator[NodeFile]:
+    """The file that was run, then its local imports."""
+    yield started_node(trace)
+    yield from (node_file(text, name) for name, text in trace.sources.items() if name != trace.file)
+
+
 def find_in_files[T](trace: Trace, *finders: Callable[[NodeFile], T | None]) -> T | None:
     """What one of these functions finds, in the file that was run or else in its local imports."""
-    imported = (node_file(text, name) for name, text in trace.sources.items() if name != trace.file)
-    for file in (started_node(trace), *imported):
+    for file in node_files(trace):
         for find in finders:
             if (found := find(file)) is not None:
                 return found

@@ -10,12 +10,17 @@ from tutor.judge.rewriting.node import NodeFile, argument, rewrite_function
 from tutor.judge.source import Function, called_name, calls_in
 
 
-def send_data(file: NodeFile, code: str) -> list[Edit]:
-    """Set the `data` of the message that the timer's callback publishes to this code."""
+def send_data(file: NodeFile, code: str, *, message_class: str = "") -> list[Edit]:
+    """Set the `data` of the message that the timer's callback publishes to this code.
+
+    `message_class`: leave messages of other classes alone.
+    """
     if file.timer_callback is None:
         return []
     within = file.reachable_from(file.timer_callback)
-    found = list(_data_expressions(file, within))
+    found = [
+        each for each in _data_expressions(file, within) if not message_class or _may_be(file, each, message_class)
+    ]
     if found:
         return [_replace_data(file, expression, code) for expression in found]
     sent = [each for each in file.calls("publish") if file.function_around(each) in within and each.args]
@@ -39,6 +44,21 @@ def _data_expressions(file: NodeFile, within: list[Function]) -> Iterator[ast.ex
                 yield value
             case ast.Call(keywords=[ast.keyword(arg="data", value=value)]) if called_name(node) == file.message_class:
                 yield value
+
+
+def _may_be(file: NodeFile, data: ast.expr, message_class: str) -> bool:
+    """Whether this value of `message.data` may belong to a message of this class, as far as its function shows."""
+    statement, function = file.statement(data), file.function_around(data)
+    if not isinstance(statement, ast.Assign) or not isinstance(statement.targets[0], ast.Attribute):
+        return True
+    message = ast.unparse(statement.targets[0].value)
+    made = [
+        called_name(each.value)
+        for each in (ast.walk(function) if function is not None else ())
+        if isinstance(each, ast.Assign) and isinstance(each.value, ast.Call)
+        if ast.unparse(each.targets[0]) == message
+    ]
+    return not any(name[:1].isupper() and name != message_class for name in made)
 
 
 def _replace_data(file: NodeFile, expression: ast.expr, code: str) -> Edit:
