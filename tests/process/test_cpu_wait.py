@@ -3,7 +3,9 @@ import subprocess
 import sys
 import time
 
-from tutor.process import CpuMeter, own_cpu_time
+import pytest
+
+from tutor.process import CpuMeter, CpuTime, cpu_wait, own_cpu_time
 from tutor.process.cpu_wait import estimate_unblocked_s
 
 BUSY = "while True: pass"
@@ -67,6 +69,18 @@ def test_a_sleeping_main_thread_does_not_wait_for_the_cpu() -> None:
         for each in both:
             each.kill()
             each.communicate()
+
+
+def test_cpu_time_does_not_fall_when_the_thread_that_counts_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = iter([CpuTime(2.0, 1.0, 0.5), CpuTime(1.0, 0.5, 0.5), CpuTime(1.5, 0.75, 0.5), CpuTime()])
+    monkeypatch.setattr(cpu_wait, "_read_cpu_time", lambda _pid: next(found))
+    meter = cpu_wait._ProcessMeter(1)
+    assert [meter.read() for _ in range(4)] == [
+        CpuTime(2.0, 1.0, 0.5),
+        CpuTime(2.0, 1.0, 0.5),
+        CpuTime(2.5, 1.25, 0.5),
+        CpuTime(2.5, 1.25, 0.5),  # the process has ended
+    ]
 
 
 def test_our_own_cpu_time_is_measured() -> None:

@@ -191,11 +191,9 @@ class RosRun:
         return own_cpu_time().waited_s
 
     def _read_cpu_time(self) -> CpuTime:
-        if self.exit is not None:
-            return CpuTime()
         read_at, cpu_time = self._cpu_time
         now = time.monotonic()
-        if now - read_at >= POLL_S:
+        if self.exit is None and now - read_at >= POLL_S:
             cpu_time = self._meter.read()
             self._cpu_time = (now, cpu_time)
         return cpu_time

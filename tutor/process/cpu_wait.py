@@ -17,7 +17,7 @@ OWN_MAX_AGE_S = 0.05
 """Maximum age of our own cached CPU time: while thirty runs are watched, this process has hundreds of threads."""
 
 _process_table: tuple[float, dict[int, Process]] = (0.0, {})
-_own_reading: tuple[float, int, CpuTime] | None = None
+_own_reading: tuple[float, _ProcessMeter, CpuTime] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +34,25 @@ class CpuTime:
     main_waited_s: float = 0.0
 
 
+class _ProcessMeter:
+    """Measures the CPU time of one process.
+
+    It never falls: if the thread that counts ends, the time of the next one is added to what was measured so far.
+    """
+
+    def __init__(self, pid: int) -> None:
+        self.pid = pid
+        self._last = self._ended = CpuTime()
+
+    def read(self) -> CpuTime:
+        """Return the CPU time so far; if the process has ended, the last one that was read."""
+        if (now := _read_cpu_time(self.pid)) != CpuTime():
+            ended = zip(astuple(self._ended), astuple(self._last), astuple(now), strict=True)
+            self._ended = CpuTime(*(kept + max(0.0, last - new) for kept, last, new in ended))
+            self._last = now
+        return CpuTime(*(kept + last for kept, last in zip(astuple(self._ended), astuple(self._last), strict=True)))
+
+
 class CpuMeter:
     """Measures the CPU time of all processes in a session.
 
@@ -42,22 +61,24 @@ class CpuMeter:
 
     def __init__(self, session: int) -> None:
         self._session = session
-        self._per_process: dict[int, CpuTime] = {}
+        self._per_process: dict[int, _ProcessMeter] = {}
 
     def read(self) -> CpuTime:
         """Return the sum over all processes seen so far."""
         for process in recent_processes(self._session).values():
-            if process.session == self._session and (cpu_time := _read_cpu_time(process.pid)) != CpuTime():
-                self._per_process[process.pid] = cpu_time
-        return CpuTime(*(sum(values) for values in zip(*map(astuple, self._per_process.values()), strict=True)))
+            if process.session == self._session:
+                self._per_process.setdefault(process.pid, _ProcessMeter(process.pid))
+        readings = [astuple(meter.read()) for meter in self._per_process.values()]
+        return CpuTime(*(sum(values) for values in zip(*readings, strict=True)))
 
 
 def own_cpu_time() -> CpuTime:
     """Return the CPU time of our own process, at most `OWN_MAX_AGE_S` old."""
     global _own_reading
     now, pid = time.monotonic(), os.getpid()
-    if _own_reading is None or _own_reading[1] != pid or now - _own_reading[0] >= OWN_MAX_AGE_S:
-        _own_reading = (now, pid, _read_cpu_time(pid))
+    if _own_reading is None or _own_reading[1].pid != pid or now - _own_reading[0] >= OWN_MAX_AGE_S:
+        meter = _own_reading[1] if _own_reading is not None and _own_reading[1].pid == pid else _ProcessMeter(pid)
+        _own_reading = (now, meter, meter.read())
     return _own_reading[2]
 
 
@@ -85,12 +106,16 @@ def recent_processes(pid: int) -> dict[int, Process]:
 def _read_cpu_time(pid: int) -> CpuTime:
     ran = waited = main = 0
     try:
-        for thread in os.listdir(f"/proc/{pid}/task"):
+        threads = os.listdir(f"/proc/{pid}/task")
+    except OSError:  # the process has ended
+        threads = []
+    for thread in threads:
+        try:
             with open(f"/proc/{pid}/task/{thread}/schedstat", "rb") as file:
                 fields = file.read().split()
             ran, waited = max(ran, int(fields[0])), max(waited, int(fields[1]))
             if thread == str(pid):
                 main = int(fields[1])
-    except (OSError, IndexError, ValueError):  # the process ended meanwhile, or this kernel has no such file
-        pass
+        except (OSError, IndexError, ValueError):  # this thread has ended, or this kernel has no such file
+            pass
     return CpuTime(ran * 1e-9, waited * 1e-9, main * 1e-9)
