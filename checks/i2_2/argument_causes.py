@@ -37,10 +37,10 @@ def diagnose_topic(default_run: LaunchRun, seen: LaunchRun, wanted: str) -> Caus
     graph, name, launch_file = seen.trace.graph, _original_topic(default_run), launch(seen.trace)
     senders = [each for each in publishers(graph) if each.topic == wanted]
     receivers = [each for each in subscriptions(graph) if each.topic == wanted]
-    dropped = find_in_files(seen.trace, diagnose_dropped_arguments, lambda file: _diagnose_set_argument(file, "topic"))
+    in_source = _diagnose_in_source(seen, "topic")
     if not senders and not receivers:
         return (
-            dropped
+            in_source
             or _diagnose_altered_topic(launch_file, graph, wanted)
             or _diagnose_ignored_argument(seen, "topic", wanted, default_run)
             or _diagnose_remapping(seen, wanted)
@@ -60,7 +60,7 @@ def diagnose_topic(default_run: LaunchRun, seen: LaunchRun, wanted: str) -> Caus
         stray = [each for each in others if each.node not in {one.node for one in present}] or others
         where = ", ".join(sorted({f"{each.node} {verb} {each.topic}" for each in stray})) or "the other node is missing"
         return (
-            dropped
+            in_source
             or _diagnose_other_namespace(launch_file, stray, wanted)
             or _diagnose_remapping(seen, wanted)
             or Cause(
@@ -104,12 +104,10 @@ def diagnose_namespace(default_run: LaunchRun, seen: LaunchRun) -> Cause:
         )
     within = [each for each in endpoints if each.node.startswith(under)]
     outside = [each for each in endpoints if not each.node.startswith(under)]
-    dropped = find_in_files(
-        seen.trace, diagnose_dropped_arguments, lambda file: _diagnose_set_argument(file, "namespace")
-    )
+    in_source = _diagnose_in_source(seen, "namespace")
     if not within:
         return (
-            dropped
+            in_source
             or _diagnose_ignored_argument(seen, "namespace", namespace)
             or source_causes.diagnose_namespace_argument(launch_file)
             or Cause(
@@ -121,7 +119,7 @@ def diagnose_namespace(default_run: LaunchRun, seen: LaunchRun) -> Cause:
         )
     if outside and not _are_two_nodes(within):
         return (
-            dropped
+            in_source
             or source_causes.diagnose_namespace_argument(launch_file)
             or Cause(
                 "namespace missing on one node",
@@ -301,6 +299,11 @@ def _overridden_rules(seen: LaunchRun) -> Iterator[tuple[str, tuple[str, str]]]:
 
 def _are_two_nodes(endpoints: Sequence[TopicEndpoint]) -> bool:
     return len({each.node for each in endpoints}) > 1
+
+
+def _diagnose_in_source(seen: LaunchRun, name: str) -> Cause | None:
+    """Whether a program drops the arguments of ROS, or the launch file overwrites this one."""
+    return find_in_files(seen.trace, diagnose_dropped_arguments, lambda file: _diagnose_set_argument(file, name))
 
 
 def _diagnose_set_argument(file: NodeFile, name: str) -> Cause | None:
