@@ -32,6 +32,7 @@ from checks.i1_1.facts import (
     has_known_unit,
 )
 from tutor.judge import causes, ending, randomness, tracebacks
+from tutor.judge.causes import callback_slips
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.rewriting.node import find_in_files
 from tutor.judge.rewriting.whole import with_applicable_steps
@@ -254,7 +255,8 @@ def _diagnose_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple
         return cause
     if len(rates_hz) > 1 and max(rates_hz) <= min(rates_hz) * (1 + TOLERANCE):
         return Cause("parameter ignored", f"the rate stays at {rates_hz[0]:.1f} Hz, whatever {wrong.name} says", step)
-    return Cause("wrong rate", f"{wrong}", step)
+    unused = find_in_files(wrong.trace, callback_slips.diagnose_unused_group)
+    return unused or Cause("wrong rate", f"{wrong}", step)
 
 
 @_with_steps

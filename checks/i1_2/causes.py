@@ -188,10 +188,8 @@ def diagnose_no_summary(trial: Trial) -> Cause:
     if printed is not None:
         return printed
     if not trial.lines:
-        silent = find_in_files(trace, lambda file: slips.diagnose_raised_level(file, Level.FATAL)) or diagnose_unserved(
-            trace
-        )
-        if silent is not None:
+        raised = find_in_files(trace, lambda file: slips.diagnose_raised_level(file, Level.FATAL))
+        if (silent := raised or diagnose_unserved(trace)) is not None:
             return silent
     return Cause(
         "no summary",

@@ -44,3 +44,40 @@ def test_a_loop_in_a_callback() -> None:
     assert found is not None
     assert "line 12: tick repeats by itself" in found.text
     assert callback_slips.diagnose_loop_in_callback(node("time.sleep(1)"), program) is None
+
+
+GROUPED = """\
+class Sensors(Node):
+    def __init__(self):
+        super().__init__('sensors')
+        self.group = {}()
+        self.create_timer(0.5, self.publish{})
+        self.create_timer(2.0, self.measure)
+
+
+executor = MultiThreadedExecutor()
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "lines"),
+    [
+        (
+            "ReentrantCallbackGroup",
+            {
+                "line 5 becomes: self.create_timer(0.5, self.publish, callback_group=self.group)",
+                "line 6 becomes: self.create_timer(2.0, self.measure, callback_group=self.group)",
+            },
+        ),
+        (
+            "MutuallyExclusiveCallbackGroup",
+            {"line 5 becomes: self.create_timer(0.5, self.publish, callback_group=self.group)"},
+        ),
+    ],
+)
+def test_a_callback_group_that_no_callback_is_in(kind: str, lines: set[str]) -> None:
+    found = callback_slips.diagnose_unused_group(node_file(GROUPED.format(kind, "")))
+    assert found is not None
+    assert found.text.startswith("line 4: ")
+    assert set(found.hint.splitlines()) == lines
+    assert callback_slips.diagnose_unused_group(node_file(GROUPED.format(kind, ", self.group"))) is None

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Sequence
 
 from tutor.judge.causes import names
-from tutor.judge.edits import Edit, remove_statement, replace_statement
+from tutor.judge.edits import Edit, remove_statement, replace_nodes, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.source import Function, called_name, calls_in
+from tutor.judge.source import Function, called_name, calls_in, where
 from tutor.judge.verdict import Cause
 
 _SHUTDOWNS = "shutdown", "try_shutdown"
@@ -31,6 +32,26 @@ def diagnose_exit_in_callback(file: NodeFile, ended: str) -> Cause | None:
             if (step := file.step([edit])) is not None:
                 text = f"{ended}: line {statement.lineno}, {ast.unparse(statement)}, in {function.name}"
                 return Cause(names.EXIT_AT_ONCE, text, step)
+    return None
+
+
+def diagnose_unused_group(file: NodeFile) -> Cause | None:
+    """Whether a callback group is created for an executor with several threads, but no callback is in it."""
+    timers = [each for each in file.timers if argument(each, 2, "callback_group") is None]
+    if len(timers) < 2 or not file.calls("MultiThreadedExecutor"):
+        return None
+    for made in file.calls("ReentrantCallbackGroup", "MutuallyExclusiveCallbackGroup"):
+        group = file.assigned_to(made)
+        if not group.startswith("self.") or len(re.findall(rf"\b{re.escape(group[5:])}\b", file.text)) > 1:
+            continue
+        moved = timers if called_name(made) == "ReentrantCallbackGroup" else timers[:1]
+        swaps = [(each, f"{ast.unparse(each)[:-1]}, callback_group={group})") for each in moved]
+        step = file.step(replace_nodes(file.text, *swaps))
+        text = (
+            f"{where(made)} creates a callback group for several threads, but no callback is in it: all are in the "
+            "node's own group, where each waits for the others"
+        )
+        return Cause("callback group not used", text, step) if step else None
     return None
 
 
