@@ -15,7 +15,7 @@ from tutor.judge.trace import Trace
 
 COUNT, FIRST, LAST, START, NUMBER = "total_count", "first_message", "last_message", "start_time", "last_number"
 _CLOCKS = ("time", "monotonic", "perf_counter", "now", "time_ns", "monotonic_ns", "perf_counter_ns")
-_LEVELS = ("info", "warn", "warning", "error", "fatal")
+LEVELS = ("info", "warn", "warning", "error", "fatal")
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Listener:
         for function in self.reached:
             is_foreign = self.file.class_of(function) is not self.owner  # its `self` is another object
             for call in (each for each in ast.walk(function) if isinstance(each, ast.Call)):
-                if isinstance(call.func, ast.Attribute) and call.func.attr in _LEVELS:
+                if isinstance(call.func, ast.Attribute) and call.func.attr in LEVELS:
                     logger = ast.unparse(call.func.value)
                     if not (is_foreign and logger.startswith("self.")):
                         return logger

@@ -8,7 +8,7 @@ import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from checks.i1_2.facts import SUMMARY_EVERY
-from checks.i1_2.listener import COUNT, FIRST, LAST, NUMBER, START, Listener, find_listener
+from checks.i1_2.listener import COUNT, FIRST, LAST, LEVELS, NUMBER, START, Listener, find_listener
 from tutor.judge import source
 from tutor.judge.edits import (
     Edit,
@@ -21,6 +21,7 @@ from tutor.judge.edits import (
     remove_statement,
     replace_lines,
     replace_node,
+    replace_statement,
 )
 from tutor.judge.rewriting.node import first_line
 from tutor.judge.source import last_name
@@ -51,10 +52,10 @@ def rewrite_callback(trace: Trace) -> str | None:
         wanted, now = monotonic_clock(listener.text)
         code = _CODE.format(content=listener.content, clock=now, logger=listener.logger, every=SUMMARY_EVERY, **names)
         written = replace_body(listener, declare_variables(listener, names.values(), code))
-        timers = list(_remove_timers(listener))
-        if apply(listener.text, [written, *timers]).split() == listener.text.split():
+        others = [*_remove_timers(listener), *_spin_in_place_of_logging(listener)]
+        if apply(listener.text, [written, *others]).split() == listener.text.split():
             return None
-        edits = [*add_import(listener.text, wanted), *initialise_variables(listener, _INITIAL_VALUES), written, *timers]
+        edits = [*add_import(listener.text, wanted), *initialise_variables(listener, _INITIAL_VALUES), written, *others]
         if found := describe_edits_of(listener.file, edits):
             return found
     return _new_callback(trace)
@@ -104,6 +105,16 @@ def _remove_timers(listener: Listener) -> Iterator[Edit]:
                 yield remove_statement(listener.text, listener.file.statement(call))
             if len(re.findall(rf"\b{name}\b", listener.text)) == 2:
                 yield remove_statement(listener.text, functions[name])
+
+
+def _spin_in_place_of_logging(listener: Listener) -> Iterator[Edit]:
+    """Replace loops that spin the node and log in between: the subscription's callback logs instead."""
+    for loop in (each for each in listener.file.nodes if isinstance(each, ast.While)):
+        for spin in source.calls_in(loop, "spin_once"):
+            logs = any(isinstance(each, ast.Attribute) and each.attr in LEVELS for each in ast.walk(loop))
+            if logs and spin.args and isinstance(spin.func, ast.Attribute):
+                yield replace_statement(loop, f"{ast.unparse(spin.func.value)}.spin({ast.unparse(spin.args[0])})")
+                break
 
 
 def monotonic_clock(text: str) -> tuple[str, str]:

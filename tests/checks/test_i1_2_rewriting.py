@@ -162,6 +162,30 @@ def test_a_timer_that_the_callback_creates_goes_with_its_old_body() -> None:
     assert "def tick" not in fixed
 
 
+def test_a_loop_that_logs_between_two_spins_only_spins() -> None:
+    code = """\
+class Stats(Node):
+    def __init__(self):
+        super().__init__("message_stats")
+        self.total = 0
+        self.create_subscription(String, "chatter", self.count, 10)
+
+    def count(self, msg):
+        self.total += 1
+
+
+rclpy.init()
+stats = Stats()
+while rclpy.ok():
+    for _ in range(10):
+        rclpy.spin_once(stats, timeout_sec=0.1)
+    stats.get_logger().info(f"{stats.total} messages")
+"""
+    fixed = rewrite(code)
+    assert fixed.endswith("stats = Stats()\nrclpy.spin(stats)\n")
+    assert "self.get_logger().info(f'first: " in fixed
+
+
 def test_a_callback_of_another_object_gets_no_logger_of_the_node() -> None:
     code = """\
 class Parser:
