@@ -19,7 +19,7 @@ from checks.i1_3.facts import (
 from checks.i1_3.rewriting import with_applicable_steps
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names, spinning
-from tutor.judge.causes.uncalled import diagnose_uncalled_setup
+from tutor.judge.causes.uncalled import diagnose_awaited_service, diagnose_uncalled_setup
 from tutor.judge.rewriting.callbacks import only_waits, outermost
 from tutor.judge.rewriting.node import find_in_files, node_file, started_node
 from tutor.judge.trace import CallAnswer, Trace
@@ -86,8 +86,9 @@ def _diagnose_missing(trace: Trace, missing: Sequence[str]) -> Cause:
         return destroyed
     if (inactive := causes.diagnose_lifecycle(trace)) is not None:
         return inactive
-    if (uncalled := diagnose_uncalled_setup(started_node(trace), "create_service")) is not None:
-        return uncalled
+    uncalled = diagnose_uncalled_setup(started_node(trace), "create_service")
+    if (unreached := uncalled or diagnose_awaited_service(trace)) is not None:
+        return unreached
     cause = Cause(
         "service missing",
         f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there",

@@ -14,7 +14,7 @@ from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
 from tutor.judge.causes import late_binding, names, slips, spinning
 from tutor.judge.causes.period_slips import diagnose_no_autostart, diagnose_self_cancelling, diagnose_twin_timers
-from tutor.judge.causes.uncalled import diagnose_uncalled_setup
+from tutor.judge.causes.uncalled import diagnose_awaited_service, diagnose_uncalled_setup
 from tutor.judge.causes.unserved import diagnose_unserved
 from tutor.judge.rewriting.node import NodeFile, file_calling, file_of, find_in_files, started_node
 from tutor.judge.trace import CallAnswer, Trace
@@ -59,6 +59,7 @@ def diagnose_no_service(trace: Trace) -> Cause:
     return (
         elsewhere
         or diagnose_uncalled_setup(_serving_file(trace), "create_service")
+        or diagnose_awaited_service(trace)
         or Cause(
             "service missing",
             f"the node is up, but offers no {SERVICE}",

@@ -9,10 +9,11 @@ import pytest
 from tests.checks.builders import trace
 from tutor.judge.causes import late_binding, parameter_callback_slips, parameter_slips, period_slips, slips
 from tutor.judge.causes.printing import use_node_logger
-from tutor.judge.causes.uncalled import diagnose_uncalled_setup
+from tutor.judge.causes.uncalled import diagnose_awaited_service, diagnose_uncalled_setup
 from tutor.judge.causes.unserved import diagnose_unserved, diagnose_unserved_node
 from tutor.judge.rewriting.node import find_in_files, node_file
 from tutor.judge.trace import Level, Trace
+from tutor.ros_model import Graph, ServiceEndpoint
 
 
 def node(text: str) -> Trace:
@@ -771,3 +772,17 @@ def test_a_sleep_for_the_rest_of_the_period_is_the_loops_own() -> None:
     loop = "def main():\n    while rclpy.ok():\n        publisher.publish(Float64())\n        time.sleep({})\n"
     assert period_slips.diagnose_sleep(node_file(loop.format("left")), 5.0) is None
     assert period_slips.diagnose_sleep(node_file(loop.format("0.5")), 5.0) is not None
+
+
+@pytest.mark.parametrize(
+    "loop", ["while not arm.wait_for_service(timeout_sec=1.0):", "while not arm.service_is_ready():"]
+)
+def test_a_wait_for_a_service_that_nobody_offers(loop: str) -> None:
+    text = f"arm = node.create_client(Trigger, 'arm')\n{loop}\n    print('no arm yet')\n"
+    arm = ServiceEndpoint("/arm", "std_srvs/srv/Trigger", "/n", "reliable")
+    seen = replace(node(text), graph=Graph(("/n",), clients=(arm,)))
+    found = diagnose_awaited_service(seen)
+    assert found is not None
+    assert found.text == "line 2 waits for /arm, which nobody offers, before it goes on"
+    assert found.hint.startswith("remove lines 2 to 3")
+    assert diagnose_awaited_service(replace(seen, graph=replace(seen.graph, servers=(arm,)))) is None

@@ -12,7 +12,7 @@ from tutor.judge.causes.blocking import diagnose_blocked
 from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
 from tutor.judge.causes.spinning import diagnose_spin_in_constructor, diagnose_untimed_spin_once
-from tutor.judge.causes.uncalled import diagnose_uncalled_setup
+from tutor.judge.causes.uncalled import diagnose_awaited_service, diagnose_uncalled_setup
 from tutor.judge.causes.unserved import diagnose_unserved, diagnose_unserved_node
 from tutor.judge.edits import (
     Edit,
@@ -60,6 +60,7 @@ def diagnose_no_messages(
     return (
         diagnose_spin_in_constructor(file)
         or diagnose_uncalled_setup(file, "create_publisher")
+        or diagnose_awaited_service(trace)
         or Cause(
             "no publisher",
             f"{node_names(trace)} is up, but has no publisher on {topic}",

@@ -1,13 +1,14 @@
-"""Whether a function that makes the node's publishers, services or timers is never called."""
+"""Why the code that makes the node's publishers, services or timers is never reached."""
 
 from __future__ import annotations
 
 import ast
 
-from tutor.judge.edits import Edit, append_to_function, insert_above, insert_after
-from tutor.judge.rewriting.node import NodeFile
+from tutor.judge.edits import Edit, append_to_function, insert_above, insert_after, remove_statement
+from tutor.judge.rewriting.node import NodeFile, node_files
 from tutor.judge.rewriting.program import SPINS
-from tutor.judge.source import Function, called_name
+from tutor.judge.source import Function, called_name, calls_in
+from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
 
@@ -21,6 +22,22 @@ def diagnose_uncalled_setup(file: NodeFile, create: str) -> Cause | None:
         if step is not None:
             text = f"line {call.lineno}: {create}() is in {function.name}(), which nothing calls"
             return Cause("setup not called", text, step)
+    return None
+
+
+def diagnose_awaited_service(trace: Trace) -> Cause | None:
+    """Whether the program waits for a service that nobody offers, before it makes what is missing."""
+    offered = {each.name for each in trace.graph.servers}
+    awaited = sorted({each.name for each in trace.graph.clients if each.name not in offered})
+    if not awaited:
+        return None
+    for file in node_files(trace):
+        for loop in (each for each in file.nodes if isinstance(each, ast.While)):
+            waits = calls_in(loop.test, "wait_for_service", "service_is_ready")
+            step = file.step([remove_statement(file.text, loop)]) if waits else None
+            if step is not None:
+                text = f"line {loop.lineno} waits for {awaited[0]}, which nobody offers, before it goes on"
+                return Cause("waits for a service", text, step)
     return None
 
 

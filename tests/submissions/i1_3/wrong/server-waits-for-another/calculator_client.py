@@ -1,0 +1,1 @@
+../../right/exception-caught/calculator_client.py
