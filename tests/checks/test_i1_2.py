@@ -1375,6 +1375,21 @@ def test_a_loss_is_a_false_alarm_unless_the_machine_may_have_caused_it() -> None
         assert_undecided(judge_jumps(with_delays(jump_trial, 100, **delays), steady_trial))
 
 
+class LosesOneEarly(FakeStats):
+    """Does not receive N = 8, for the same reason."""
+
+    def receive(self, now: float, data: str) -> Iterator[Log]:
+        if data != "Hello World: 8":
+            yield from super().receive(now, data)
+
+
+def test_a_message_that_a_node_may_have_lost_before_a_restart_is_undecided() -> None:
+    restarted, others = restart(LosesOneEarly()), (steady(FakeStats()), jump(FakeStats()))
+    assert_failed(judge_restart(restarted, *others), "wrong count after a restart")
+    assert_failed(judge_restart(with_delays(restarted, 8, cpu_wait_s=0.02), *others), "wrong count after a restart")
+    assert_undecided(judge_restart(with_delays(restarted, 8, cpu_wait_s=0.1), *others))
+
+
 @pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])
 def test_a_warning_about_one_gap_does_not_cover_the_other(cpu_wait_s: float) -> None:
     jump_trial = jump_twice(SkipsTheFirstGap(), cpu_wait_s=cpu_wait_s)
