@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from tutor import bundled_ros
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import detect, learner_env
 
@@ -231,7 +232,8 @@ def test_remapped_talker_and_listener_communicate(
         assert "[robot1.listener]" in read_until(listener, "I heard: [Hello World: ")
         for process in (talker, listener):
             os.killpg(process.pid, signal.SIGINT)
-            assert process.wait(LIMIT_S) == 0
+            rest, _ = process.communicate(timeout=LIMIT_S)
+            assert process.returncode == 0, rest
     assert not list((tmp_path / "log").rglob("ros2-overlay*"))
 
 
@@ -269,3 +271,17 @@ def test_ros_tutor_ros2_runs_our_ros2(tmp_path: Path, env: dict[str, str]) -> No
     assert "'word':" in tutor("launch", "my_launch.py", "--show-args").stdout
     assert tutor("topik").returncode == 2
     assert tutor().stdout.startswith("usage: ros2")
+
+
+@pytest.mark.parametrize(("before", "code"), [("rclpy.try_shutdown()", 0), ("pass", 1)])
+def test_an_error_of_rclpy_that_follows_from_ctrl_c_is_no_failure(env: dict[str, str], before: str, code: int) -> None:
+    nodes = Path(bundled_ros.__file__).parent / "demo/nodes.py"
+    program = (
+        "import runpy, sys, rclpy\n"
+        f"def spin(node):\n    {before}\n    raise RuntimeError('the given context is not valid')\n"
+        "rclpy.spin = spin\nsys.argv = ['', 'demo_nodes_py', 'talker']\n"
+        f"runpy.run_path({str(nodes)!r}, run_name='__main__')\n"
+    )
+    command = [sys.executable, "-c", program]
+    ran = subprocess.run(command, env=env, capture_output=True, text=True, timeout=LIMIT_S, check=False)
+    assert ran.returncode == code, ran.stderr

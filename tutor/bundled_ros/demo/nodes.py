@@ -14,7 +14,7 @@ from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
-from rclpy.utilities import try_shutdown
+from rclpy.utilities import ok, try_shutdown
 from std_msgs.msg import String
 
 # How the two packages' talkers differ: the first count, the queue depth, the quotes in the log, and the timer's clock.
@@ -61,6 +61,9 @@ def main() -> None:
         rclpy.spin(Talker(package) if program == "talker" else Listener())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except RuntimeError:  # rclpy's own: Ctrl+C shut the context down just before a call that needs it
+        if ok():
+            raise
     finally:
         try_shutdown()
 
