@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import re
 from collections.abc import Iterator, Sequence
 
@@ -20,9 +19,6 @@ from checks.i2_2.facts import (
 )
 from checks.i2_2.launch_file import Launch, launch
 from checks.i2_2.processes import ended_processes
-from tutor.judge.causes.parameter_slips import diagnose_dropped_arguments
-from tutor.judge.edits import remove_lines
-from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.verdict import Cause
 from tutor.ros_model import Graph, TopicEndpoint
 
@@ -37,7 +33,7 @@ def diagnose_topic(default_run: LaunchRun, seen: LaunchRun, wanted: str) -> Caus
     graph, name, launch_file = seen.trace.graph, _original_topic(default_run), launch(seen.trace)
     senders = [each for each in publishers(graph) if each.topic == wanted]
     receivers = [each for each in subscriptions(graph) if each.topic == wanted]
-    in_source = _diagnose_in_source(seen, "topic")
+    in_source = source_causes.diagnose_in_source(seen, "topic")
     if not senders and not receivers:
         return (
             in_source
@@ -104,7 +100,7 @@ def diagnose_namespace(default_run: LaunchRun, seen: LaunchRun) -> Cause:
         )
     within = [each for each in endpoints if each.node.startswith(under)]
     outside = [each for each in endpoints if not each.node.startswith(under)]
-    in_source = _diagnose_in_source(seen, "namespace")
+    in_source = source_causes.diagnose_in_source(seen, "namespace")
     if not within:
         return (
             in_source
@@ -299,26 +295,3 @@ def _overridden_rules(seen: LaunchRun) -> Iterator[tuple[str, tuple[str, str]]]:
 
 def _are_two_nodes(endpoints: Sequence[TopicEndpoint]) -> bool:
     return len({each.node for each in endpoints}) > 1
-
-
-def _diagnose_in_source(seen: LaunchRun, name: str) -> Cause | None:
-    """Whether a program drops the arguments of ROS, or the launch file overwrites this one."""
-    return find_in_files(seen.trace, diagnose_dropped_arguments, lambda file: _diagnose_set_argument(file, name))
-
-
-def _diagnose_set_argument(file: NodeFile, name: str) -> Cause | None:
-    """Whether the launch file itself sets the argument to a constant."""
-    for call in file.calls("SetLaunchConfiguration"):
-        given = [*call.args, *(each.value for each in call.keywords if each.arg in ("name", "value"))]
-        has_condition = any(each.arg == "condition" for each in call.keywords)
-        values = [each.value for each in given if isinstance(each, ast.Constant)]
-        lines = file.text.splitlines()[call.lineno - 1 : call.end_lineno]
-        alone = lines[0].strip().startswith("SetLaunchConfiguration(") and lines[-1].rstrip().endswith("),")
-        if len(values) != 2 or values[0] != name or has_condition or not alone:
-            continue
-        step = file.step([remove_lines(file.text, call.lineno, call.end_lineno or 0)])
-        text = (
-            f"line {call.lineno} sets {name} for all that is evaluated from then on, such as actions of event handlers"
-        )
-        return Cause("argument overwritten", text, step) if step else None
-    return None

@@ -7,10 +7,13 @@ import re
 from collections.abc import Sequence
 
 from checks.i2_2 import steps
+from checks.i2_2.facts import LaunchRun
 from checks.i2_2.launch_file import Launch
 from checks.i2_2.reading import Call, Source
 from checks.i2_2.rewriting import prepend_to_list
-from tutor.judge.edits import replace_nodes
+from tutor.judge.causes.parameter_slips import diagnose_dropped_arguments
+from tutor.judge.edits import remove_lines, replace_nodes
+from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.verdict import Cause
 from tutor.ros_model import Graph
 
@@ -197,3 +200,26 @@ def _value_of(node: ast.AST, name: str) -> ast.expr | None:
         case _:
             return None
     return next((value for key, value in pairs if isinstance(key, ast.Constant) and key.value == name), None)
+
+
+def diagnose_in_source(seen: LaunchRun, name: str) -> Cause | None:
+    """Whether a program drops the arguments of ROS, or the launch file overwrites this one."""
+    return find_in_files(seen.trace, diagnose_dropped_arguments, lambda file: _diagnose_set_argument(file, name))
+
+
+def _diagnose_set_argument(file: NodeFile, name: str) -> Cause | None:
+    """Whether the launch file itself sets the argument to a constant."""
+    for call in file.calls("SetLaunchConfiguration"):
+        given = [*call.args, *(each.value for each in call.keywords if each.arg in ("name", "value"))]
+        has_condition = any(each.arg == "condition" for each in call.keywords)
+        values = [each.value for each in given if isinstance(each, ast.Constant)]
+        lines = file.text.splitlines()[call.lineno - 1 : call.end_lineno]
+        alone = lines[0].strip().startswith("SetLaunchConfiguration(") and lines[-1].rstrip().endswith("),")
+        if len(values) != 2 or values[0] != name or has_condition or not alone:
+            continue
+        step = file.step([remove_lines(file.text, call.lineno, call.end_lineno or 0)])
+        text = (
+            f"line {call.lineno} sets {name} for all that is evaluated from then on, such as actions of event handlers"
+        )
+        return Cause("argument overwritten", text, step) if step else None
+    return None
