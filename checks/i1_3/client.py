@@ -151,10 +151,13 @@ def _diagnose_falsy_zero(file: NodeFile) -> Cause | None:
     for each in file.nodes:
         if not isinstance(each, ast.If | ast.While):
             continue
-        negated = isinstance(each.test, ast.UnaryOp) and isinstance(each.test.op, ast.Not)
-        result = each.test.operand if isinstance(each.test, ast.UnaryOp) and negated else each.test
+        match each.test:
+            case ast.UnaryOp(op=ast.Not(), operand=result):
+                comparison = "is"
+            case result:
+                comparison = "is not"
         if (isinstance(result, ast.Attribute) and result.attr == "sum") or ast.unparse(result) in results:
-            right = f"{ast.unparse(result)} is {'' if negated else 'not '}None"
+            right = f"{ast.unparse(result)} {comparison} None"
             step = file.step([edits.replace_node(file.text, each.test, right)])
             text = f"line {each.lineno} takes the result 0 for none: the number 0 counts as false"
             return Cause("zero is false", text, step) if step else None

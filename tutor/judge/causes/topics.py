@@ -13,7 +13,7 @@ from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
 from tutor.judge.causes.spinning import diagnose_spin_in_constructor, diagnose_untimed_spin_once
 from tutor.judge.causes.uncalled import diagnose_awaited_service, diagnose_uncalled_setup
-from tutor.judge.causes.unserved import diagnose_unserved, diagnose_unserved_node
+from tutor.judge.causes.unserved import diagnose_unserved
 from tutor.judge.edits import (
     Edit,
     append_to_function,
@@ -77,18 +77,19 @@ def _diagnose_idle_publisher(trace: Trace, topic: str, step: str) -> Cause:
 
 def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause | None:
     """Whether the source shows why an existing publisher never sends anything: nothing calls it, or too rarely."""
-    slip = find_in_files(
-        trace,
-        period_slips.diagnose_period_unit,
-        period_slips.diagnose_milliseconds,
-        period_slips.diagnose_no_autostart,
-        slips.diagnose_simulated_time,
-        diagnose_unserved_node,
-        diagnose_spin_in_constructor,
-        diagnose_untimed_spin_once,
+    slip = (
+        find_in_files(
+            trace,
+            period_slips.diagnose_period_unit,
+            period_slips.diagnose_milliseconds,
+            period_slips.diagnose_no_autostart,
+            slips.diagnose_simulated_time,
+        )
+        or diagnose_unserved(trace)
+        or find_in_files(trace, diagnose_spin_in_constructor, diagnose_untimed_spin_once)
     )
     file = started_node(trace)
-    if (cause := slip or diagnose_unserved(trace) or diagnose_uncalled_setup(file, "create_timer")) is not None:
+    if (cause := slip or diagnose_uncalled_setup(file, "create_timer")) is not None:
         return cause
     if file.publisher and not file.calls("publish"):
         text = f"there is a publisher on {topic}, but nothing calls publish()"

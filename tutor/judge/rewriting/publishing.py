@@ -18,9 +18,9 @@ def send_data(file: NodeFile, code: str, *, message_class: str = "") -> list[Edi
     if file.timer_callback is None:
         return []
     within = file.reachable_from(file.timer_callback)
-    found = [
-        each for each in _data_expressions(file, within) if not message_class or _may_be(file, each, message_class)
-    ]
+    found = list(_data_expressions(file, within))
+    if message_class:
+        found = [each for each in found if _may_belong_to(file, each, message_class)]
     if found:
         return [_replace_data(file, expression, code) for expression in found]
     sent = [each for each in file.calls("publish") if file.function_around(each) in within and each.args]
@@ -46,7 +46,7 @@ def _data_expressions(file: NodeFile, within: list[Function]) -> Iterator[ast.ex
                 yield value
 
 
-def _may_be(file: NodeFile, data: ast.expr, message_class: str) -> bool:
+def _may_belong_to(file: NodeFile, data: ast.expr, message_class: str) -> bool:
     """Whether this value of `message.data` may belong to a message of this class, as far as its function shows."""
     statement, function = file.statement(data), file.function_around(data)
     if not isinstance(statement, ast.Assign) or not isinstance(statement.targets[0], ast.Attribute):
