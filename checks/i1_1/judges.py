@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 
+from checks.i1_1 import causes as i1_1_causes
 from checks.i1_1 import steps
 from checks.i1_1.facts import (
     HIGHEST,
@@ -15,7 +13,6 @@ from checks.i1_1.facts import (
     MAX_COLLECT_S,
     MIN_VALUES,
     SUGGESTED_NAME,
-    SUGGESTED_RATE,
     TOPIC,
     TYPE,
     CollectedValues,
@@ -23,7 +20,6 @@ from checks.i1_1.facts import (
     PlainStart,
     RateProbe,
     RateProbes,
-    are_inverted,
     count_agreeing,
     find_agreeing_groups,
     find_inverted_probes,
@@ -31,27 +27,11 @@ from checks.i1_1.facts import (
     group_probes,
     has_known_unit,
 )
-from tutor.judge import causes, ending, randomness, tracebacks
-from tutor.judge.causes import callback_slips
+from tutor.judge import causes, ending, randomness
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.node import find_in_files
 from tutor.judge.rewriting.whole import with_applicable_steps
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Verdict, failed, passed
-from tutor.ros_model import Parameter
-
-
-def _diagnose_exception(trace: Trace | None) -> Cause | None:
-    """Diagnose the exception that ended the node: it says more than the messages that went missing because of it."""
-    return (
-        causes.diagnose_process(trace) if trace is not None and tracebacks.last_traceback(trace) is not None else None
-    )
-
-
-def _diagnose_stopped(trace: Trace | None) -> Cause:
-    step = steps.add_publisher(trace) or "publish from a timer's callback"
-    text = "the node stops publishing, or publishes far too rarely"
-    return _diagnose_exception(trace) or Cause("no messages", text, step)
 
 
 def _traces(*facts: PlainStart | CollectedValues | RateProbes | NameProbes) -> list[Trace]:
@@ -86,7 +66,7 @@ def judge_publishes(seen: PlainStart) -> Verdict:
 def judge_range(found: CollectedValues, more: CollectedValues) -> Verdict:
     expected = f"every value in [{LOWEST}, {HIGHEST}] °C"
     if not found.all:
-        return failed(expected, "no values at all", _diagnose_stopped(found.trace))
+        return failed(expected, "no values at all", i1_1_causes.diagnose_stopped(found.trace))
     values = (*found.all, *more.all)
     wrong = find_out_of_range(values)
     if not wrong:
@@ -94,36 +74,16 @@ def judge_range(found: CollectedValues, more: CollectedValues) -> Verdict:
     return failed(
         expected,
         f"{len(wrong)} of {len(values)} values outside, such as {wrong[0]:g}",
-        _diagnose_range(wrong, values, found.trace),
+        i1_1_causes.diagnose_range(wrong, values, found.trace),
         [f"data: {value!r}" for value in wrong[:5]],
     )
 
 
 def judge_range_so_far(found: CollectedValues) -> Verdict | None:
     """Judge `range` by the values so far; None while a few Fahrenheit-like ones do not yet show what all look like."""
-    if len(found.all) < MIN_VALUES and all(map(_is_fahrenheit, found.all)):
+    if len(found.all) < MIN_VALUES and all(map(i1_1_causes.is_fahrenheit, found.all)):
         return None
     return judge_range(found, CollectedValues(()))
-
-
-def _is_fahrenheit(value: float) -> bool:
-    return 60 <= value <= 90
-
-
-def _diagnose_range(wrong: Sequence[float], values: Sequence[float], trace: Trace | None) -> Cause:
-    if all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
-        return Cause(
-            "an int in a float field",
-            "Float64.data got a Python int, or an array: its bits are sent as if they were a float",
-            steps.make_float(trace),
-        )
-    if all(map(_is_fahrenheit, values)):
-        return Cause("out of range", "these look like degrees Fahrenheit", steps.draw_values(trace))
-    if len(set(wrong)) == 1 and trace is not None:
-        initial = find_in_files(trace, partial(steps.diagnose_initial_value, value=wrong[0]))
-        if initial is not None:
-            return initial
-    return Cause("out of range", "values leave the range", steps.draw_values(trace))
 
 
 @_with_steps
@@ -142,7 +102,9 @@ def judge_random(found: CollectedValues) -> Verdict:
         )
     longest = max(found.runs, key=len)
     if len(longest) < 3:
-        return failed(expected, f"only {len(longest)} values in {MAX_COLLECT_S:g} s", _diagnose_stopped(found.trace))
+        return failed(
+            expected, f"only {len(longest)} values in {MAX_COLLECT_S:g} s", i1_1_causes.diagnose_stopped(found.trace)
+        )
     return passed(expected, f"{len(longest)} values, no pattern", [f"data: {value:g}" for value in longest[:5]])
 
 
@@ -169,7 +131,7 @@ def judge_echo(seen: PlainStart) -> Verdict:
     expected = f"`ros2 topic echo {TOPIC}` shows the values"
     echo = seen.echo
     if echo is None:  # the first message came after the wait for it had timed out
-        return failed(expected, "the first message came too late", _diagnose_stopped(seen.trace))
+        return failed(expected, "the first message came too late", i1_1_causes.diagnose_stopped(seen.trace))
     # A subscription counts, too: the real echo takes the type from all that is on the topic, and refuses two.
     graph = seen.trace.graph
     found = {each.type for each in (*graph.publishers, *graph.subscriptions) if each.topic == TOPIC}
@@ -187,7 +149,7 @@ def judge_echo(seen: PlainStart) -> Verdict:
             [f"data: {echo.samples[0].message['data']}"],
         )
     if not echo.types:
-        cause = _diagnose_exception(seen.trace) or Cause(
+        cause = i1_1_causes.diagnose_exception(seen.trace) or Cause(
             "no publisher", "the publisher was gone when echo looked for it", "keep it for as long as the node lives"
         )
     else:
@@ -206,7 +168,7 @@ def judge_rate(found: RateProbes) -> Verdict:
     for group in find_agreeing_groups(found.probes):
         return passed(expected, f"{group[0].name} is read in {group[0].unit}", [str(probe) for probe in group])
     if not found.probes:
-        return failed(expected, "no numeric parameter is declared", _diagnose_undeclared_rate(None))
+        return failed(expected, "no numeric parameter is declared", i1_1_causes.diagnose_undeclared_rate(None))
     declared = {parameter.name for parameter in found.declared or ()}
 
     def likelihood(group: Sequence[RateProbe]) -> tuple[bool, int, int]:
@@ -223,40 +185,11 @@ def judge_rate(found: RateProbes) -> Verdict:
         )
         return failed(expected, f"{nearest[0]}; no other value is allowed", cause)
     return failed(
-        expected, str(wrong), _diagnose_rate(nearest, wrong, found.declared), [str(probe) for probe in nearest]
+        expected,
+        str(wrong),
+        i1_1_causes.diagnose_rate(nearest, wrong, found.declared),
+        [str(probe) for probe in nearest],
     )
-
-
-def _diagnose_undeclared_rate(trace: Trace | None) -> Cause:
-    step = steps.declare_rate(trace, SUGGESTED_RATE)
-    return Cause("parameter not declared", "the rate cannot be set from outside", step)
-
-
-def _diagnose_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Parameter, ...] | None) -> Cause:
-    if (truncated := steps.diagnose_whole_rate(wrong.trace, wrong.name)) is not None:
-        return truncated
-    broken = causes.diagnose_process(wrong.trace)
-    if broken is not None:
-        return broken
-    if declared is not None and wrong.name not in {parameter.name for parameter in declared}:
-        return _diagnose_undeclared_rate(wrong.trace)
-    step = steps.set_timer_period(wrong.trace, wrong.name, wrong.unit)
-    if wrong.rate is not None and wrong.rate.in_bursts:
-        return steps.diagnose_timer_loop(wrong.trace) or causes.diagnose_bursts(step)
-    measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
-    if are_inverted(group):
-        if wrong.unit == "Hz":
-            return causes.diagnose_rate_as_period(wrong.name, step)
-        return causes.diagnose_period_as_rate(wrong.name, step)
-    rates_hz = [rate.hz for _, rate in measured]
-    if (
-        cause := causes.diagnose_same_name(wrong.trace) or steps.diagnose_rate(wrong.trace, wrong.name, wrong.asked_hz)
-    ) is not None:
-        return cause
-    if len(rates_hz) > 1 and max(rates_hz) <= min(rates_hz) * (1 + TOLERANCE):
-        return Cause("parameter ignored", f"the rate stays at {rates_hz[0]:.1f} Hz, whatever {wrong.name} says", step)
-    unused = find_in_files(wrong.trace, callback_slips.diagnose_unused_group)
-    return unused or Cause("wrong rate", f"{wrong}", step)
 
 
 @_with_steps
@@ -278,31 +211,7 @@ def judge_name(found: NameProbes) -> Verdict:
         )
     evidence = [str(log) for log in probe.trace.logs[-5:]]
     observed = f"{probe.name}:={probe.value} is in none of {len(probe.trace.logs)} log messages"
-    return failed(expected, observed, _diagnose_name(found), evidence)
-
-
-def _diagnose_name(found: NameProbes) -> Cause:
-    for probe in found.probes:
-        broken = causes.diagnose_process(probe.trace) or causes.diagnose_lifecycle(probe.trace)
-        if broken is not None:
-            return broken
-        contains_value = re.compile(re.escape(probe.value)).search
-        printed = causes.diagnose_printed(probe.trace, contains_value, "the name", after=probe.at_end)
-        if printed is not None:
-            return printed
-    if found.declared is None:
-        return Cause(
-            "parameter not declared",
-            f"the node answers no parameter call, and {SUGGESTED_NAME} has no effect",
-            steps.declare_name(found.probes[0].trace, SUGGESTED_NAME),
-        )
-    silent = next(
-        (each.trace for each in found.probes if not each.trace.logs and not each.trace.samples_on(TOPIC)), None
-    )
-    if silent is not None and any(each.topic == TOPIC for each in silent.graph.publishers):
-        return causes.diagnose_no_messages(silent, TOPIC, TYPE, answers=True, step=steps.add_publisher(silent))
-    declared = [probe for probe in found.probes if probe.name in {parameter.name for parameter in found.declared}]
-    return steps.diagnose_name(found.probes[0].trace, (declared or found.probes)[0].name)
+    return failed(expected, observed, i1_1_causes.diagnose_name(found), evidence)
 
 
 def judge_shutdown(seen: PlainStart) -> Verdict:

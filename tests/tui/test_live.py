@@ -48,7 +48,7 @@ class Watcher(Person[LiveApp]):
 def thermometer_world() -> Iterator[PrivateDomain]:
     """A domain with the thermometer on it."""
     with private_domain() as ros_world:
-        ros_world.run(THERMOMETER)
+        ros_world.run(THERMOMETER, "10")
         yield ros_world
 
 
@@ -69,12 +69,31 @@ async def watching(ros_world: PrivateDomain, size: tuple[int, int] = (80, 20)) -
             await app.pane.close_down()
 
 
-async def test_a_topic_followed_with_enter_shows_its_echo_statistics_and_a_plot(
+async def test_the_cursor_shows_the_focus_and_enter_follows_a_topic_with_echo_statistics_and_plot(
     thermometer_world: PrivateDomain,
 ) -> None:
     async with watching(thermometer_world) as me:
-        await me.sees("Topics 3", "/sensor/temperature", "std_msgs/Float64", "1 node")
-        await me.press("down", "down")
+        blurred, focused = (
+            Color.parse(me.app.theme_variables[name]).rich_color.triplet
+            for name in ("block-cursor-blurred-background", "block-cursor-background")
+        )
+
+        def cursor_color() -> object:
+            line = next(strip for strip in me.app.screen._compositor.render_strips() if "/cmd_vel" in strip.text)
+            segment = next(segment for segment in line if "/cmd_vel" in segment.text)
+            return segment.style and segment.style.bgcolor and segment.style.bgcolor.triplet
+
+        await me.sees("Topics 3", "/cmd_vel", "/sensor/temperature", "std_msgs/Float64", "1 node")
+        await me.press("down")
+        await me.until(lambda: cursor_color() == focused, "the list has the focus")
+        await me.press("right_square_bracket")
+        await me.sees("Allowed")
+        await me.open_tab("Topics")  # the focus changes while the list is hidden
+        await me.until(lambda: cursor_color() == blurred, "the tabs have the focus")
+        await me.press("tab")
+        await me.until(lambda: cursor_color() == focused, "the list has the focus again")
+
+        await me.press("down")
         await me.sees("Not followed: press Enter")
         await me.press("enter")
         await me.sees("messages · ", "Hz · jitter", "data: 2", "---", "reliable, volatile", "10 s ago", "┤")
@@ -84,7 +103,7 @@ async def test_a_topic_followed_with_enter_shows_its_echo_statistics_and_a_plot(
         await me.sees("Not followed: press Enter")
 
 
-async def test_a_paused_topic_freezes_its_view_and_keeps_counting(
+async def test_a_paused_topic_freezes_its_view_and_keeps_counting_and_any_numeric_field_can_be_plotted(
     thermometer_world: PrivateDomain, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     counts: list[int] = []
@@ -113,52 +132,6 @@ async def test_a_paused_topic_freezes_its_view_and_keeps_counting(
             lambda: counts[-1] > 0 and any(after < former for former, after in pairwise(counts)), "counting restarts"
         )
 
-
-async def test_messages_received_while_another_tab_is_open_are_in_the_list_afterwards(
-    empty_world: PrivateDomain,
-) -> None:
-    async with watching(empty_world) as me:
-        await me.sees("No node runs")
-        me.topics().follow("/ticks")
-        empty_world.run(METRONOME, "100", "300")
-        await me.sees("/ticks", " messages · ")
-        await me.press("right_square_bracket")
-        await me.sees("Allowed")
-        await me.until(lambda: me.message_count() == 300, "all have arrived")
-        await me.press("left_square_bracket")
-        await me.sees("300 messages · ")
-        await me.until(lambda: any("/ticks" in line and " 300 " in line for line in me.screen().splitlines()))
-
-
-async def test_the_cursor_of_a_list_shows_its_focus_even_if_that_changed_while_hidden(
-    thermometer_world: PrivateDomain,
-) -> None:
-    async with watching(thermometer_world) as me:
-        blurred, focused = (
-            Color.parse(me.app.theme_variables[name]).rich_color.triplet
-            for name in ("block-cursor-blurred-background", "block-cursor-background")
-        )
-
-        def cursor_color() -> object:
-            line = next(strip for strip in me.app.screen._compositor.render_strips() if "/cmd_vel" in strip.text)
-            segment = next(segment for segment in line if "/cmd_vel" in segment.text)
-            return segment.style and segment.style.bgcolor and segment.style.bgcolor.triplet
-
-        await me.sees("Topics 3", "/cmd_vel")
-        await me.press("down")
-        await me.until(lambda: cursor_color() == focused, "the list has the focus")
-        await me.press("right_square_bracket")
-        await me.sees("Allowed")
-        await me.open_tab("Topics")
-        await me.until(lambda: cursor_color() == blurred, "the tabs have the focus")
-        await me.press("tab")
-        await me.until(lambda: cursor_color() == focused, "the list has the focus again")
-
-
-async def test_any_numeric_field_can_be_plotted(thermometer_world: PrivateDomain) -> None:
-    async with watching(thermometer_world) as me:
-        await me.sees("/cmd_vel")
-        me.topics().follow("/cmd_vel")
         await me.sees("linear.x = ", "1 of 6")
         await me.press("y", "y")
         await me.sees("linear.z = 0", "3 of 6")
@@ -166,15 +139,6 @@ async def test_any_numeric_field_can_be_plotted(thermometer_world: PrivateDomain
         await me.sees("30 s ago")
         await me.press("minus", "minus")
         await me.sees("5 s ago")
-
-
-async def test_the_lessons_topic_and_service_are_selected_automatically(thermometer_world: PrivateDomain) -> None:
-    async with watching(thermometer_world) as me:
-        me.app.pane.set_lesson(load_course().find("i1.1"))
-        await me.sees("/sensor/temperature", "data: 2")
-        me.app.pane.set_lesson(load_course().find("i1.3"))
-        await me.open_tab("Services")
-        await me.sees("/add  example_interfaces/AddTwoInts", "a int64", "b int64")
 
 
 async def test_a_parameter_is_set_in_the_table_and_the_nodes_response_is_kept(thermometer_world: PrivateDomain) -> None:
@@ -197,42 +161,37 @@ async def test_a_parameter_is_set_in_the_table_and_the_nodes_response_is_kept(th
         await me.sees("serial is read-only")
 
 
-async def test_a_parameter_that_the_node_changes_itself_is_updated(thermometer_world: PrivateDomain) -> None:
+async def test_the_lessons_topic_and_service_are_selected_and_a_call_by_form_shows_the_response_and_its_time(
+    thermometer_world: PrivateDomain,
+) -> None:
     async with watching(thermometer_world) as me:
-        await me.sees("Services 2")
+
+        def calls_parameter() -> object:
+            return {each.name: each.value for each in me.app.pane.state.listed_parameters()}["calls"]
+
+        me.app.pane.set_lesson(load_course().find("i1.1"))
+        await me.sees("/sensor/temperature", "data: 2")
         await me.open_tab("Parameters")
         await me.sees("calls")
-        before = {each.name: each.value for each in me.app.pane.state.listed_parameters()}
+        before = calls_parameter()
+        assert isinstance(before, int)
+        me.app.pane.set_lesson(load_course().find("i1.3"))
         await me.open_tab("Services")
+        await me.sees("/add  example_interfaces/AddTwoInts", "a int64", "b int64")
         me.app.pane.focus_content()
         await me.press("enter")
-        await me.sees("a int64")
-        await me.press("enter")
-        await me.sees("sum: 0")
-        await me.open_tab("Parameters")
-        await me.until(
-            lambda: (
-                {each.name: each.value for each in me.app.pane.state.listed_parameters()}["calls"]
-                == before["calls"] + 1
-            )
-        )
-        await me.sees("calls")
-
-
-async def test_a_service_is_called_by_its_form_and_the_response_time_is_shown(thermometer_world: PrivateDomain) -> None:
-    async with watching(thermometer_world) as me:
-        await me.sees("Services 2")
-        await me.open_tab("Services")
-        me.app.pane.focus_content()
-        await me.press("enter")
-        await me.sees("a int64", "b int64")
         await me.press(*"4.5", "enter")
         await me.sees("✗ Write a whole number")
         await me.press("backspace", "backspace", "tab", *"38", "enter")
         await me.sees("✓", "/add a=4, b=38", "answered in", "sum: 42")
+        await me.open_tab("Parameters")  # the node has changed one itself
+        await me.until(lambda: calls_parameter() == before + 1)
+        await me.sees("calls")
 
 
-async def test_a_slow_call_blocks_nothing_and_can_be_cancelled(thermometer_world: PrivateDomain) -> None:
+async def test_a_slow_call_blocks_nothing_and_can_be_cancelled_or_times_out(
+    thermometer_world: PrivateDomain, monkeypatch: pytest.MonkeyPatch
+) -> None:
     async with watching(thermometer_world) as me:
         await me.sees("Services 2")
         await me.open_tab("Services")
@@ -248,39 +207,63 @@ async def test_a_slow_call_blocks_nothing_and_can_be_cancelled(thermometer_world
         await me.press("escape")
         await me.sees("■", "cancelled after")
 
-
-async def test_a_call_without_a_response_times_out_with_a_message(
-    thermometer_world: PrivateDomain, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(services_panel, "CALL_TIMEOUT_S", 0.5)
-    async with watching(thermometer_world) as me:
-        await me.sees("Services 2")
+        monkeypatch.setattr(services_panel, "CALL_TIMEOUT_S", 0.5)
         panel = me.app.pane.query_one(ServicesPanel)
-        await me.open_tab("Services")
-        await panel.choose(next(each for each in panel._listed if each.name == "/slow_add"))
-        await me.sees("a int64")
         panel.action_call()
         await me.until(lambda: "no answer within 0.5 s: does the node spin" in panel.query_one(HistoryView).plain)
 
 
-@pytest.mark.parametrize("size", [(80, 20), (120, 40)])
-async def test_the_graph_explains_why_two_nodes_are_not_connected(
-    thermometer_world: PrivateDomain, size: tuple[int, int]
-) -> None:
-    async with watching(thermometer_world, size) as me:
+async def test_the_graph_explains_why_two_nodes_are_not_connected_in_any_size(thermometer_world: PrivateDomain) -> None:
+    async with watching(thermometer_world) as me:
         await me.sees("Graph ✗ 1")
         await me.open_tab("Graph")
         await me.sees("──✗", "not connected", "reliability best_effort", "──▶")
+        await me.pilot.resize_terminal(120, 40)
+        await me.sees("──✗", "not connected", "reliability best_effort", "──▶")
 
 
-async def test_on_an_empty_domain_the_page_says_what_to_do_and_nodes_come_and_go(empty_world: PrivateDomain) -> None:
-    async with watching(empty_world) as me:
+async def test_from_an_empty_domain_a_node_comes_with_the_lessons_plot_and_goes_with_topics_of_other_lessons(
+    empty_world: PrivateDomain,
+) -> None:
+    async with watching(empty_world, (120, 30)) as me:
         await me.sees(f"No node runs in domain {empty_world.domain}: press r to run yours")
         me.app.pane.set_lesson(load_course().find("i1.1"))
-        node = await asyncio.to_thread(empty_world.run, THERMOMETER)
+        node = await asyncio.to_thread(empty_world.run, THERMOMETER, "2")
         await me.sees("data: 2", "1 node")
+        await me.sees("asked: 20 to 30", "•", "╌╌╌", "30┤", "20┤")  # samples and the required range
+        me.app.pane.set_lesson(load_course().find("i1.2"))
+        await me.until(lambda: me.topics().chosen == "/chatter")
+        await me.sees("/sensor/temperature", "data: warm")
         await asyncio.to_thread(empty_world.interrupt, node)
-        await me.sees("No node runs in domain", "silent for", "0 nodes")
+        await me.sees_no("/sensor/temperature")
+        await me.sees("No node runs in domain", "/chatter", "silent for", "0 nodes")
+
+
+async def test_messages_received_while_another_tab_is_open_are_counted_and_kept_to_scroll_back_to(
+    empty_world: PrivateDomain,
+) -> None:
+    count = 20
+    async with watching(empty_world) as me:
+        await me.sees("No node runs")
+        me.topics().follow("/ticks")
+        await asyncio.to_thread(empty_world.run, METRONOME, "4", str(count))
+        await me.sees("/ticks", " messages · ")
+        await me.press("right_square_bracket")
+        await me.sees("Allowed")
+        await me.until(lambda: me.message_count() == count, "all have arrived")
+        await me.press("left_square_bracket")
+        await me.sees(f"{count} messages · ")
+        await me.until(lambda: any("/ticks" in line and f" {count} " in line for line in me.screen().splitlines()))
+
+        echo = me.topics().query_one(EchoView)
+        await me.until(lambda: echo.plain.count("---") >= count - 2, "all are kept")
+        await me.until(lambda: echo.is_vertical_scroll_end, "the newest is shown")
+        echo.focus()
+        await me.press("home")
+        await me.until(lambda: echo.scroll_offset.y == 0)
+        assert "data: 0" in echo.plain
+        await me.press("end")
+        await me.until(lambda: echo.is_vertical_scroll_end)
 
 
 async def test_my_nodes_topic_is_followed_automatically_but_not_once_it_was_unfollowed(
@@ -294,7 +277,7 @@ async def test_my_nodes_topic_is_followed_automatically_but_not_once_it_was_unfo
         await me.sees("/ticks  std_msgs/", "messages · ", "Hz")
         await me.press("delete")
         await me.sees("Not followed: press Enter")
-        await asyncio.to_thread(empty_world.run, THERMOMETER)
+        await asyncio.to_thread(empty_world.run, THERMOMETER, "5")
         await me.sees("/cmd_vel")
         assert "/ticks" not in me.app.pane.state.topics
         assert "/sensor/temperature" in me.app.pane.state.topics
@@ -305,7 +288,7 @@ async def test_a_misspelled_topic_name_is_reported_with_its_node(empty_world: Pr
         await me.sees("No node runs")
         me.app.pane.set_lesson(load_course().find("i1.1"))
         misspelling = ("--ros-args", "-r", "/sensor/temperature:=/sensor/temprature")
-        node = await asyncio.to_thread(empty_world.run, THERMOMETER, "20", *misspelling)
+        node = await asyncio.to_thread(empty_world.run, THERMOMETER, "5", *misspelling)
         await me.sees("/thermometer publishes /sensor/temprature; the exercise asks for /sensor/temperature. Did you")
         me.app.pane.set_lesson(load_course().find("i1.3"))
         await me.sees_no("Did you mean")
@@ -315,47 +298,10 @@ async def test_a_misspelled_topic_name_is_reported_with_its_node(empty_world: Pr
         await me.sees_no("Did you mean")
 
 
-async def test_topics_of_a_previous_lesson_disappear_with_their_publisher(empty_world: PrivateDomain) -> None:
-    async with watching(empty_world) as me:
-        me.app.pane.set_lesson(load_course().find("i1.1"))
-        node = await asyncio.to_thread(empty_world.run, THERMOMETER)
-        await me.sees("data: 2")
-        me.app.pane.set_lesson(load_course().find("i1.2"))
-        await me.until(lambda: me.topics().chosen == "/chatter")
-        await me.sees("/sensor/temperature")
-        await asyncio.to_thread(empty_world.interrupt, node)
-        await me.sees_no("/sensor/temperature")
-        await me.sees("No node runs")
-
-
-async def test_the_echo_keeps_messages_to_scroll_back_to(empty_world: PrivateDomain) -> None:
-    async with watching(empty_world) as me:
-        await me.sees("No node runs")
-        me.topics().follow("/ticks")
-        await asyncio.to_thread(empty_world.run, METRONOME, "4", "12")
-        echo = me.topics().query_one(EchoView)
-        await me.until(lambda: me.message_count() == 12, "all have arrived")
-        await me.until(lambda: echo.plain.count("---") >= 10, "all are kept")
-        await me.until(lambda: echo.is_vertical_scroll_end, "the newest is shown")
-        echo.focus()
-        await me.press("home")
-        await me.until(lambda: echo.scroll_offset.y == 0)
-        assert "data: 0" in echo.plain
-        await me.press("end")
-        await me.until(lambda: echo.is_vertical_scroll_end)
-
-
-async def test_the_plot_marks_its_samples_and_the_required_range(empty_world: PrivateDomain) -> None:
-    async with watching(empty_world, (120, 30)) as me:
-        me.app.pane.set_lesson(load_course().find("i1.1"))
-        await asyncio.to_thread(empty_world.run, THERMOMETER, "2")
-        await me.sees("asked: 20 to 30", "•", "╌╌╌", "30┤", "20┤")
-
-
 async def test_a_dead_watcher_is_reported_and_can_be_restarted(empty_world: PrivateDomain) -> None:
     async with watching(empty_world) as me:
         await me.sees("No node runs")
-        child = me.app.pane._child
+        child = me.app.pane._watcher.child
         assert child is not None
         child.kill()
         await me.sees("Nothing is watched", "! not watching")
@@ -367,8 +313,8 @@ async def test_a_dead_watcher_is_reported_and_can_be_restarted(empty_world: Priv
 async def test_the_app_quits_at_once_and_leaves_no_watcher_process(empty_world: PrivateDomain) -> None:
     app = LiveApp(empty_world)
     async with app.run_test() as pilot:
-        while app.pane._child is None:
+        while app.pane._watcher.child is None:
             await pilot.pause(0.02)
-        process = app.pane._child._process
+        process = app.pane._watcher.child._process
     async with asyncio.timeout(5):
         await process.wait()

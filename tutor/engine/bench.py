@@ -152,7 +152,7 @@ class RosBench:
                     environ=os.environ,
                 )
                 env["TMPDIR"] = str(log_dir)  # temporary files are deleted with the run
-                env["PYTHONFAULTHANDLER"] = "1"  # see RosRun.dump_stacks
+                env["PYTHONFAULTHANDLER"] = "1"  # see tutor.engine.ending.dump_stacks
                 argv = make_argv(env, log_dir)
                 wrapper = self.isolation.wrap(package_folder(path), log_dir, env) if self.isolation else ()
                 # A program may have deleted its own folder: its next start then reports that.

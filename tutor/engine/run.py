@@ -5,20 +5,18 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import math
-import os
-import signal
 import time
-from collections.abc import AsyncIterator, Callable, Coroutine, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
-from tutor.engine.idle import IdleDetector
-from tutor.engine.source import add_source_lines, launch_arguments, read_sources, uncalled_main
-from tutor.errors import EngineError, MachineTooBusy, UnknownType
-from tutor.judge import tracebacks
+from tutor.engine import ending
+from tutor.engine.source import launch_arguments, read_sources, uncalled_main
+from tutor.engine.waits import POLL_S, Waits
+from tutor.errors import UnknownType
 from tutor.judge.bench import Handler
 from tutor.judge.exceptions import KnownException
 from tutor.judge.trace import (
@@ -35,8 +33,7 @@ from tutor.judge.trace import (
 )
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import RESENT_S
-from tutor.process import CpuMeter, CpuTime, LearnerProcess, next_wake, own_cpu_time
-from tutor.process.cpu_wait import estimate_unblocked_s
+from tutor.process import LearnerProcess, next_wake, own_cpu_time
 from tutor.ros import echo, graph, parameters
 from tutor.ros.intake import MAX_SAMPLES
 from tutor.ros.messages import to_plain
@@ -44,35 +41,8 @@ from tutor.ros.observer import ANY_PUBLISHER, AnswerTooLarge, Observer
 from tutor.ros.talker import Talker
 from tutor.ros_model import Graph, Parameter, echo_qos
 
-T = TypeVar("T")
-
 ROS_ARGUMENTS = "--ros-args"
 """The launch system passes this to every node, whether it has any such arguments or not."""
-
-POLL_S = 0.05
-"""Poll interval for what raises no events of its own, such as the graph; also the maximum age of cached readings."""
-
-MAX_EXTENSION_FACTOR = 5
-"""A limit is extended by the node's and our own waits for a CPU, by at most this many times the limit."""
-
-TOO_BUSY = "this machine is too busy: the node, or the process that observes it, did not get to run"
-
-LITTLE_CPU_S = 0.5
-"""A node that got less CPU time than this during a wait may have been starved by the machine."""
-
-ENOUGH_CPU_S = 2.0
-"""Nothing that is waited for takes a node more CPU time than this: its start, for example, takes 0.3 s."""
-
-BLOCKED_S = 0.5
-"""Maximum delay of Ctrl+C until the node has finished what it is doing; one that is always busy never has."""
-
-BLOCKED_POLL_S = 0.01
-
-CHILD_EXIT_S = 1.0
-"""Grace period for child processes that are about to exit after the first process has."""
-
-IN_FLIGHT_S = 0.5
-"""Upper bound on the latency of a message that a process sent before it ended."""
 
 NO_TIMEOUT_S = 1e6
 """Timeout of a request whose time limit `until` enforces."""
@@ -111,16 +81,14 @@ class RosRun:
         self._observer = observer
         self._facts = facts
         self._graph: tuple[float, Graph] = (0.0, Graph())
-        self._meter = CpuMeter(process.pid)
-        self._cpu_time: tuple[float, CpuTime] = (0.0, CpuTime())
-        self._pending_requests = 0
+        self._waits = Waits(process, observer, facts.changed)
         self.interrupted_at: float | None = None
         """When Ctrl+C was pressed, in seconds since the epoch."""
 
     @property
     def awaits_response(self) -> bool:
         """Whether one of our requests is waiting for its response."""
-        return self._pending_requests > 0
+        return self._waits.awaits_response
 
     @property
     def started_at(self) -> float:
@@ -185,23 +153,13 @@ class RosRun:
         return time.time()
 
     def node_cpu_wait_s(self) -> float:
-        return self._read_cpu_time().waited_s
+        return self._waits.cpu_time().waited_s
 
     def our_cpu_wait_s(self) -> float:
         return own_cpu_time().waited_s
 
-    def _read_cpu_time(self) -> CpuTime:
-        read_at, cpu_time = self._cpu_time
-        now = time.monotonic()
-        if self.exit is None and now - read_at >= POLL_S:
-            cpu_time = self._meter.read()
-            self._cpu_time = (now, cpu_time)
-        return cpu_time
-
     async def until(self, seen: Callable[[], bool], limit_s: float, *, idle_s: float | None = None) -> bool:
-        # The limit is for the node: time in which the machine let neither it nor us run does not count.
-        idle = IdleDetector(self._process.next_wake, self.our_cpu_wait_s, idle_s) if idle_s is not None else None
-        return await self._until(seen, limit_s, lambda: (self._read_cpu_time().waited_s, self.our_cpu_wait_s()), idle)
+        return await self._waits.until(seen, limit_s, idle_s=idle_s)
 
     async def wait_for_exit(
         self,
@@ -210,68 +168,15 @@ class RosRun:
         meanwhile: Callable[[], object] = lambda: None,
         all_sent: Callable[[], bool] = lambda: False,
     ) -> bool:
-        def ended() -> bool:
-            meanwhile()
-            return self.exit is not None
-
-        # Only the main thread's wait for a CPU excuses a late exit. Other threads may wait while it sleeps, and a delay
-        # of ours changes nothing, since an exit that we see late still has its own time.
-        idle = IdleDetector(self._process.next_wake, self.our_cpu_wait_s, RESENT_S)
-        return await self._until(ended, limit_s, lambda: (self._read_cpu_time().main_waited_s,), idle, all_sent)
-
-    async def _until(
-        self,
-        seen: Callable[[], bool],
-        limit_s: float,
-        waited_s: Callable[[], tuple[float, ...]],
-        idle: IdleDetector | None = None,
-        all_sent: Callable[[], bool] = lambda: True,
-    ) -> bool:
-        """Wait as `until` does; the growth of each of `waited_s` during the wait, in seconds, extends the limit.
-
-        Idleness counts only once `all_sent()`, that is, when nothing more is to come from us.
-        """
-        loop = asyncio.get_running_loop()
-        began, extended_by_s = loop.time(), 0.0
-        deadline = began + limit_s
-        ran_before_s, waited_before_s = self._read_cpu_time().ran_s, waited_s()
-        ended_at: float | None = None
-        while True:
-            self._facts.changed.clear()
-            if self._observer.fault is not None:
-                raise EngineError(f"watching the node failed: {self._observer.fault}")
-            if seen():
-                return True
-            now = loop.time()
-            if self.exit is not None and ended_at is None:
-                ended_at = now
-            if ended_at is not None and now - ended_at >= IN_FLIGHT_S:
-                return False
-            if idle is not None and all_sent() and idle.is_idle_until(time.time() + deadline - now):
-                return False
-            if now >= deadline:
-                if self._read_cpu_time().ran_s - ran_before_s >= ENOUGH_CPU_S:  # it was not starved
-                    return False
-                cpu_waits_s = [after - before for after, before in zip(waited_s(), waited_before_s, strict=True)]
-                max_extension_s = MAX_EXTENSION_FACTOR * limit_s
-                extension_s = min(sum(cpu_waits_s), max_extension_s) - extended_by_s
-                if extension_s < POLL_S:
-                    # With a limit below 1 s, no verdict depends on the result; with enough CPU time, the node did run.
-                    ran_enough = limit_s < 1.0 or self._read_cpu_time().ran_s - ran_before_s >= LITTLE_CPU_S
-                    unblocked_s = estimate_unblocked_s(now - began, cpu_waits_s)
-                    starved = sum(cpu_waits_s) > max_extension_s and unblocked_s < limit_s
-                    if not ran_enough and starved:
-                        raise MachineTooBusy(TOO_BUSY)
-                    return False
-                deadline, extended_by_s = deadline + extension_s, extended_by_s + extension_s
-            with contextlib.suppress(TimeoutError):
-                await asyncio.wait_for(self._facts.changed.wait(), min(POLL_S, deadline - now))
+        return await self._waits.for_exit(limit_s, meanwhile, all_sent)
 
     async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:
         # One task per node, so that one that never answers does not hide the others. Each makes up to three requests.
         answers = await asyncio.gather(
             *(
-                self._while_alive(parameters.get_parameters(self._observer, [node], NO_TIMEOUT_S), 2 * limit_s, None)
+                self._waits.for_response(
+                    parameters.get_parameters(self._observer, [node], NO_TIMEOUT_S), 2 * limit_s, None
+                )
                 for node in self.graph.parameter_nodes
             )
         )
@@ -282,7 +187,7 @@ class RosRun:
         self, node: str, values: Mapping[str, Any], *, atomic: bool = False, limit_s: float = 5.0
     ) -> SetAnswer:
         asked = time.time()
-        answer = await self._while_alive(
+        answer = await self._waits.for_response(
             parameters.set_parameters(self._observer, node, values, atomic=atomic, limit_s=NO_TIMEOUT_S),
             limit_s,
             None,
@@ -294,14 +199,14 @@ class RosRun:
     ) -> CallAnswer:
         # A new client needs a moment to discover the server, which is no part of the service's response time.
         asked = time.time()
-        if matched := await self._while_alive(
+        if matched := await self._waits.for_response(
             self._observer.wait_for_server(service, type, NO_TIMEOUT_S), limit_s, False
         ):
             asked = time.time()
         response = None
         with contextlib.suppress(AnswerTooLarge):
             if matched:
-                response = await self._while_alive(
+                response = await self._waits.for_response(
                     self._observer.call(service, type, request, NO_TIMEOUT_S, resend_s=resend_s), limit_s, None
                 )
         return CallAnswer(
@@ -314,11 +219,8 @@ class RosRun:
 
     @asynccontextmanager
     async def publisher(self, topic: str, type: str) -> AsyncIterator[Talker]:
-        talker = Talker(self._domain_id, topic, type)
-        try:
+        with contextlib.closing(Talker(self._domain_id, topic, type)) as talker:
             yield talker
-        finally:
-            talker.close()
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         over = asyncio.Event()
@@ -337,33 +239,17 @@ class RosRun:
         return replace(shown, types=tuple(sorted(settled.union(shown.types))))
 
     async def interrupt(self, limit_s: float = 5.0) -> Ending:
-        await self._wait_until_blocked()
+        await ending.wait_until_blocked(self._process)
         pressed = time.time()
-        cpu_wait_share = self._read_cpu_time().waited_s / max(pressed - self.started_at, POLL_S)
+        cpu_wait_share = self._waits.cpu_time().waited_s / max(pressed - self.started_at, POLL_S)
         self.interrupted_at = pressed
         self._process.interrupt()
         await self.wait_for_exit(limit_s)
         ended = self.exit
         took = (self.started_at + ended.after_s if ended is not None else time.time()) - pressed
-        survivors = await self._survivors()
+        survivors = await ending.survivors(self._process)
         output = tuple(line for line in self.output if line.at >= pressed)
         return Ending(ended, took, limit_s, output, survivors, cpu_wait_share)
-
-    async def _wait_until_blocked(self) -> None:
-        """Wait until all threads of the process are blocked, as they usually are when someone presses Ctrl+C.
-
-        A node that is still handling our last request may end in another way than one that waits.
-        """
-        deadline = time.monotonic() + BLOCKED_S
-        while self.exit is None and self._process.next_wake().at == 0.0 and time.monotonic() < deadline:
-            await asyncio.sleep(BLOCKED_POLL_S)
-
-    async def _survivors(self) -> tuple[str, ...]:
-        """The command lines of surviving processes, after a grace period if the first process has ended."""
-        deadline = time.monotonic() + (CHILD_EXIT_S if self.exit is not None else 0.0)
-        while (left := self._process.survivors()) and time.monotonic() < deadline:
-            await asyncio.sleep(POLL_S)
-        return tuple(survivor.command for survivor in left)
 
     def command_lines(self) -> tuple[str, ...]:
         return tuple(survivor.command for survivor in self._process.survivors())
@@ -375,15 +261,7 @@ class RosRun:
         return len(children) <= len(self.graph.nodes) and all(ROS_ARGUMENTS in each.split() for each in children)
 
     async def dump_stacks(self) -> tuple[Frame, ...]:
-        if self.exit is not None:
-            return ()
-        aborted_at = time.time()
-        # PYTHONFAULTHANDLER (set by the bench) makes a fatal signal write all threads' stacks to stderr.
-        with contextlib.suppress(ProcessLookupError):
-            os.kill(self._process.pid, signal.SIGABRT)
-        await self._process.wait(2.0)
-        frames = tracebacks.dumped_frames(line for line in self.output if line.at >= aborted_at)
-        return add_source_lines(frames)
+        return await ending.dump_stacks(self._process)
 
     def trace(self) -> Trace:
         return self.trace_of(self._final_graph())
@@ -404,19 +282,6 @@ class RosRun:
             dropped_lines=self._process.dropped_lines,
             exit=self.exit,
         )
-
-    async def _while_alive(self, request: Coroutine[Any, Any, T], limit_s: float, default: T) -> T:
-        """Await a response; return `default` if none comes within the limit, or before the process exits or is idle."""
-        task = asyncio.ensure_future(request)
-        task.add_done_callback(lambda _: self._facts.notify())
-        self._pending_requests += 1
-        try:
-            # A process that is idle for longer than a lost request takes to be resent is not going to respond.
-            await self.until(task.done, limit_s, idle_s=RESENT_S)
-            return task.result() if task.done() else default
-        finally:
-            self._pending_requests -= 1
-            task.cancel()
 
     @cached_property
     def _source(self) -> dict[str, Any]:

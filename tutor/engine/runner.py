@@ -13,10 +13,10 @@ from tutor.engine.bench import RosBench
 from tutor.engine.first_failure import judge_until_failure, skipped_after, skipped_verdict
 from tutor.engine.isolation import Isolation
 from tutor.engine.provisional import Provisional
-from tutor.engine.run import TOO_BUSY
 from tutor.engine.so_far import SoFar
 from tutor.engine.start_limiter import StartLimiter
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
+from tutor.engine.waits import TOO_BUSY
 from tutor.errors import Fault, MachineTooBusy
 from tutor.judge.bench import Scenario, was_slowed
 from tutor.judge.check import Check, Criterion

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 
+from tutor.judge import series
+from tutor.judge.series import MIN_SAMPLE_SIZE as MIN_SAMPLE_SIZE
+
 SIGNIFICANCE = 1e-6
 """A pattern counts if the probability that random values show it by chance is below this."""
-
-MIN_SAMPLE_SIZE = 8
-"""Sample size that is enough if nothing looks suspicious."""
 
 COARSE_SAMPLE_SIZE = 12
 """Sample size that is enough if nothing looks suspicious except that values occur twice, as whole degrees do."""
@@ -76,15 +76,15 @@ def needs_more_values(values: Sequence[float]) -> bool:
     values = _finite(values)
     if len(values) < MIN_SAMPLE_SIZE or find_pattern(values) is not None:
         return True
-    step_repeats = max(Counter(step for step in _steps(values) if step != 0).values(), default=0)
+    step_repeats = max(Counter(step for step in series.steps(values) if step != 0).values(), default=0)
     coarse = are_coarse(values)
     return (
         (coarse and (len(values) < COARSE_SAMPLE_SIZE or _may_have_begun_to_cycle(values)))
         or step_repeats > (4 if coarse else 2)
-        or _monotone(values)
+        or series.is_monotone(values)
         or any(_follows_in_steps(values, period, _tolerance(values)) for period in range(1, 4))
-        or any(_repeats(values, period, VALUE_TOLERANCE * _span(values)) for period in range(2, len(values) - 1))
-        or min(_unexplained(values, 2), _unexplained(_unfold(values), 2)) < 0.02
+        or any(_repeats(values, period, VALUE_TOLERANCE * series.span(values)) for period in range(2, len(values) - 1))
+        or min(series.unexplained(values, 2), series.unexplained(series.unfold(values), 2)) < 0.02
     )
 
 
@@ -99,7 +99,7 @@ def are_all_constant(runs: Sequence[Sequence[float]]) -> bool:
 
 def are_coarse(values: Sequence[float]) -> bool:
     """Whether some value occurs more than once, as among whole degrees."""
-    return not _all_distinct(values)
+    return not series.all_distinct(values)
 
 
 def may_be_one_sequence(values: Sequence[float], others: Sequence[float]) -> bool:
@@ -136,14 +136,14 @@ def _constant(values: Sequence[float]) -> Pattern | None:
 
 
 def _ramp(values: Sequence[float]) -> Pattern | None:
-    steps = _steps(values)
+    steps = series.steps(values)
     step, times = max(Counter(steps).items(), key=lambda item: (item[0] != 0, item[1]))
     # Any other step must be a jump back to the start; otherwise a random walk in equal steps would pass for a ramp.
     others = [other for other in steps if other != step]
     wraps = all(other * step < 0 and abs(other) > 2 * abs(step) for other in others)
     if len(steps) >= 9 and step != 0 and wraps and times >= 0.6 * len(steps):
         return Pattern("ramp", f"each value is the one before it {step:+g}")
-    if len(values) >= 14 and _monotone(values):
+    if len(values) >= 14 and series.is_monotone(values):
         direction = "up" if values[-1] > values[0] else "down"
         significant = len(values) >= FULL_SAMPLE_SIZE
         return Pattern("ramp", f"all {len(values)} values only go {direction}", significant=significant)
@@ -153,17 +153,18 @@ def _ramp(values: Sequence[float]) -> Pattern | None:
 def _cycle(values: Sequence[float]) -> Pattern | None:
     for first in range(len(values) // 4 + 1):  # a program may take a while to enter its cycle
         rest = values[first:]
-        tolerance = VALUE_TOLERANCE * _span(rest)
+        tolerance = VALUE_TOLERANCE * series.span(rest)
         # A random walk chooses among its few steps, not among all the values that it has visited.
         choices = min(
-            _count_distinct(rest, tolerance), _count_distinct(_steps(rest), VALUE_TOLERANCE * _span(_steps(rest)))
+            series.count_distinct(rest, tolerance),
+            series.count_distinct(series.steps(rest), VALUE_TOLERANCE * series.span(series.steps(rest))),
         )
         for period in range(2, len(rest) - 2):
             repeats = len(rest) - period
             if not _repeats(rest, period, tolerance):
                 continue
             chance = max(choices**-repeats, (2 * VALUE_TOLERANCE) ** repeats)  # that equal values come in this order
-            if _all_distinct(rest[:period]) and _repeats(rest, period, 1e-9):
+            if series.all_distinct(rest[:period]) and _repeats(rest, period, 1e-9):
                 chance = min(chance, _chance_of_cycle(period, repeats))
             if chance < SIGNIFICANCE / 10:  # a margin, since many periods and starting points are tried
                 return Pattern("short cycle", f"the same {period} values come again and again")
@@ -189,7 +190,7 @@ def _chance_of_cycle(period: int, repeats: int) -> float:
 
 def _zigzag(values: Sequence[float]) -> Pattern | None:
     """Up and down in equal steps, turning only at the top and the bottom: a random walk turns far more often."""
-    steps = [step for step in _steps(values) if step != 0]
+    steps = [step for step in series.steps(values) if step != 0]
     if len(steps) < 20:
         return None
     size, times = Counter(abs(step) for step in steps).most_common(1)[0]
@@ -207,14 +208,14 @@ def _zigzag(values: Sequence[float]) -> Pattern | None:
 def _sawtooth(values: Sequence[float]) -> Pattern | None:
     """A ramp that wraps around at the end of its range, with any step, as (i * 3.7) % 10, or with a cycle of steps."""
     tolerance = _tolerance(values)
-    distinct, share = _count_distinct(values, tolerance), tolerance / (_span(values) or 1.0)
+    distinct, share = series.count_distinct(values, tolerance), tolerance / (series.span(values) or 1.0)
     chance = min(0.5, max(2 / distinct, 4 * share))  # that a random value falls where the rule says
     for period in range(1, LONGEST_STEPS + 1):
         checked = len(values) - 1 - period
         if checked >= 6 and chance**checked < SIGNIFICANCE and _follows_in_steps(values, period, tolerance):
             return Pattern(
                 "ramp",
-                f"each value is the one before it {_steps(values)[0]:+g}, and starts over at the end of the range"
+                f"each value is the one before it {series.steps(values)[0]:+g}, and starts over at the end of the range"
                 if period == 1
                 else f"the values go on in the same {period} steps, and start over at the end of the range",
             )
@@ -226,7 +227,7 @@ def _follows_in_steps(values: Sequence[float], period: int, tolerance: float) ->
 
     That size is the length of the range at whose end the ramp wraps around, so it exceeds the span of the values.
     """
-    span = _span(values)
+    span = series.span(values)
     steps = [b - a for a, b in pairwise(values)]
     changes = [b - a for a, b in zip(steps, steps[period:], strict=False)]
     if len(changes) < 3 or not math.isfinite(span) or span == 0:
@@ -235,13 +236,13 @@ def _follows_in_steps(values: Sequence[float], period: int, tolerance: float) ->
     if not jumps:
         return True
     # With few distinct values, such as heads and tails, every second change is as large as the span.
-    min_jump = span - tolerance if _count_distinct(values, tolerance) >= MIN_SAMPLE_SIZE else span * (1 + 1e-6)
+    min_jump = span - tolerance if series.count_distinct(values, tolerance) >= MIN_SAMPLE_SIZE else span * (1 + 1e-6)
     return min(jumps) > min_jump and max(jumps) - min(jumps) <= 2 * tolerance
 
 
 def _tolerance(values: Sequence[float]) -> float:
     """Tolerance for the change from one step to another: enough for jitter, or for rounding to a few decimals."""
-    span = _span(values)
+    span = series.span(values)
     if not all(abs(value) < 1e15 for value in values):
         return VALUE_TOLERANCE * span
     grain = next((g for g in (1.0, 0.1, 0.01) if all(abs(v / g - round(v / g)) < 1e-6 for v in values)), 0.0)
@@ -249,10 +250,13 @@ def _tolerance(values: Sequence[float]) -> float:
 
 
 def _curve(values: Sequence[float]) -> Pattern | None:
-    if len(values) < FULL_SAMPLE_SIZE and _count_distinct(values, VALUE_TOLERANCE * _span(values)) < MIN_SAMPLE_SIZE:
+    if (
+        len(values) < FULL_SAMPLE_SIZE
+        and series.count_distinct(values, VALUE_TOLERANCE * series.span(values)) < MIN_SAMPLE_SIZE
+    ):
         return None  # a few values, even fewer of them distinct, fit some curve now and then by chance
-    smooth = (len(values) >= 10 and _unexplained(values, 2) < SMOOTH_RESIDUAL) or (
-        len(values) >= 16 and _unexplained(values, 4) < SMOOTH_RESIDUAL
+    smooth = (len(values) >= 10 and series.unexplained(values, 2) < SMOOTH_RESIDUAL) or (
+        len(values) >= 16 and series.unexplained(values, 4) < SMOOTH_RESIDUAL
     )
     if smooth:
         return Pattern(
@@ -260,63 +264,10 @@ def _curve(values: Sequence[float]) -> Pattern | None:
             "the values follow a smooth curve, such as a sine: each follows from those before it",
             significant=len(values) >= FULL_SAMPLE_SIZE,
         )
-    if len(values) >= 12 and _unexplained(_unfold(values), 2) < SMOOTH_RESIDUAL:
+    if len(values) >= 12 and series.unexplained(series.unfold(values), 2) < SMOOTH_RESIDUAL:
         return Pattern(
             "not random",
             "the values go up and down between two ends: each follows from the two before it",
             significant=len(values) >= FULL_SAMPLE_SIZE,
         )
     return None
-
-
-def _steps(values: Sequence[float]) -> list[float]:
-    return [round(b - a, 9) for a, b in pairwise(values)]
-
-
-def _span(values: Sequence[float]) -> float:
-    return max(values) - min(values)
-
-
-def _all_distinct(values: Sequence[float]) -> bool:
-    return len(set(values)) == len(values)
-
-
-def _count_distinct(values: Sequence[float], tolerance: float) -> int:
-    """The number of distinct values, where neighbours within the tolerance count as one."""
-    ordered = sorted(values)
-    return 1 + sum(b - a > tolerance for a, b in pairwise(ordered))
-
-
-def _monotone(values: Sequence[float]) -> bool:
-    pairs = list(pairwise(values))
-    return all(a < b for a, b in pairs) or all(a > b for a, b in pairs)
-
-
-def _unfold(values: Sequence[float]) -> list[float]:
-    """Map a triangle wave between two (integer) ends to a cosine; the result is arbitrary for any other series."""
-    if not all(abs(value) < 1e15 for value in values):
-        return []
-    low, high = math.floor(min(values)), math.ceil(max(values))
-    return [math.cos(math.pi * (value - low) / (high - low)) for value in values] if high > low else []
-
-
-def _unexplained(values: Sequence[float], order: int) -> float:
-    """The share of the variance (0 to 1) that the best linear recurrence x[i] = a x[i-1] + b x[i-2] + ... + c leaves.
-
-    Ramps and sines (order 2) and sums of two of them (order 4) obey one exactly; random values do not.
-    """
-    if len(values) < MIN_SAMPLE_SIZE:
-        return 1.0
-    import numpy as np
-
-    if not all(abs(value) < 1e150 for value in values):
-        return 1.0
-    series = np.asarray(values, dtype=float)
-    target = series[order:]
-    lagged = [series[order - lag : len(series) - lag] for lag in range(1, order + 1)]
-    basis = np.column_stack([*lagged, np.ones(len(target))])
-    variation = float(np.sum((target - target.mean()) ** 2))
-    if variation == 0:
-        return 1.0
-    solution = np.linalg.lstsq(basis, target, rcond=None)[0]
-    return float(np.sum((target - basis @ solution) ** 2) / variation)

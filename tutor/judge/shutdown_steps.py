@@ -20,7 +20,8 @@ from tutor.judge.edits import (
 )
 from tutor.judge.rewriting.callbacks import outermost
 from tutor.judge.rewriting.node import NodeFile, find_in_files
-from tutor.judge.rewriting.program import SPINS, clean_ending, code_of, first_sound_step, guard_spin
+from tutor.judge.rewriting.program import clean_ending, code_of, first_sound_step, guard_spin
+from tutor.judge.rewriting.program_scope import SPINS
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 

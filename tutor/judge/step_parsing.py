@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from tutor.judge import edits
+from tutor.judge.source_changes import differs_in_words, is_sound_change
 
 _EDIT_FORMS = (
     ("become", re.compile(r"lines? (?P<first>\d+)(?: (?:to|and) (?P<last>\d+))?(?: becomes?)?:(?P<code>.*)")),
@@ -45,8 +45,8 @@ def is_applicable(step: str, files: Mapping[str, str]) -> bool:
         after = apply_step(step, files)
     except NotAnEdit:
         return False
-    changed = [(text, after[name]) for name, text in files.items() if edits.differs_in_words(text, after[name])]
-    return bool(changed) and all(edits.is_sound_change(text, edited) for text, edited in changed)
+    changed = [(text, after[name]) for name, text in files.items() if differs_in_words(text, after[name])]
+    return bool(changed) and all(is_sound_change(text, edited) for text, edited in changed)
 
 
 def _parts(step: str) -> list[str]:

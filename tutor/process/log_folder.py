@@ -22,6 +22,9 @@ MAX_APP_BYTES = 256_000_000
 """The same limit for all nodes that the app has run, whose log files people may want to read."""
 
 CHECK_INTERVAL_S = 0.2
+APP_INTERVAL_S = 1.0
+"""How often the app looks, whose limit leaves more room: with many log folders, a look takes some milliseconds."""
+
 MAX_ENTRIES, MAX_OPENED = 10_000, 100
 
 _FOLDER_FLAGS = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
@@ -61,7 +64,7 @@ async def keep_small_until_cancelled(path: Path, max_bytes: int = MAX_APP_BYTES)
                 keep_small(folder, max_bytes)
             finally:
                 os.close(folder)
-        await asyncio.sleep(CHECK_INTERVAL_S)
+        await asyncio.sleep(APP_INTERVAL_S)
 
 
 def keep_small(folder: int, max_bytes: int = MAX_BYTES) -> None:

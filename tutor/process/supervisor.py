@@ -264,11 +264,9 @@ class Supervisor:
 
     def _reap(self) -> bool:
         """Reap all children that have ended. Return whether any child is left."""
-        try:
+        with contextlib.suppress(BlockingIOError):
             while os.read(self._wake, 4096):
                 pass
-        except BlockingIOError:
-            pass
         while True:
             try:
                 pid, status = os.waitpid(-1, os.WNOHANG)

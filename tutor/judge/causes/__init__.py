@@ -8,6 +8,7 @@ from tutor.judge.causes.blocking import (
     use_threads,
 )
 from tutor.judge.causes.exceptions import diagnose_known_exception, diagnose_traceback
+from tutor.judge.causes.lifecycle import diagnose_lifecycle
 from tutor.judge.causes.output import diagnose_printed
 from tutor.judge.causes.parameters import (
     RCLPY_REASON,
@@ -32,7 +33,6 @@ from tutor.judge.causes.spinning import diagnose_not_spinning
 from tutor.judge.causes.topics import (
     diagnose_incompatible_qos,
     diagnose_incompatible_service,
-    diagnose_lifecycle,
     diagnose_no_messages,
     diagnose_nothing_received,
     diagnose_unused_publisher,

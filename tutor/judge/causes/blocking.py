@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 
 from tutor.judge import source, tracebacks
 from tutor.judge.causes import names
+from tutor.judge.causes.lock_waits import LOCK_LINE, diagnose_lock, step_at
 from tutor.judge.edits import Edit, remove_lines
 from tutor.judge.rewriting.callbacks import (
     WITH_CALLBACK_GROUP,
     await_lines,
-    make_lock_reentrant,
     make_reentrant,
     outermost,
-    remove_lock,
     remove_loop,
 )
 from tutor.judge.rewriting.node import NodeFile
@@ -25,9 +24,6 @@ from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 
-_LOCK_LINE = re.compile(
-    r"(?P<lock>[\w.]+)\.acquire\(|with (?P<with>[\w.]*(?:lock|mutex|semaphore|condition)\w*)", re.IGNORECASE
-)
 _SPIN_UNTIL = re.compile(r"(?:[\w.]+\.)?spin(?:_once)?_until_future_complete\(.*?,\s*(?P<future>[\w.]+)\s*[,)]")
 _POLLING_LOOP = re.compile(r"while not (?P<future>[\w.]+)\.done\(\)")
 _SPINS = "spin", "spin_once", "spin_until_future_complete"
@@ -63,9 +59,9 @@ def is_in_blocking_call(stuck: Sequence[Frame]) -> bool:
 def diagnose_lock_wait(trace: Trace, stuck: Sequence[Frame]) -> Cause | None:
     """Whether a callback waits for a lock."""
     blocked = _find_blocked_callback(stuck, trace.folder)
-    if blocked is None or not _LOCK_LINE.search(blocked[0].code):
+    if blocked is None or not LOCK_LINE.search(blocked[0].code):
         return None
-    return _diagnose_lock(trace, stuck, blocked[0])
+    return diagnose_lock(trace, stuck, blocked[0])
 
 
 def _find_blocked_callback(stuck: Sequence[Frame], folder: str) -> tuple[Frame, tuple[Frame, ...]] | None:
@@ -79,7 +75,7 @@ def _find_blocked_callback(stuck: Sequence[Frame], folder: str) -> tuple[Frame, 
             own = next(i for i, frame in enumerate(thread) if tracebacks.is_in_folder(frame.path, folder))
             found.append((thread[own], thread[:own]))
     return min(
-        found, key=lambda each: not (is_in_blocking_call(each[1]) or _LOCK_LINE.search(each[0].code)), default=None
+        found, key=lambda each: not (is_in_blocking_call(each[1]) or LOCK_LINE.search(each[0].code)), default=None
     )
 
 
@@ -88,14 +84,14 @@ def _diagnose_callback(trace: Trace, stuck: Sequence[Frame], at: Frame, inner: S
         return _diagnose_call(trace, at)
     if any(frame.path.endswith(("rclpy/executors.py", "rclpy/__init__.py")) for frame in inner):
         return _diagnose_spin_in_callback(trace, at)
-    if _LOCK_LINE.search(at.code):
-        return _diagnose_lock(trace, stuck, at)
+    if LOCK_LINE.search(at.code):
+        return diagnose_lock(trace, stuck, at)
     if (future := _find_polled_future(trace, at)) is not None:
         return Cause(
             names.BLOCKED_EXECUTOR,
             f"the callback waits in a loop, at {at}, for an answer that cannot come: the executor is busy with this "
             "callback",
-            _edited(trace, at, partial(_await_instead_of_loop, at=at, code=f"await {future}"))
+            step_at(trace, at, partial(_await_instead_of_loop, at=at, code=f"await {future}"))
             or f"write await {future} in place of the loop, {_as_coroutine(trace, at)}; {use_reentrant_group(trace)}",
         )
     waits = any(frame.path.endswith("/threading.py") for frame in inner) or ".wait(" in at.code
@@ -111,7 +107,7 @@ def _diagnose_callback(trace: Trace, stuck: Sequence[Frame], at: Frame, inner: S
     return Cause(
         names.BLOCKED_EXECUTOR,
         f"the node is up, but one of its callbacks never returns, at {at}; all others wait for it",
-        _edited(trace, at, lambda file: remove_loop(file, at.line))
+        step_at(trace, at, lambda file: remove_loop(file, at.line))
         or f"look at line {at.line}: {loop or 'let the callback return at once, without a loop or a sleep around it'}; "
         "what has to wait, or to come again and again, is done by a timer: self.create_timer(period, self.callback)",
     )
@@ -125,7 +121,7 @@ def _diagnose_call(trace: Trace, at: Frame | None) -> Cause:
     if at is not None and ".call(" in at.code:
         code = _await_call(at.code)
         becomes = f"line {at.line} becomes: {code} ({_as_coroutine(trace, at)}); "
-        edited = _edited(trace, at, lambda file: await_lines(file, at.line, code))
+        edited = step_at(trace, at, lambda file: await_lines(file, at.line, code))
     return Cause(
         names.DEADLOCK,
         f"the callback waits for another service's answer{where}, which cannot come: the executor is busy with this "
@@ -160,37 +156,7 @@ def _diagnose_spin_in_callback(trace: Trace, at: Frame) -> Cause:
         names.BLOCKED_EXECUTOR,
         f"a callback spins the node again, at {at}, and waits there for something that cannot happen before this "
         "callback returns",
-        _edited(trace, at, edits) or instead,
-    )
-
-
-def _diagnose_lock(trace: Trace, stuck: Sequence[Frame], at: Frame) -> Cause:
-    found = _LOCK_LINE.search(at.code)
-    lock = (found["lock"] or found["with"]) if found else "the lock"
-    made = next((call for call in source.calls(trace, "Lock") if call.lineno), None)
-    holders = [
-        frame
-        for thread in tracebacks.frames_by_thread(stuck)
-        if (frame := tracebacks.own_frame(thread, trace.folder)) is not None
-        and tracebacks.called_by_executor(thread, trace.folder)
-        and not _LOCK_LINE.search(frame.code)
-    ]
-    if holders:
-        return Cause(
-            names.BLOCKED_EXECUTOR,
-            f"a callback waits for {lock}, at {at}, which another one holds at {holders[0]}",
-            _edited(trace, holders[0], lambda file: remove_lock(file, holders[0].line))
-            or f"take line {holders[0].line} out of the lock: what takes long goes above `with {lock}:`, or below it, "
-            "with less indentation",
-        )
-    where = f" in line {made.lineno}" if made else ""
-    return Cause(
-        names.BLOCKED_EXECUTOR,
-        f"a callback waits for {lock}, at {at}, forever: it is already held, by the same callback or by one that did "
-        "not release it",
-        _edited(trace, at, make_lock_reentrant)
-        or f"write threading.RLock() in place of threading.Lock(){where}: one thread may take it twice; and with "
-        f"{lock}: in place of acquire() and release()",
+        step_at(trace, at, edits) or instead,
     )
 
 
@@ -234,13 +200,6 @@ def _diagnose_await(trace: Trace) -> Cause | None:
         "nothing else in its callback group runs, and the answer would arrive in that group",
         first_sound_step(trace, make_reentrant) or use_reentrant_group(trace),
     )
-
-
-def _edited(trace: Trace, at: Frame, edits: Callable[[NodeFile], Sequence[Edit]]) -> str | None:
-    """The step that edits the file of a frame; None unless that file still contains the frame's line."""
-    text = trace.sources.get(at.name, "").splitlines()
-    is_current = 0 < at.line <= len(text) and text[at.line - 1].strip() == at.code
-    return first_sound_step(trace, edits, name=at.name) if is_current else None
 
 
 def _await_instead_of_loop(file: NodeFile, at: Frame, code: str) -> list[Edit]:

@@ -10,7 +10,7 @@ from tutor.judge.causes import names
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.callbacks import Loop, only_waits, outermost
 from tutor.judge.rewriting.node import NodeFile, file_of, started_node
-from tutor.judge.rewriting.program import SPINS
+from tutor.judge.rewriting.program_scope import SPINS
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause

@@ -6,7 +6,7 @@ import ast
 
 from tutor.judge.edits import Edit, append_to_function, insert_above, insert_after, remove_statement
 from tutor.judge.rewriting.node import NodeFile, node_files
-from tutor.judge.rewriting.program import SPINS
+from tutor.judge.rewriting.program_scope import SPINS
 from tutor.judge.source import Function, called_name, calls_in
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause

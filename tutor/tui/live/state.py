@@ -159,6 +159,12 @@ class LiveState:
         found = self.graph.topic(topic) if self.graph else None
         return found is not None and bool(found.publishers)
 
+    def type_of(self, topic: str) -> str:
+        """Return the topic's type, by the graph or else by the lesson; empty if neither knows it."""
+        found = self.graph.topic(topic) if self.graph else None
+        lesson_types = (known.type for known in self.lesson_view.topics if known.name == topic)
+        return found.types[0] if found is not None else next(lesson_types, "")
+
     def mismatches(self) -> list[Connection]:
         """Return every pair of endpoints that cannot exchange messages."""
         topics = self.graph.topics if self.graph else ()

@@ -5,12 +5,10 @@ from __future__ import annotations
 import time
 from typing import ClassVar
 
-from rich.text import Text
 from textual import events, on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
-from textual.content import Content
 from textual.message import Message
 from textual.widgets import DataTable, Static
 from textual.widgets.data_table import ColumnKey
@@ -22,6 +20,7 @@ from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.plot_view import PlotView
 from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState, TopicView
+from tutor.tui.live.topic_texts import cells, plot_head, topic_head
 from tutor.tui.widgets.strip import Action, ActionBar
 
 _COLUMNS = ("", "Topic", "Rate", "Count", "Pub", "Sub", "Type")
@@ -101,7 +100,7 @@ class TopicsPanel(Vertical):
             with self.prevent(DataTable.RowHighlighted):
                 table.clear()
                 for topic in listed:
-                    table.add_row(*self._cells(topic), key=topic.name)
+                    table.add_row(*cells(self.state, topic), key=topic.name)
                 names = [topic.name for topic in listed]
                 if names:
                     table.move_cursor(row=names.index(chosen) if chosen in names else 0)
@@ -125,7 +124,7 @@ class TopicsPanel(Vertical):
         now = time.time()
         self.set_class(view is None or not view.fields, "-no-numbers")
         self.query_one("#topic-actions", ActionBar).actions = self._actions(view)
-        self.query_one("#topic-head", Static).update(self._head(view, now), layout=False)
+        self.query_one("#topic-head", Static).update(topic_head(self.state, self.chosen, view, now), layout=False)
         echo, plot = self.query_one(EchoView), self.query_one(PlotView)
         if view is None:
             echo.show_lines(self.chosen, (), 0)
@@ -142,50 +141,7 @@ class TopicsPanel(Vertical):
             else:
                 plot.show(tuple(points), max(now, points[-1][0]) if points else now, band=band)
             echo.show_lines(view.topic, view.lines, view.line_count)
-        self.query_one("#plot-head", Static).update(self._plot_head(view, band), layout=False)
-
-    def _plot_head(self, view: TopicView, band: tuple[float, float] | None) -> Content:
-        index = view.fields.index(view.path) + 1 if view.path in view.fields else 1
-        last = view.points[-1][1] if view.points and view.snapshot is None else None
-        value = "" if last is None else f" = {last:g}"
-        more = f"  {index} of {len(view.fields)}" if len(view.fields) > 1 else ""
-        asked: tuple[str, str] = ("", "")
-        if band is not None:
-            low, high = band
-            asked = (f"  asked: {low:g} to {high:g}", "$good")
-            if last is not None and not low <= last <= high:
-                asked = (f"  ✗ asked: {low:g} to {high:g}", "bold $bad")
-        return Content.assemble((view.path, "bold $primary"), value, asked, (more, "$quiet"))
-
-    def _head(self, view: TopicView | None, now: float) -> Content:
-        if not self.chosen:
-            return Content("")
-        name = Content.styled(self.chosen, "bold")
-        if view is None:
-            return Content.assemble(name, ("\nNot followed: press Enter to see what comes.", "$quiet"))
-        update = view.snapshot.update if view.snapshot is not None else view.update
-        if update is None:
-            return Content.assemble(name, ("\n◐ subscribing", "$quiet"))
-        facts = f"  {wording.short_type(update.type)} · {update.qos}" if update.type else ""
-        first = Content.assemble(name, (facts, "$quiet"))
-        if update.problem:
-            return Content.assemble(first, (f"\n✗ {update.problem}", "$bad"))
-        if not update.count:
-            topic = self.state.graph.topic(self.chosen) if self.state.graph else None
-            no_publisher = topic is None or not topic.publishers
-            reason = (
-                "nobody publishes on it: run the node that does, or press M to publish"
-                if no_publisher
-                else "no message yet"
-            )
-            return Content.assemble(first, (f"\n◐ {reason}", "$warn" if no_publisher else "$quiet"))
-        since = 0.0 if view.snapshot is not None else max(0.0, now - view.updated_at)
-        numbers = wording.numbers(update, since)
-        if view.snapshot is not None and view.update is not None:
-            more = view.update.count - update.count
-            return Content.assemble(first, (f"\n▮▮ paused (+{more:,}) ", "bold $warn"), numbers)
-        mark, colour = ("■", "$quiet") if wording.is_silent(update, since) else ("●", "$good")
-        return Content.assemble(first, "\n", (f"{mark} ", colour), numbers)
+        self.query_one("#plot-head", Static).update(plot_head(view, band), layout=False)
 
     def _actions(self, view: TopicView | None) -> tuple[Action, ...]:
         if not self.chosen:
@@ -203,34 +159,11 @@ class TopicsPanel(Vertical):
             _PUBLISH,
         )
 
-    def _cells(self, topic: Topic) -> tuple[Text, ...]:
-        view = self.state.topics.get(topic.name)
-        update = view.update if view else None
-        silent = (
-            update is not None
-            and view is not None
-            and wording.is_silent(update, max(0.0, time.time() - view.updated_at))
-        )
-        timing = update.timing if update and not silent else None
-        types = [wording.short_type(name) for name in topic.types]
-        if topic.is_standard:  # their types are long, and well known
-            types = [name.rpartition("/")[2] for name in types]
-        pub, sub = len(topic.publishers), len(topic.subscriptions)
-        return (
-            Text("●" if view else " "),
-            Text(topic.name, style="bold" if self.state.is_lesson_topic(topic.name) else ""),
-            Text(wording.rate(timing.rate_hz) if timing else "silent" if silent else "", justify="right"),
-            Text(f"{update.count:,}" if update else "", justify="right"),
-            Text(str(pub), justify="right"),
-            Text(str(sub), justify="right"),
-            Text("✗ " + " and ".join(types) if len(types) > 1 else "".join(types)),
-        )
-
     def _update_row(self, topic: Topic) -> None:
         table = self.table
         if topic.name not in table.rows:
             return
-        for name, cell in zip(_COLUMNS, self._cells(topic), strict=True):
+        for name, cell in zip(_COLUMNS, cells(self.state, topic), strict=True):
             key = name or "mark"
             if table.get_cell(topic.name, key) != cell:
                 # A change of width lays out the whole page again, so only if needed.

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, ClassVar
 
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
-from textual.containers import Container, Vertical
+from textual.containers import Vertical
 from textual.content import Content
 from textual.widget import Widget
 from textual.widgets import Static
 
 from tutor.session.paths import short_path
+from tutor.tui.widgets.code_body import CodeBody
 from tutor.tui.widgets.code_view import CodeView
 from tutor.tui.widgets.find_bar import FindBar
 from tutor.tui.widgets.line_view import Piece, Row
@@ -31,38 +32,6 @@ _READ_ONLY_VIEWS = (
     ("against", "V", "Compare"),
 )
 """Name, key and label of each read-only view."""
-
-
-class CodeBody(Container, can_focus=True):
-    """Container of the editors. It has the focus while single keys are commands: arrows scroll, Enter starts typing."""
-
-    BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("enter", "screen.do('edit')", "Edit", show=False),
-        Binding("up", "scroll_lines(-1)", show=False),
-        Binding("down", "scroll_lines(1)", show=False),
-        Binding("pageup", "scroll_pages(-1)", show=False),
-        Binding("pagedown", "scroll_pages(1)", show=False),
-        Binding("home", "scroll_edge(False)", show=False),
-        Binding("end", "scroll_edge(True)", show=False),
-    ]
-
-    @property
-    def _editor(self) -> Widget | None:
-        return next((child for child in self.children if child.display), None)
-
-    def action_scroll_lines(self, lines: int) -> None:
-        """Scroll by this many lines, down if positive."""
-        if self._editor is not None:
-            self._editor.scroll_relative(y=lines, animate=False)
-
-    def action_scroll_pages(self, pages: int) -> None:
-        """Scroll by this many pages, down if positive."""
-        self.action_scroll_lines(pages * max(1, self.size.height - 1))
-
-    def action_scroll_edge(self, down: bool) -> None:
-        """Scroll to the top or the bottom."""
-        if self._editor is not None:
-            (self._editor.scroll_end if down else self._editor.scroll_home)(animate=False)
 
 
 class CodePane(Vertical):

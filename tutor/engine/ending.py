@@ -1,0 +1,58 @@
+"""How the learner's process is ended: interrupted while it is blocked, or aborted so that it dumps its stacks."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import signal
+import time
+
+from tutor.engine.source import add_source_lines
+from tutor.judge import tracebacks
+from tutor.judge.tracebacks import Frame
+from tutor.process import LearnerProcess
+
+BLOCKED_S = 0.5
+"""Maximum delay of Ctrl+C until the node has finished what it is doing; one that is always busy never has."""
+
+BLOCKED_POLL_S = 0.01
+
+CHILD_EXIT_S = 1.0
+"""Grace period for child processes that are about to exit after the first process has."""
+
+CHILD_POLL_S = 0.05
+
+DUMP_S = 2.0
+"""How long an aborted process may take to write its stacks and end."""
+
+
+async def wait_until_blocked(process: LearnerProcess) -> None:
+    """Wait until all threads of the process are blocked, as they usually are when someone presses Ctrl+C.
+
+    A node that is still handling our last request may end in another way than one that waits.
+    """
+    deadline = time.monotonic() + BLOCKED_S
+    while process.exit is None and process.next_wake().at == 0.0 and time.monotonic() < deadline:
+        await asyncio.sleep(BLOCKED_POLL_S)
+
+
+async def survivors(process: LearnerProcess) -> tuple[str, ...]:
+    """The command lines of surviving processes, after a grace period if the first process has ended."""
+    deadline = time.monotonic() + (CHILD_EXIT_S if process.exit is not None else 0.0)
+    while (left := process.survivors()) and time.monotonic() < deadline:
+        await asyncio.sleep(CHILD_POLL_S)
+    return tuple(survivor.command for survivor in left)
+
+
+async def dump_stacks(process: LearnerProcess) -> tuple[Frame, ...]:
+    """Abort the process, and return the frames of all its threads, innermost first; () if it has ended already."""
+    if process.exit is not None:
+        return ()
+    aborted_at = time.time()
+    # PYTHONFAULTHANDLER (set by the bench) makes a fatal signal write all threads' stacks to stderr.
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(process.pid, signal.SIGABRT)
+    await process.wait(DUMP_S)
+    frames = tracebacks.dumped_frames(line for line in process.output if line.at >= aborted_at)
+    return add_source_lines(frames)

@@ -1,0 +1,148 @@
+"""Waits for facts about a running node, whose limits its own and our waits for a CPU extend."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import time
+from collections.abc import Callable, Coroutine
+from typing import Any, TypeVar
+
+from tutor.engine.idle import IdleDetector
+from tutor.errors import EngineError, MachineTooBusy
+from tutor.judge.waiting import RESENT_S
+from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
+from tutor.process.cpu_wait import estimate_unblocked_s
+from tutor.ros.observer import Observer
+
+T = TypeVar("T")
+
+POLL_S = 0.05
+"""Poll interval for what raises no events of its own, such as the graph; also the maximum age of cached readings."""
+
+MAX_EXTENSION_FACTOR = 5
+"""A limit is extended by the node's and our own waits for a CPU, by at most this many times the limit."""
+
+TOO_BUSY = "this machine is too busy: the node, or the process that observes it, did not get to run"
+
+LITTLE_CPU_S = 0.5
+"""A node that got less CPU time than this during a wait may have been starved by the machine."""
+
+ENOUGH_CPU_S = 2.0
+"""Nothing that is waited for takes a node more CPU time than this: its start, for example, takes 0.3 s."""
+
+MAX_LATENCY_S = 0.5
+"""Upper bound on the latency of a message that a process sent before it ended."""
+
+
+class Waits:
+    """Waits for what a process does, on each change that is reported through `changed`."""
+
+    def __init__(self, process: LearnerProcess, observer: Observer, changed: asyncio.Event) -> None:
+        self._process = process
+        self._observer = observer
+        self._changed = changed
+        self._meter = CpuMeter(process.pid)
+        self._cpu_time: tuple[float, CpuTime] = (0.0, CpuTime())
+        self._pending_requests = 0
+
+    @property
+    def awaits_response(self) -> bool:
+        """Whether one of our requests is waiting for its response."""
+        return self._pending_requests > 0
+
+    def cpu_time(self) -> CpuTime:
+        """Return the process's CPU time, at most `POLL_S` old; once it has ended, the last one read."""
+        read_at, cpu_time = self._cpu_time
+        now = time.monotonic()
+        if self._process.exit is None and now - read_at >= POLL_S:
+            cpu_time = self._meter.read()
+            self._cpu_time = (now, cpu_time)
+        return cpu_time
+
+    async def until(self, seen: Callable[[], bool], limit_s: float, *, idle_s: float | None = None) -> bool:
+        """Wait as `tutor.judge.bench.Run.until` does."""
+        # The limit is for the node: time in which the machine let neither it nor us run does not count.
+        idle = self._idle_detector(idle_s) if idle_s is not None else None
+        return await self._until(seen, limit_s, lambda: (self.cpu_time().waited_s, own_cpu_time().waited_s), idle)
+
+    async def for_exit(
+        self,
+        limit_s: float,
+        meanwhile: Callable[[], object] = lambda: None,
+        all_sent: Callable[[], bool] = lambda: False,
+    ) -> bool:
+        """Wait as `tutor.judge.bench.Run.wait_for_exit` does."""
+
+        def ended() -> bool:
+            meanwhile()
+            return self._process.exit is not None
+
+        # Only the main thread's wait for a CPU excuses a late exit. Other threads may wait while it sleeps, and a delay
+        # of ours changes nothing, since an exit that we see late still has its own time.
+        idle = self._idle_detector(RESENT_S)
+        return await self._until(ended, limit_s, lambda: (self.cpu_time().main_waited_s,), idle, all_sent)
+
+    async def for_response(self, request: Coroutine[Any, Any, T], limit_s: float, default: T) -> T:
+        """Await a response; return `default` if none comes within the limit, or before the process exits or is idle."""
+        task = asyncio.ensure_future(request)
+        task.add_done_callback(lambda _: self._changed.set())
+        self._pending_requests += 1
+        try:
+            # A process that is idle for longer than a lost request takes to be resent is not going to respond.
+            await self.until(task.done, limit_s, idle_s=RESENT_S)
+            return task.result() if task.done() else default
+        finally:
+            self._pending_requests -= 1
+            task.cancel()
+
+    def _idle_detector(self, for_s: float) -> IdleDetector:
+        return IdleDetector(self._process.next_wake, lambda: own_cpu_time().waited_s, for_s)
+
+    async def _until(
+        self,
+        seen: Callable[[], bool],
+        limit_s: float,
+        waited_s: Callable[[], tuple[float, ...]],
+        idle: IdleDetector | None = None,
+        all_sent: Callable[[], bool] = lambda: True,
+    ) -> bool:
+        """Wait as `until` does; the growth of each of `waited_s` during the wait, in seconds, extends the limit.
+
+        Idleness counts only once `all_sent()`, that is, when nothing more is to come from us.
+        """
+        loop = asyncio.get_running_loop()
+        began, extended_by_s = loop.time(), 0.0
+        deadline = began + limit_s
+        ran_before_s, waited_before_s = self.cpu_time().ran_s, waited_s()
+        ended_at: float | None = None
+        while True:
+            self._changed.clear()
+            if self._observer.fault is not None:
+                raise EngineError(f"watching the node failed: {self._observer.fault}")
+            if seen():
+                return True
+            now = loop.time()
+            if self._process.exit is not None and ended_at is None:
+                ended_at = now
+            if ended_at is not None and now - ended_at >= MAX_LATENCY_S:
+                return False
+            if idle is not None and all_sent() and idle.is_idle_until(time.time() + deadline - now):
+                return False
+            if now >= deadline:
+                if self.cpu_time().ran_s - ran_before_s >= ENOUGH_CPU_S:  # it was not starved
+                    return False
+                cpu_waits_s = [after - before for after, before in zip(waited_s(), waited_before_s, strict=True)]
+                max_extension_s = MAX_EXTENSION_FACTOR * limit_s
+                extension_s = min(sum(cpu_waits_s), max_extension_s) - extended_by_s
+                if extension_s < POLL_S:
+                    # With a limit below 1 s, no verdict depends on the result; with enough CPU time, the node did run.
+                    ran_enough = limit_s < 1.0 or self.cpu_time().ran_s - ran_before_s >= LITTLE_CPU_S
+                    unblocked_s = estimate_unblocked_s(now - began, cpu_waits_s)
+                    starved = sum(cpu_waits_s) > max_extension_s and unblocked_s < limit_s
+                    if not ran_enough and starved:
+                        raise MachineTooBusy(TOO_BUSY)
+                    return False
+                deadline, extended_by_s = deadline + extension_s, extended_by_s + extension_s
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(self._changed.wait(), min(POLL_S, deadline - now))

@@ -1,0 +1,79 @@
+"""What a change of a file does to it: whether it changes anything, and whether the file is still sound."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from pyflakes import checker, messages
+
+from tutor.judge.source import Function, SourceFile, compile_quietly, parse
+
+_NODE_ATTRIBUTES = {
+    "add_on_set_parameters_callback",
+    "add_post_set_parameters_callback",
+    "create_client",
+    "create_publisher",
+    "create_rate",
+    "create_service",
+    "create_subscription",
+    "create_timer",
+    "declare_parameter",
+    "declare_parameters",
+    "destroy_node",
+    "destroy_timer",
+    "executor",
+    "get_clock",
+    "get_logger",
+    "get_name",
+    "get_parameter",
+    "get_parameter_or",
+    "has_parameter",
+    "set_parameters",
+}
+"""Attributes inherited from `rclpy.node.Node`, as far as next steps use them."""
+
+
+def differs_in_words(before: str, after: str) -> bool:
+    """Whether two texts of Python code differ in more than layout, quotation marks and comments.
+
+    Text that is no valid Python differs in anything but blank lines and the spacing within lines.
+    """
+    one, other = SourceFile(before).tree, SourceFile(after).tree
+    if one.body and other.body:
+        return ast.dump(one) != ast.dump(other)
+
+    def words(text: str) -> list[tuple[int, list[str]]]:
+        return [(len(line) - len(line.lstrip()), line.split()) for line in text.splitlines() if line.strip()]
+
+    return words(before) != words(after)
+
+
+def is_sound_change(before: str, after: str) -> bool:
+    """Whether the changed file still parses and uses no name that is undefined only since the change."""
+    return parses(after) and not set(_undefined_names(after)) - set(_undefined_names(before))
+
+
+def _undefined_names(text: str) -> Iterator[str]:
+    """The names that a file uses without defining them, attributes of `self` included ("self.publisher")."""
+    tree = parse(text) if parses(text) else ast.Module([], [])
+    for found in checker.Checker(tree).messages:
+        if isinstance(found, messages.UndefinedName | messages.UndefinedLocal):
+            yield str(found.message_args[0])
+    own = [each for each in ast.walk(tree) if isinstance(each, ast.Attribute) and ast.unparse(each.value) == "self"]
+    defined = {each.attr for each in own if isinstance(each.ctx, ast.Store)} | _NODE_ATTRIBUTES
+    for each in ast.walk(tree):
+        if isinstance(each, Function | ast.ClassDef):
+            defined.add(each.name)
+        elif isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store):
+            defined.add(each.id)  # it may be a class attribute
+    yield from (f"self.{each.attr}" for each in own if each.attr not in defined)
+
+
+def parses(text: str) -> bool:
+    """Whether a text is valid Python."""
+    try:
+        compile_quietly(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return False
+    return True
