@@ -17,11 +17,12 @@ CAUSE_NAMES = frozenset(name.casefold() for name in MEANINGS)
 
 
 def sample(cases: Sequence[Case]) -> list[Case]:
-    """Return two right submissions of each exercise, and enough wrong ones to show its criteria and each cause.
+    """Return a right submission of each exercise, and enough wrong ones to show its criteria and each cause.
 
-    The choice does not depend on the order of `cases`: it goes by name, and takes those that show most first.
+    One right one is enough here, as `ros-tutor author check` judges the solutions. The choice does not depend on the
+    order of `cases`: it goes by name, and takes those that show most first.
     """
-    right = [case for exercise in {case.exercise for case in cases} for case in _first_and_middle(cases, exercise)]
+    right = [_middle(group) for group in _right_by_exercise(cases).values()]
     wrong = sorted((case for case in cases if case.kind == WRONG), key=str)
     chosen: list[Case] = []
     missing = set().union(*map(shows, wrong))
@@ -55,11 +56,15 @@ def changed(cases: Sequence[Case], paths: Iterable[str]) -> list[Case]:
     return [case for case in cases if case in chosen or is_affected(case)]
 
 
-def broken_criteria(case: Case) -> tuple[str, ...]:
-    """Return the criteria that a wrong or hostile submission breaks, in alphabetical order; () for a right one."""
+def judged_criteria(case: Case, first: str) -> tuple[str, ...]:
+    """Return the criteria by which the tests judge a submission, in alphabetical order; () for all.
+
+    A right one is judged by all, the others by what they break; a hostile one that breaks nothing by `first`, the
+    exercise's first criterion, as each start of it does the same to us.
+    """
     expected = case.expected
     broken = {*expected.fails, *expected.fails_any, *expected.bonus_failed}
-    return () if case.kind == RIGHT else tuple(sorted(broken))
+    return () if case.kind == RIGHT else tuple(sorted(broken)) or (first,)
 
 
 def shows(case: Case) -> frozenset[tuple[str, str]]:
@@ -74,9 +79,16 @@ def shows(case: Case) -> frozenset[tuple[str, str]]:
     )
 
 
-def _first_and_middle(cases: Iterable[Case], exercise: str) -> list[Case]:
-    right = sorted((case for case in cases if (case.exercise, case.kind) == (exercise, RIGHT)), key=str)
-    return right if len(right) < 2 else [right[0], right[len(right) // 2]]
+def _right_by_exercise(cases: Iterable[Case]) -> dict[str, list[Case]]:
+    found: dict[str, list[Case]] = {}
+    for case in sorted(cases, key=str):
+        if case.kind == RIGHT:
+            found.setdefault(case.exercise, []).append(case)
+    return found
+
+
+def _middle(cases: Sequence[Case]) -> Case:
+    return cases[len(cases) // 2]
 
 
 def _symlinks(folder: Path) -> list[Path]:
