@@ -2,17 +2,9 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 
-from tutor.ros.domain import reserve_domain
-from tutor.ros.environment import detect, learner_env
-
-LIMIT_S = 90
+from tests.ros2cli.bench import Bench
 
 NODE = """
 import rclpy
@@ -75,29 +67,17 @@ BY_TRANSITIONS = """
 """
 
 
-@pytest.fixture
-def env(tmp_path: Path) -> Iterator[dict[str, str]]:
-    """A learner's environment on a domain of its own, with a lifecycle node in my_package."""
-    (tmp_path / "lamp.py").write_text(NODE)
-    with reserve_domain() as domain_id:
-        env = learner_env(detect(), domain_id=domain_id, log_dir=tmp_path / "log", package_root=None, isolated=True)
-        yield {**env, "HOME": str(tmp_path), "ROS_TUTOR_WORKSPACE": str(tmp_path / "ws")}
-
-
-def launch(text: str, env: dict[str, str], folder: Path, name: str = "my_launch.py") -> tuple[int, str]:
-    (folder / name).write_text(text)
-    command = [sys.executable, "-P", "-m", "tutor.bundled_ros.ros2", "launch", "-n", name]
-    ran = subprocess.run(
-        command, env=env, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=LIMIT_S
-    )
-    return ran.returncode, ran.stdout
+def launch(bench: Bench, text: str, name: str = "my_launch.py") -> tuple[int, str]:
+    """Run a launch file beside a lifecycle node. Return the exit code and all output."""
+    (bench.folder / "lamp.py").write_text(NODE)
+    (bench.folder / name).write_text(text)
+    ran = bench.ros2("launch", "-n", name)
+    return ran.code, ran.stdout + ran.stderr
 
 
 @pytest.mark.parametrize(("text", "messages"), [(BY_EVENTS, ["ready", "on"]), (BY_TRANSITIONS, ["on"])])
-def test_a_lifecycle_node_goes_through_its_states(
-    tmp_path: Path, env: dict[str, str], text: str, messages: list[str]
-) -> None:
-    code, out = launch(IMPORTS + text, env, tmp_path)
+def test_a_lifecycle_node_goes_through_its_states(bench: Bench, text: str, messages: list[str]) -> None:
+    code, out = launch(bench, IMPORTS + text)
     assert [line.partition("]: ")[2] for line in out.splitlines() if "[launch.user]" in line] == messages, out
     for state in ("configured", "activated"):
         assert f"[lamp]: {state}" in out
@@ -131,15 +111,15 @@ def test_a_lifecycle_node_goes_through_its_states(
         ),
     ],
 )
-def test_component_containers_are_refused(tmp_path: Path, env: dict[str, str], actions: str, error: str) -> None:
-    code, out = launch(f"{IMPORTS}    return LaunchDescription({actions})", env, tmp_path)
+def test_component_containers_are_refused(bench: Bench, actions: str, error: str) -> None:
+    code, out = launch(bench, f"{IMPORTS}    return LaunchDescription({actions})")
     errors = [line for line in out.splitlines() if line.startswith("[ERROR]")]
     assert len(errors) == 1
     assert error in errors[0]
     assert code == 1
 
 
-def test_other_actions_of_launch_ros_in_xml(tmp_path: Path, env: dict[str, str]) -> None:
+def test_other_actions_of_launch_ros_in_xml(bench: Bench) -> None:
     text = """<launch>
     <set_parameter name="rate" value="5"/><log message="rate $(param rate), $(param nowhere none)"/>
     <group><set_ros_log_dir new_log_dir="deep"/>
@@ -147,8 +127,8 @@ def test_other_actions_of_launch_ros_in_xml(tmp_path: Path, env: dict[str, str])
     <ros_timer period="0.1"><log message="later"/></ros_timer>
     <load_composable_node target="c"><composable_node pkg="a" plugin="b" name="c" if="false"/></load_composable_node>
     </launch>"""
-    code, out = launch(text, env, tmp_path, "my.launch.xml")
+    code, out = launch(bench, text, "my.launch.xml")
     assert "[launch.user]: rate 5, none\n" in out
-    assert f"[p-1] {tmp_path}/log/deep\n" in out
+    assert f"[p-1] {bench.folder}/log/deep\n" in out
     assert "[launch.user]: later\n" in out
     assert code == 0

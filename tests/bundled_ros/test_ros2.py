@@ -9,13 +9,13 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from tests.ros2cli.bench import Bench, command
 from tutor import bundled_ros
-from tutor.ros.domain import reserve_domain
-from tutor.ros.environment import detect, learner_env
 
 LIMIT_S = 60
 LAUNCH_FILE = """
@@ -32,31 +32,17 @@ def generate_launch_description():
 """
 
 
-@pytest.fixture
-def env(tmp_path: Path) -> Iterator[dict[str, str]]:
-    """A learner's environment on a domain of its own, with temporary files in `tmp_path`."""
-    with reserve_domain() as domain_id:
-        env = learner_env(detect(), domain_id=domain_id, log_dir=tmp_path / "log", package_root=None, isolated=True)
-        (tmp_path / "log").mkdir()
-        yield {
-            **env,
-            "HOME": str(tmp_path),
-            "TMPDIR": str(tmp_path / "log"),
-            "ROS_TUTOR_WORKSPACE": str(tmp_path / "ws"),
-        }
-
-
-def ros2(*words: str, env: dict[str, str], cwd: Path) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-P", "-m", "tutor.bundled_ros.ros2", *words]
-    return subprocess.run(command, env=env, cwd=cwd, capture_output=True, text=True, timeout=LIMIT_S, check=False)
-
-
 @contextmanager
-def start(*words: str, env: dict[str, str], cwd: Path) -> Iterator[subprocess.Popen[str]]:
+def start(bench: Bench, *words: str) -> Iterator[subprocess.Popen[str]]:
     """Start `ros2` in its own process group, which is killed after the block."""
-    command = [sys.executable, "-P", "-m", "tutor.bundled_ros.ros2", *words]
     process = subprocess.Popen(
-        command, env=env, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, process_group=0
+        command(*words),
+        env=bench.env,
+        cwd=bench.folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        process_group=0,
     )
     try:
         yield process
@@ -96,15 +82,13 @@ def read_until(process: subprocess.Popen[str], *words: str) -> str:
         (["launch", "my_launch.py", "word:="], 1, "malformed launch argument 'word:='"),
     ],
 )
-def test_errors_are_reported_in_one_line(
-    tmp_path: Path, env: dict[str, str], words: list[str], code: int, message: str
-) -> None:
-    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
-    ran = ros2(*words, env=env, cwd=tmp_path)
-    assert ran.returncode == code
+def test_errors_are_reported_in_one_line(bench: Bench, words: list[str], code: int, message: str) -> None:
+    (bench.folder / "my_launch.py").write_text(LAUNCH_FILE)
+    ran = bench.ros2(*words)
+    assert ran.code == code
     assert message in ran.stderr
     assert ran.stderr.count("\n") == 1
-    assert not list((tmp_path / "log").rglob("ros2-overlay*"))
+    assert not list((bench.folder / "log").rglob("ros2-overlay*"))
 
 
 @pytest.mark.parametrize(
@@ -115,17 +99,15 @@ def test_errors_are_reported_in_one_line(
         (["launch", "demo_nodes_cpp", "talker_listener.py"], "(is it talker_listener_launch"),
     ],
 )
-def test_a_misspelled_name_gets_a_suggestion(
-    tmp_path: Path, env: dict[str, str], words: list[str], suggestion: str
-) -> None:
-    ran = ros2(*words, env=env, cwd=tmp_path)
-    assert (ran.returncode, ran.stderr.count("\n")) == (1, 1)
+def test_a_misspelled_name_gets_a_suggestion(bench: Bench, words: list[str], suggestion: str) -> None:
+    ran = bench.ros2(*words)
+    assert (ran.code, ran.stderr.count("\n")) == (1, 1)
     assert suggestion in ran.stderr
 
 
 @pytest.mark.parametrize("code", [0, 3, -9])
-def test_run_reports_how_a_program_failed(tmp_path: Path, env: dict[str, str], code: int) -> None:
-    module = tmp_path / "ws/src/birds/birds/sing.py"
+def test_run_reports_how_a_program_failed(bench: Bench, code: int) -> None:
+    module = bench.folder / "ws/src/birds/birds/sing.py"
     module.parent.mkdir(parents=True)
     (module.parent / "__init__.py").touch()
     module.write_text(f"import os, sys\ndef main():\n    os.kill(os.getpid(), {max(-code, 0)})\n    return {code}\n")
@@ -133,9 +115,9 @@ def test_run_reports_how_a_program_failed(tmp_path: Path, env: dict[str, str], c
     (module.parents[1] / "setup.cfg").write_text(
         "[options.entry_points]\nconsole_scripts =\n  sing = birds.sing:main\n"
     )
-    ran = ros2("run", "--prefix", "env A=b", "birds", "sing", env=env, cwd=tmp_path / "ws")
+    ran = replace(bench, folder=bench.folder / "ws").ros2("run", "--prefix", "env A=b", "birds", "sing")
     message = {0: "", 3: "[ros2run]: Process exited with failure 3\n", -9: "[ros2run]: Killed\n"}
-    assert (ran.stdout, ran.stderr, ran.returncode) == (message[code], "", code % 256)
+    assert (ran.stdout, ran.stderr, ran.code) == (message[code], "", code % 256)
 
 
 LAUNCH_FILE_WITH_HANDLER = """
@@ -157,12 +139,10 @@ def generate_launch_description():
 """
 
 
-def test_print_shows_the_description_of_a_launch_file_that_imports_its_package(
-    tmp_path: Path, env: dict[str, str]
-) -> None:
-    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE_WITH_HANDLER)
-    (tmp_path / "settings.py").write_text("TOPIC = 'chatter'")
-    ran = ros2("launch", "-p", "my_launch.py", env=env, cwd=tmp_path)
+def test_print_shows_the_description_of_a_launch_file_that_imports_its_package(bench: Bench) -> None:
+    (bench.folder / "my_launch.py").write_text(LAUNCH_FILE_WITH_HANDLER)
+    (bench.folder / "settings.py").write_text("TOPIC = 'chatter'")
+    ran = bench.ros2("launch", "-p", "my_launch.py")
     assert [line.partition(" object at ")[0] for line in ran.stdout.splitlines()] == [
         "<launch.launch_description.LaunchDescription",
         "├── LogInfo('chatter')",
@@ -174,43 +154,42 @@ def test_print_shows_the_description_of_a_launch_file_that_imports_its_package(
         "handle_once=False)",
         "        └── EmitEvent(event='launch.events.Shutdown')",
     ]
-    assert (ran.stderr, ran.returncode) == ("", 0)
+    assert (ran.stderr, ran.code) == ("", 0)
 
 
 @pytest.mark.parametrize(("value", "shown"), [("1", ["1", "b"]), ("ros-tutor", ["b"])])
-def test_unbuffered_output_is_inherited_only_if_the_user_set_it(
-    tmp_path: Path, env: dict[str, str], value: str, shown: list[str]
-) -> None:
+def test_unbuffered_output_is_inherited_only_if_the_user_set_it(bench: Bench, value: str, shown: list[str]) -> None:
     text = LAUNCH_FILE_WITH_HANDLER.replace("from my_package.settings import TOPIC", "TOPIC = ''")
-    (tmp_path / "my_launch.py").write_text(text.replace('Node(package="my_package", executable="x"), ', ""))
+    (bench.folder / "my_launch.py").write_text(text.replace('Node(package="my_package", executable="x"), ', ""))
     words = ["launch", "-a", "--launch-prefix", "env A=b", "my_launch.py"]
-    ran = ros2(*words, env={**env, "PYTHONUNBUFFERED": value}, cwd=tmp_path)
+    starting = replace(bench, server=None, env={**bench.env, "PYTHONUNBUFFERED": value})
+    ran = starting.ros2(*words)
     assert [line.removeprefix("[env-1] ") for line in ran.stdout.splitlines() if line.startswith("[env-1]")] == shown
 
 
-def test_a_launch_file_given_by_path_takes_arguments(tmp_path: Path, env: dict[str, str]) -> None:
-    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
-    ran = ros2("launch", "my_launch.py", "word:=one", "word:=two", env=env, cwd=tmp_path)
-    assert ran.returncode == 0, ran.stderr
+def test_a_launch_file_given_by_path_takes_arguments(bench: Bench) -> None:
+    (bench.folder / "my_launch.py").write_text(LAUNCH_FILE)
+    ran = bench.ros2("launch", "my_launch.py", "word:=one", "word:=two")
+    assert ran.code == 0, ran.stderr
     assert "[echo-1] said two" in ran.stdout + ran.stderr
-    assert not list((tmp_path / "log").rglob("ros2-overlay*"))
+    assert not list((bench.folder / "log").rglob("ros2-overlay*"))
 
 
-def test_a_launch_file_of_a_package_is_found(tmp_path: Path, env: dict[str, str]) -> None:
-    package = tmp_path / "ws/src/talks"
+def test_a_launch_file_of_a_package_is_found(bench: Bench) -> None:
+    package = bench.folder / "ws/src/talks"
     (package / "launch").mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>talks</name></package>")
     (package / "launch/say_launch.py").write_text(LAUNCH_FILE)
-    ran = ros2("launch", "talks", "say_launch.py", env=env, cwd=tmp_path)
-    assert ran.returncode == 0, ran.stderr
+    ran = bench.ros2("launch", "talks", "say_launch.py")
+    assert ran.code == 0, ran.stderr
     assert "[echo-1] said nothing" in ran.stdout + ran.stderr
 
 
 @pytest.mark.parametrize("option", ["-s", "--show-args"])
-def test_launch_arguments_are_listed(tmp_path: Path, env: dict[str, str], option: str) -> None:
-    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
-    ran = ros2("launch", option, "my_launch.py", env=env, cwd=tmp_path)
-    assert ran.returncode == 0
+def test_launch_arguments_are_listed(bench: Bench, option: str) -> None:
+    (bench.folder / "my_launch.py").write_text(LAUNCH_FILE)
+    ran = bench.ros2("launch", option, "my_launch.py")
+    assert ran.code == 0
     assert "'word':" in ran.stdout
     assert "What to say" in ran.stdout
     assert "said" not in ran.stdout
@@ -220,13 +199,11 @@ def test_launch_arguments_are_listed(tmp_path: Path, env: dict[str, str], option
     ("package", "first"),
     [("demo_nodes_py", 'Publishing: "Hello World: 0"'), ("demo_nodes_cpp", "Publishing: 'Hello World: 1'")],
 )
-def test_remapped_talker_and_listener_communicate(
-    tmp_path: Path, env: dict[str, str], package: str, first: str
-) -> None:
+def test_remapped_talker_and_listener_communicate(bench: Bench, package: str, first: str) -> None:
     names = ("--ros-args", "-r", "chatter:=news", "-r", "__ns:=/robot1")
     with (
-        start("run", package, "listener", *names, env=env, cwd=tmp_path) as listener,
-        start("run", package, "talker", *names, env=env, cwd=tmp_path) as talker,
+        start(bench, "run", package, "listener", *names) as listener,
+        start(bench, "run", package, "talker", *names) as talker,
     ):
         assert "[robot1.talker]" in read_until(talker, first)
         assert "[robot1.listener]" in read_until(listener, "I heard: [Hello World: ")
@@ -234,23 +211,23 @@ def test_remapped_talker_and_listener_communicate(
             os.killpg(process.pid, signal.SIGINT)
             rest, _ = process.communicate(timeout=LIMIT_S)
             assert process.returncode == 0, rest
-    assert not list((tmp_path / "log").rglob("ros2-overlay*"))
+    assert not list((bench.folder / "log").rglob("ros2-overlay*"))
 
 
-def test_an_exit_code_is_passed_on(tmp_path: Path, env: dict[str, str]) -> None:
-    package = tmp_path / "ws/src/ends"
+def test_an_exit_code_is_passed_on(bench: Bench) -> None:
+    package = bench.folder / "ws/src/ends"
     (package / "ends").mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>ends</name></package>")
     (package / "setup.py").write_text("setup(entry_points={'console_scripts': ['five = ends.five:main']})")
     (package / "ends/__init__.py").touch()
     (package / "ends/five.py").write_text("import sys\ndef main():\n    print(sys.argv[1:])\n    return 5\n")
-    ran = ros2("run", "ends", "five", "--ros-args", "-s", env=env, cwd=tmp_path)
-    assert (ran.returncode, ran.stdout) == (5, "['--ros-args', '-s']\n[ros2run]: Process exited with failure 5\n")
+    ran = bench.ros2("run", "ends", "five", "--ros-args", "-s")
+    assert (ran.code, ran.stdout) == (5, "['--ros-args', '-s']\n[ros2run]: Process exited with failure 5\n")
 
 
-def test_ctrl_c_ends_the_whole_launch(tmp_path: Path, env: dict[str, str]) -> None:
+def test_ctrl_c_ends_the_whole_launch(bench: Bench) -> None:
     solution = Path(__file__).parents[2] / "lessons/i2_2/solution/my_launch.py"
-    with start("launch", str(solution), "topic:=news", env=env, cwd=tmp_path) as process:
+    with start(bench, "launch", str(solution), "topic:=news") as process:
         read_until(process, "[minimal_subscriber]: I heard")
         os.killpg(process.pid, signal.SIGINT)
         assert process.wait(LIMIT_S) == 0
@@ -258,15 +235,21 @@ def test_ctrl_c_ends_the_whole_launch(tmp_path: Path, env: dict[str, str]) -> No
             os.killpg(process.pid, 0)
 
 
-def test_ros_tutor_ros2_runs_our_ros2(tmp_path: Path, env: dict[str, str]) -> None:
-    command = [sys.executable, "-P", "-c", "import sys, tutor.cli; sys.exit(tutor.cli.main())", "ros2"]
+def test_ros_tutor_ros2_runs_our_ros2(bench: Bench) -> None:
+    program = [sys.executable, "-P", "-c", "import sys, tutor.cli; sys.exit(tutor.cli.main())", "ros2"]
 
     def tutor(*words: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
-            [*command, *words], env=env, cwd=tmp_path, capture_output=True, text=True, timeout=LIMIT_S, check=False
+            [*program, *words],
+            env=bench.env,
+            cwd=bench.folder,
+            capture_output=True,
+            text=True,
+            timeout=LIMIT_S,
+            check=False,
         )
 
-    (tmp_path / "my_launch.py").write_text(LAUNCH_FILE)
+    (bench.folder / "my_launch.py").write_text(LAUNCH_FILE)
     assert "said here" in (ran := tutor("launch", "my_launch.py", "word:=here")).stdout + ran.stderr
     assert "'word':" in tutor("launch", "my_launch.py", "--show-args").stdout
     assert tutor("topik").returncode == 2
@@ -274,7 +257,7 @@ def test_ros_tutor_ros2_runs_our_ros2(tmp_path: Path, env: dict[str, str]) -> No
 
 
 @pytest.mark.parametrize(("before", "code"), [("rclpy.try_shutdown()", 0), ("pass", 1)])
-def test_an_error_of_rclpy_that_follows_from_ctrl_c_is_no_failure(env: dict[str, str], before: str, code: int) -> None:
+def test_an_error_of_rclpy_that_follows_from_ctrl_c_is_no_failure(bench: Bench, before: str, code: int) -> None:
     nodes = Path(bundled_ros.__file__).parent / "demo/nodes.py"
     program = (
         "import runpy, sys, rclpy\n"
@@ -282,6 +265,5 @@ def test_an_error_of_rclpy_that_follows_from_ctrl_c_is_no_failure(env: dict[str,
         "rclpy.spin = spin\nsys.argv = ['', 'demo_nodes_py', 'talker']\n"
         f"runpy.run_path({str(nodes)!r}, run_name='__main__')\n"
     )
-    command = [sys.executable, "-c", program]
-    ran = subprocess.run(command, env=env, capture_output=True, text=True, timeout=LIMIT_S, check=False)
-    assert ran.returncode == code, ran.stderr
+    ran = bench.python("-c", program)
+    assert ran.code == code, ran.stderr

@@ -1,4 +1,4 @@
-"""A bench for each test."""
+"""Benches for the tests."""
 
 from __future__ import annotations
 
@@ -7,11 +7,26 @@ from pathlib import Path
 
 import pytest
 
+from tests.fork_server import ForkServer
 from tests.ros2cli import bench as bench_module
 
 
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ForkServer]:
+    """A server that forks commands and nodes."""
+    with bench_module.ros2_server(tmp_path_factory.mktemp("server")) as provided:
+        yield provided
+
+
 @pytest.fixture
-def bench(tmp_path: Path) -> Iterator[bench_module.Bench]:
+def bench(tmp_path: Path, server: ForkServer) -> Iterator[bench_module.Bench]:
     """A bench on a domain of its own."""
-    with bench_module.bench(tmp_path) as provided:
+    with bench_module.bench(tmp_path, server) as provided:
+        yield provided
+
+
+@pytest.fixture(scope="module")
+def module_bench(tmp_path_factory: pytest.TempPathFactory, server: ForkServer) -> Iterator[bench_module.Bench]:
+    """A bench on a domain that the tests of a module share."""
+    with bench_module.bench(tmp_path_factory.mktemp("bench"), server) as provided:
         yield provided

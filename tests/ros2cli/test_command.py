@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from pathlib import Path
+
 import pytest
 
+from tests.ros2cli import bench as bench_module
 from tests.ros2cli.bench import Bench
 
 USAGE = """\
@@ -14,6 +18,13 @@ TOPIC_USAGE = """\
 usage: ros2 topic [-h] [--include-hidden-topics]
                   Call `ros2 topic <command> -h` for more detailed usage. ...
 """
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Iterator[Bench]:
+    """A bench that starts each command as a new process, as a shell does."""
+    with bench_module.bench(tmp_path) as provided:
+        yield provided
 
 
 @pytest.mark.parametrize("words", [[], ["topic"], ["topic", "-h"], ["topic", "list", "--help"]])

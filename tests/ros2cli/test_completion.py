@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import subprocess
-
-from tests.ros2cli.bench import Bench, command
+from tests.ros2cli.bench import Bench
 
 SEPARATOR = "\013"
 
@@ -22,7 +20,7 @@ def complete(bench: Bench, line: str) -> list[str]:
         "COMP_POINT": str(len(line)),
         "COMP_TYPE": "9",
     }
-    subprocess.run(command(), env={**bench.env, **variables}, cwd=bench.folder, timeout=60, check=False)
+    bench.ros2(env=variables)
     return [word for word in answer.read_text().split(SEPARATOR) if word]
 
 

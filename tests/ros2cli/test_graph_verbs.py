@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import pytest
+
 from tests.ros.ordinary_domain import ordinary_domain
 from tests.ros2cli.bench import TALKER, Bench, Ran, command
 from tests.ros2cli.pseudo_terminal import terminal
@@ -9,13 +13,16 @@ from tests.ros2cli.pseudo_terminal import terminal
 SERVER = """
 from example_interfaces.srv import AddTwoInts
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+from rclpy.qos import qos_profile_system_default
+from rclpy.service_introspection import ServiceIntrospectionState
 node = rclpy.create_node("server", namespace="/math")
 
 def add(request, response):
     response.sum = request.a + request.b
     return response
 
-node.create_service(AddTwoInts, "/add", add)
+node.create_service(AddTwoInts, "/add", add).configure_introspection(
+    node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.CONTENTS)
 node.declare_parameter("rate", 2.0, ParameterDescriptor(
     description="how often", floating_point_range=[FloatingPointRange(from_value=0.5, to_value=10.0)]))
 node.declare_parameter("names", ["a", "b"])
@@ -28,15 +35,6 @@ def allow(given):
 node.add_on_set_parameters_callback(allow)
 spin(node)
 """
-INTROSPECTED_SERVER = SERVER.replace(
-    'node.create_service(AddTwoInts, "/add", add)',
-    """
-from rclpy.qos import qos_profile_system_default
-from rclpy.service_introspection import ServiceIntrospectionState
-node.create_service(AddTwoInts, "/add", add).configure_introspection(
-    node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.CONTENTS)
-""",
-)
 NODE = "/math/server"
 HOSTILE = """
 node = rclpy.create_node("hostile")
@@ -45,8 +43,16 @@ spin(node)
 """
 
 
-def test_nodes_are_listed_and_described(bench: Bench) -> None:
-    with bench.node(SERVER), bench.node(TALKER):
+@pytest.fixture(scope="module")
+def server_bench(module_bench: Bench) -> Iterator[Bench]:
+    """A bench with the server on its domain, for tests that leave its parameters as they are."""
+    with module_bench.node(SERVER):
+        yield module_bench
+
+
+def test_nodes_are_listed_and_described(server_bench: Bench) -> None:
+    bench = server_bench
+    with bench.node(TALKER):
         assert bench.ros2("node", "list") == Ran("/math/server\n/talker\n", "", 0)
         assert bench.ros2("node", "list", "-c").stdout == "2\n"
         info = bench.ros2("node", "info", NODE).stdout.splitlines()
@@ -64,23 +70,22 @@ def test_duplicate_node_names_are_reported(bench: Bench) -> None:
         assert bench.ros2("node", "info", "/talker").stderr.startswith("There are 2 nodes in the graph")
 
 
-def test_services_are_listed_and_called(bench: Bench) -> None:
-    with bench.node(SERVER):
-        listed = bench.ros2("service", "list", "-t").stdout.splitlines()
-        assert listed[0] == "/add [example_interfaces/srv/AddTwoInts]"
-        assert bench.ros2("service", "type", "/add") == Ran("example_interfaces/srv/AddTwoInts\n", "", 0)
-        assert bench.ros2("service", "find", "example_interfaces/srv/AddTwoInts").stdout == "/add\n"
-        assert bench.ros2("service", "info", "/add").stdout == (
-            "Type: example_interfaces/srv/AddTwoInts\nClients count: 0\nServices count: 1\n"
+def test_services_are_listed_and_called(server_bench: Bench) -> None:
+    listed = server_bench.ros2("service", "list", "-t").stdout.splitlines()
+    assert listed[0] == "/add [example_interfaces/srv/AddTwoInts]"
+    assert server_bench.ros2("service", "type", "/add") == Ran("example_interfaces/srv/AddTwoInts\n", "", 0)
+    assert server_bench.ros2("service", "find", "example_interfaces/srv/AddTwoInts").stdout == "/add\n"
+    assert server_bench.ros2("service", "info", "/add").stdout == (
+        "Type: example_interfaces/srv/AddTwoInts\nClients count: 0\nServices count: 1\n"
+    )
+    for form in ("example_interfaces/srv/AddTwoInts", "example_interfaces/AddTwoInts"):
+        assert server_bench.ros2("service", "call", "/add", form, "{a: 10, b: 5}") == Ran(
+            "waiting for service to become available...\n"
+            "requester: making request: example_interfaces.srv.AddTwoInts_Request(a=10, b=5)\n\n"
+            "response:\nexample_interfaces.srv.AddTwoInts_Response(sum=15)\n\n",
+            "",
+            0,
         )
-        for form in ("example_interfaces/srv/AddTwoInts", "example_interfaces/AddTwoInts"):
-            assert bench.ros2("service", "call", "/add", form, "{a: 10, b: 5}") == Ran(
-                "waiting for service to become available...\n"
-                "requester: making request: example_interfaces.srv.AddTwoInts_Request(a=10, b=5)\n\n"
-                "response:\nexample_interfaces.srv.AddTwoInts_Response(sum=15)\n\n",
-                "",
-                0,
-            )
 
 
 def test_a_call_that_cannot_be_made_says_why(bench: Bench) -> None:
@@ -98,20 +103,21 @@ def test_a_call_that_cannot_be_made_says_why(bench: Bench) -> None:
         assert waiting.interrupt() == Ran("", "", 2)
 
 
-def test_a_wait_for_a_service_says_what_is_missing(bench: Bench) -> None:
-    with bench.running("service", "call", "/nope", "std_srvs/srv/Trigger") as waiting:
+def test_a_wait_for_a_service_says_what_is_missing(server_bench: Bench) -> None:
+    with server_bench.running("service", "call", "/nope", "std_srvs/srv/Trigger") as waiting:
         assert waiting.error() == "no node offers /nope yet; Ctrl+C ends the wait"
-    with bench.node(SERVER), bench.running("service", "call", "add", "std_srvs/Trigger") as waiting:
+    with server_bench.running("service", "call", "add", "std_srvs/Trigger") as waiting:
         assert waiting.error() == "/add is there, but its type is example_interfaces/srv/AddTwoInts"
 
 
-def test_service_events_are_echoed(bench: Bench) -> None:
-    assert bench.ros2("service", "echo", "/add") == Ran("", "Cannot find type for '/add'\n", 1)
+def test_service_events_are_echoed(server_bench: Bench) -> None:
+    bench = server_bench
+    assert bench.ros2("service", "echo", "/nope") == Ran("", "Cannot find type for '/nope'\n", 1)
     assert bench.ros2("service", "echo", "/add", "nopkg/srv/X") == Ran(
         "", "The service type 'nopkg/srv/X' is invalid\n", 1
     )
     call = ("service", "call", "-r", "5", "/add", "example_interfaces/srv/AddTwoInts", "{a: 1, b: 2}")
-    with bench.node(INTROSPECTED_SERVER), bench.running(*call):
+    with bench.running(*call):
         with bench.running("service", "echo", "--csv", "/add") as heard:
             assert heard.line().split(",")[0] in ("1", "2")  # REQUEST_RECEIVED, RESPONSE_SENT
         with bench.running("service", "echo", "--flow-style", "/add") as heard:
@@ -119,25 +125,26 @@ def test_service_events_are_echoed(bench: Bench) -> None:
     assert {"  event_type: REQUEST_RECEIVED", "request: [{a: 1, b: 2}]", "response: [{sum: 3}]"} <= set(lines)
 
 
-def test_parameters_are_listed_read_and_described(bench: Bench) -> None:
-    with bench.node(SERVER):
-        listed = bench.ros2("param", "list", NODE).stdout.split()
-        assert listed[:3] == ["deep.er.value", "names", "rate"]
-        assert bench.ros2("param", "list").stdout.startswith("/math/server:\n  deep.er.value\n")
-        assert bench.ros2("param", "list", "--filter", "ra.*", "--param-type", NODE).stdout == "  rate (type: double)\n"
-        assert bench.ros2("param", "get", NODE, "rate").stdout == "Double value is: 2.0\n"
-        assert bench.ros2("param", "get", "math/server", "names").stdout == "String values are: ['a', 'b']\n"
-        assert bench.ros2("param", "get", "--hide-type", NODE, "deep.er.value").stdout == "3\n"
-        assert bench.ros2("param", "get", NODE, "nope") == Ran("", "Parameter not set\n", 1)
-        assert bench.ros2("param", "describe", NODE, "rate").stdout == (
-            "Parameter name: rate\n  Type: double\n  Description: how often\n  Constraints:\n"
-            "    Min value: 0.5\n    Max value: 10.0\n"
-        )
-        for verb in (("list",), ("dump",), ("get", "x"), ("set", "x", "1")):
-            assert bench.ros2("param", verb[0], "/nope", *verb[1:]) == Ran("", "Node not found\n", 1)
+def test_parameters_are_listed_read_and_described(server_bench: Bench) -> None:
+    listed = server_bench.ros2("param", "list", NODE).stdout.split()
+    assert listed[:3] == ["deep.er.value", "names", "rate"]
+    assert server_bench.ros2("param", "list").stdout.startswith("/math/server:\n  deep.er.value\n")
+    assert (
+        server_bench.ros2("param", "list", "--filter", "ra.*", "--param-type", NODE).stdout == "  rate (type: double)\n"
+    )
+    assert server_bench.ros2("param", "get", NODE, "rate").stdout == "Double value is: 2.0\n"
+    assert server_bench.ros2("param", "get", "math/server", "names").stdout == "String values are: ['a', 'b']\n"
+    assert server_bench.ros2("param", "get", "--hide-type", NODE, "deep.er.value").stdout == "3\n"
+    assert server_bench.ros2("param", "get", NODE, "nope") == Ran("", "Parameter not set\n", 1)
+    assert server_bench.ros2("param", "describe", NODE, "rate").stdout == (
+        "Parameter name: rate\n  Type: double\n  Description: how often\n  Constraints:\n"
+        "    Min value: 0.5\n    Max value: 10.0\n"
+    )
+    for verb in (("list",), ("dump",), ("get", "x"), ("set", "x", "1")):
+        assert server_bench.ros2("param", verb[0], "/nope", *verb[1:]) == Ran("", "Node not found\n", 1)
 
 
-def test_parameters_are_set_and_refusals_go_to_stderr(bench: Bench) -> None:
+def test_parameters_are_set_dumped_and_loaded_and_refusals_go_to_stderr(bench: Bench) -> None:
     with bench.node(SERVER):
         assert bench.ros2("param", "set", NODE, "rate", "5.0") == Ran("Set parameter successful\n", "", 0)
         assert bench.ros2("param", "set", NODE, "rate", "7.0") == Ran("", "Setting parameter failed: not seven\n", 0)
@@ -145,13 +152,10 @@ def test_parameters_are_set_and_refusals_go_to_stderr(bench: Bench) -> None:
         refused = bench.ros2("param", "delete", NODE, "rate")
         assert refused.stderr.startswith("Deleting parameter failed: ")
         assert refused.code == 0
-
-
-def test_a_dump_can_be_loaded(bench: Bench) -> None:
-    with bench.node(SERVER):
         dumped = bench.ros2("param", "dump", NODE).stdout
         assert "    deep:\n      er:\n        value: 3\n" in dumped
-        (bench.folder / "dump.yaml").write_text(dumped.replace("rate: 2.0", "rate: 4.0"))
+        assert "rate: 5.0" in dumped
+        (bench.folder / "dump.yaml").write_text(dumped.replace("rate: 5.0", "rate: 4.0"))
         loaded = bench.ros2("param", "load", NODE, "dump.yaml")
         assert "Set parameter rate successful\n" in loaded.stdout
         assert bench.ros2("param", "get", NODE, "rate").stdout == "Double value is: 4.0\n"

@@ -1,4 +1,7 @@
-"""Each command of each lesson, run verbatim in `ros-tutor shell` with our solution, prints what the lesson shows."""
+"""Each command of each lesson, run verbatim in `ros-tutor shell` with our solution, prints what the lesson shows.
+
+As a learner would, the tests do one lesson after another in one shell and one workspace; each also works alone.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -26,6 +30,7 @@ from tutor.workspace import Workspace
 TUTOR = [sys.executable, "-P", "-c", "import sys; from tutor.cli import main; sys.exit(main())"]
 LIMIT_S = 90.0
 POLL_S = 0.05
+NODE_POLL_S = 0.5
 LESSONS = {lesson.id: lesson for lesson in load_course().lessons}
 
 
@@ -38,7 +43,7 @@ class Shell:
         names = ("PATH", "LANG", "ROS_DOMAIN_ID", "HOME", "TMPDIR", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_TUTOR_GROUP")
         user_env = {name: bench.env[name] for name in names if name in bench.env}
         user_env |= {name: str(profile) for name, value in bench.env.items() if value == str(PROFILE)}
-        self._workspace = workspace
+        self.workspace = workspace
         self._user_env = {**user_env, "SHELL": shutil.which("bash") or "bash"}
         self._outputs = bench.folder / "outputs"
         self._outputs.mkdir()
@@ -51,7 +56,7 @@ class Shell:
             *TUTOR,
             "shell",
             "--workspace",
-            str(self._workspace.root),
+            str(self.workspace.root),
             "-c",
             "cat /proc/self/environ; exec sleep 600",
         ]
@@ -75,7 +80,7 @@ class Shell:
         """Start a command line in its own process group. After the block, press Ctrl+C if it is still running."""
         self._count += 1
         path = self._outputs / str(self._count)
-        folder = self._workspace.path_of("node.py").parent
+        folder = self.workspace.path_of("node.py").parent
         with path.open("wb") as output:
             process = subprocess.Popen(
                 ["bash", "-c", line],
@@ -129,14 +134,25 @@ class Started:
         return f"`{command.line}` is shown as\n{shown}\nbut printed (exit code {self.code})\n{self.output}"
 
 
+@pytest.fixture(scope="module")
+def bench(module_bench: Bench) -> Iterator[Bench]:
+    """A bench on an ordinary ROS domain, such as users have."""
+    with ordinary_domain() as domain:
+        yield replace(module_bench, env={**module_bench.env, "ROS_DOMAIN_ID": str(domain)})
+
+
+@pytest.fixture(scope="module")
+def shell(bench: Bench) -> Iterator[Shell]:
+    """An open shell with a workspace."""
+    shell = Shell(bench, Workspace(bench.folder / "ws"))
+    with shell.open():
+        yield shell
+
+
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("lesson", LESSONS.values(), ids=lambda lesson: lesson.id)
-def test_each_command_of_a_lesson_prints_what_the_lesson_shows(bench: Bench, lesson: Lesson) -> None:
-    workspace = Workspace(bench.folder / "ws")
+def test_each_command_of_a_lesson_prints_what_the_lesson_shows(bench: Bench, shell: Shell, lesson: Lesson) -> None:
     with ExitStack() as nodes:
-        bench.env["ROS_DOMAIN_ID"] = str(nodes.enter_context(ordinary_domain()))
-        shell = Shell(bench, workspace)
-        nodes.enter_context(shell.open())
         running: list[Started] = []
         for command in find_commands(lesson.body):
             if is_check(command.line):
@@ -146,10 +162,10 @@ def test_each_command_of_a_lesson_prints_what_the_lesson_shows(bench: Bench, les
                 for other in [each for each in running if program_words(each.line) == program_words(command.line)]:
                     other.interrupt()
                     running.remove(other)
-                before = node_names(shell)
+                before = count_nodes(bench) if running else 0
                 node = nodes.enter_context(shell.start(command.line))
                 node.wait_for(command)
-                await_new_node(shell, before, node)
+                await_new_node(bench, before, node)
                 running.append(node)
             else:
                 with shell.start(command.line) as started:
@@ -160,7 +176,7 @@ def test_each_command_of_a_lesson_prints_what_the_lesson_shows(bench: Bench, les
                     assert not endless or started.code in (2, -signal.SIGINT), started.output
                     assert "Traceback" not in started.output
             if command.line.startswith("ros-tutor start"):
-                copy_solution(lesson, workspace)
+                copy_solution(lesson, shell.workspace)
         failed = [f"{node.line}\n{node.output}" for node in running if node.code not in (None, 0)]
         assert not failed, failed
 
@@ -194,21 +210,19 @@ def is_endless(line: str) -> bool:
     return words[:2] == ["ros2", "topic"] and words[2] in ("echo", "hz", "bw", "delay") and "--once" not in words
 
 
-def node_names(shell: Shell) -> list[str]:
-    ran = subprocess.run(
-        ["ros2", "node", "list"], env=shell.env, capture_output=True, text=True, timeout=60, check=True
-    )
-    return ran.stdout.split()
+def count_nodes(bench: Bench) -> int:
+    return len(bench.ros2("node", "list").stdout.split())
 
 
-def await_new_node(shell: Shell, before: list[str], node: Started) -> None:
+def await_new_node(bench: Bench, before: int, node: Started) -> None:
     """Wait until there are more nodes than before, or until the program has exited with 0."""
     deadline = time.monotonic() + LIMIT_S
-    while len(node_names(shell)) <= len(before):
+    while count_nodes(bench) <= before:
         if node.code is not None:
             assert node.code == 0, f"`{node.line}`: {node.code}\n{node.output}"
             return
         assert time.monotonic() < deadline, node.output
+        time.sleep(NODE_POLL_S)
 
 
 def copy_solution(lesson: Lesson, workspace: Workspace) -> None:

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -47,46 +48,56 @@ def run_tutor(bench: Bench, *words: str, env: dict[str, str]) -> Ran:
     return Ran(ran.stdout, ran.stderr, ran.returncode)
 
 
-@pytest.fixture
-def workspace(bench: Bench) -> Iterator[Path]:
-    """A workspace with a node of the learner's, on an ordinary ROS domain such as users have.
+@pytest.fixture(scope="module")
+def bench(module_bench: Bench) -> Iterator[Bench]:
+    """A bench on an ordinary ROS domain, such as users have.
 
-    A DDS profile of the user's keeps the traffic within the test.
+    A DDS profile of the user's keeps the traffic within the tests.
     """
-    with ordinary_domain() as domain:
-        bench.env["ROS_DOMAIN_ID"] = str(domain)
-        yield _make_workspace(bench)
-
-
-def _make_workspace(bench: Bench) -> Path:
-    profile = bench.folder / "profile.xml"
+    profile = module_bench.folder / "profile.xml"
     profile.write_bytes(PROFILE.read_bytes())
-    bench.env |= {name: str(profile) for name, value in bench.env.items() if value == str(PROFILE)}
+    own_profile = {name: str(profile) for name, value in module_bench.env.items() if value == str(PROFILE)}
+    with ordinary_domain() as domain:
+        yield replace(module_bench, env={**module_bench.env, **own_profile, "ROS_DOMAIN_ID": str(domain)})
+
+
+@pytest.fixture(scope="module")
+def workspace(bench: Bench) -> Path:
+    """A workspace with a node of the learner's. The tests leave it as it is."""
     root = bench.folder / "ws"
     assert run_tutor(bench, "start", "i1.1", "--workspace", str(root), env=user_env(bench)).code == 0
     (root / "src/my_package/my_package/mine.py").write_text(NODE)
     return root
 
 
-def test_a_command_line_is_run_as_in_a_sourced_terminal(bench: Bench, workspace: Path) -> None:
-    env = user_env(bench)
-    files = sorted(path for path in bench.folder.rglob("*") if "log" not in path.parts)
+@pytest.fixture(scope="module")
+def talker_bench(bench: Bench) -> Iterator[Bench]:
+    """The bench with a talker on its domain."""
+    with bench.node(TALKER):
+        yield bench
+
+
+def test_a_command_line_is_run_as_in_a_sourced_terminal(talker_bench: Bench, workspace: Path) -> None:
+    env = user_env(talker_bench)
+    files = sorted(path for path in talker_bench.folder.rglob("*") if "log" not in path.parts)
 
     def shell(line: str) -> Ran:
-        return run_tutor(bench, "shell", "--workspace", str(workspace), "-c", line, env=env)
+        return run_tutor(talker_bench, "shell", "--workspace", str(workspace), "-c", line, env=env)
 
-    with bench.node(TALKER):
-        assert shell("ros2 topic type /chatter") == Ran("std_msgs/msg/String\n", "", 0)
-        assert shell("ros2 topic echo --once /chatter | head -c 20").stdout == "data: 'Hello World: "
-    assert shell("ros2 run my_package mine").stdout == "made mine\n"
-    assert shell(f"cd {workspace}/src/my_package/my_package && python3 mine.py").stdout == "made mine\n"
-    assert shell("python3 -c 'import my_package.mine as mine; mine.main()'").stdout == "made mine\n"
-    assert shell("ros2 topic type /nothing; exit 7").code == 7
+    commands_and_outputs = {
+        "ros2 topic type /chatter": "std_msgs/msg/String\n",
+        "ros2 topic echo --once /chatter | head -c 20; echo": "data: 'Hello World: \n",
+        "ros2 run my_package mine": "made mine\n",
+        f"(cd {workspace}/src/my_package/my_package && python3 mine.py)": "made mine\n",
+        "python3 -c 'import my_package.mine as mine; mine.main()'": "made mine\n",
+        "echo $ROS_DOMAIN_ID": f"{env['ROS_DOMAIN_ID']}\n",
+        "ros-tutor list --help >/dev/null && echo helped": "helped\n",
+    }
+    script = "set -e\n" + "\n".join(commands_and_outputs) + "\nset +e; ros2 topic type /nothing; exit 7"
+    assert shell(script) == Ran("".join(commands_and_outputs.values()), "", 7)
     assert shell("kill -TERM $$").code == 128 + signal.SIGTERM
-    assert shell("echo $ROS_DOMAIN_ID").stdout == f"{bench.env['ROS_DOMAIN_ID']}\n"
-    assert shell("ros-tutor list --help").code == 0
-    new = sorted(path for path in bench.folder.rglob("*") if "log" not in path.parts)
-    assert [path for path in new if path not in files and not path.name.startswith("node_")] == []
+    new = sorted(path for path in talker_bench.folder.rglob("*") if "log" not in path.parts)
+    assert [path for path in new if path not in files] == []
 
 
 def test_the_workspaces_domain_is_used_if_none_is_set(bench: Bench, workspace: Path) -> None:
@@ -96,8 +107,8 @@ def test_the_workspaces_domain_is_used_if_none_is_set(bench: Bench, workspace: P
     assert domains == {(workspace / ".ros-tutor/domain").read_text()}
 
 
-def test_an_installed_ros2_takes_precedence(bench: Bench, workspace: Path) -> None:
-    own = bench.folder / "own"
+def test_an_installed_ros2_takes_precedence(bench: Bench, workspace: Path, tmp_path: Path) -> None:
+    own = tmp_path / "own"
     own.mkdir()
     (own / "ros2").write_text("#!/bin/sh\necho the real one\n")
     (own / "ros2").chmod(0o755)
@@ -112,10 +123,11 @@ export AMENT_PREFIX_PATH=/opt/ros/other PATH=/somewhere/else:$PATH ROS_DISTRO=ot
 """
 
 
-def test_the_users_own_shell_is_run(bench: Bench, workspace: Path) -> None:
-    (bench.folder / ".bashrc").write_text(RC)
+def test_the_users_own_shell_is_run(talker_bench: Bench, workspace: Path, tmp_path: Path) -> None:
+    (tmp_path / ".bashrc").write_text(RC)
     command = [*TUTOR, "shell", "--workspace", str(workspace)]
-    with bench.node(TALKER), terminal(command, user_env(bench), bench.folder) as shell:
+    env = user_env(talker_bench, HOME=str(tmp_path), TMPDIR=str(tmp_path))
+    with terminal(command, env, talker_bench.folder) as shell:
         shell.until("workspace ")
         shell.until("(ROS 2: ws) users> ")
         shell.type('echo "$FROM_RC, ${ROS_DISTRO-unset}, $?"\n')
@@ -140,16 +152,16 @@ def test_the_users_own_shell_is_run(bench: Bench, workspace: Path) -> None:
         shell.until("\r\ncode 2\r\n")
         shell.type("exit 3\n")
         assert shell.end() == 3
-    assert not list((bench.folder / "log").rglob("shell.*"))
-    assert (bench.folder / ".bashrc").read_text() == RC
+    assert not list(tmp_path.rglob("shell.*"))
+    assert (tmp_path / ".bashrc").read_text() == RC
 
 
 @pytest.mark.skipif(shutil.which("zsh") is None, reason="zsh is not installed")
-def test_zsh_is_run_if_it_is_the_users_shell(bench: Bench, workspace: Path) -> None:
-    (bench.folder / ".zshrc").write_text("FROM_RC=read\nPROMPT='users> '\n")
+def test_zsh_is_run_if_it_is_the_users_shell(talker_bench: Bench, workspace: Path, tmp_path: Path) -> None:
+    (tmp_path / ".zshrc").write_text("FROM_RC=read\nPROMPT='users> '\n")
     command = [*TUTOR, "shell", "--workspace", str(workspace)]
-    env = user_env(bench, SHELL=shutil.which("zsh") or "")
-    with bench.node(TALKER), terminal(command, env, bench.folder) as shell:
+    env = user_env(talker_bench, SHELL=shutil.which("zsh") or "", HOME=str(tmp_path))
+    with terminal(command, env, talker_bench.folder) as shell:
         shell.until("(ROS 2: ws) users> ")
         shell.type('echo "$FROM_RC, ${ZDOTDIR-unset}"\n')
         shell.until("read, unset")

@@ -9,11 +9,13 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.bundled_ros.launching.case import Case, launch_file
+from tests.bundled_ros.launching.case import IMPORTS, Case, launch_file
+from tests.fork_server import Forked, ForkServer, fork_server
 from tutor.process.supervisor import processes
 
 RUN = """\
@@ -22,6 +24,15 @@ from tutor.bundled_ros.launching import run
 options, arguments = sys.argv[2].split(), sys.argv[3:]
 sys.exit(run(sys.argv[1], arguments, "show" in options, noninteractive="terminal" not in options))
 """
+
+PRELOAD = f"""\
+import sys
+from tutor.bundled_ros.launching.runner import SUBSTITUTES
+sys.path.append(str(SUBSTITUTES))
+import difflib, yaml, launch.frontend, launch_ros.packages
+{IMPORTS}
+"""
+"""Imports what most launch files need, for a fork server."""
 
 PRINT_ARGV = """\
 #!/bin/sh
@@ -75,11 +86,22 @@ class Ran:
         return tuple(line for line in self.lines if re.match(r"\[(INFO|WARNING|ERROR)\]", line))
 
 
-class Launcher:
-    """A folder with an ament prefix that contains the package `demo`."""
+@contextmanager
+def launch_server() -> Iterator[ForkServer]:
+    """Run a fork server for launchers during the block."""
+    with fork_server(PRELOAD, _environment("")) as server:
+        yield server
 
-    def __init__(self, folder: Path) -> None:
+
+class Launcher:
+    """A folder with an ament prefix that contains the package `demo`.
+
+    `server` forks the launches, except for real ones. Without it, each is a new process.
+    """
+
+    def __init__(self, folder: Path, server: ForkServer | None = None) -> None:
         self.folder = folder
+        self._server = server
         self.prefix = folder / "prefix"
         for path, text in PROGRAMS.items():
             self._write(f"prefix/lib/demo/{path}", text).chmod(0o755)
@@ -124,38 +146,44 @@ class Launcher:
         At the first line that contains `interrupt_at`, send the signals: to the launch alone, or with `to_all` to its
         whole process group, as a terminal does. `ignoring_sigint` starts it as a shell starts background jobs.
         """
+        prefixes = [str(self.prefix), *filter(None, [os.environ.get("AMENT_PREFIX_PATH")])]
         environ = {
-            **{name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "OVERRIDE_LAUNCH"))},
-            "AMENT_PREFIX_PATH": os.pathsep.join(
-                [str(self.prefix), *filter(None, [os.environ.get("AMENT_PREFIX_PATH")])]
-            ),
-            "PYTHONPATH": python_path,
+            **_environment(python_path),
+            "AMENT_PREFIX_PATH": os.pathsep.join(prefixes),
             "ROS_LOG_DIR": str(self.folder / "log"),
             **(environment or {}),
         }
-        process = subprocess.Popen(
-            [sys.executable, "-P", "-c", RUN, str(path), options, *arguments],
-            env=environ,
-            cwd=self.folder,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            start_new_session=True,
-            preexec_fn=(lambda: signal.signal(signal.SIGINT, signal.SIG_IGN)) if ignoring_sigint else None,
-        )
+        words = ["-c", RUN, str(path), options, *arguments]
+        read_output, output = os.pipe()
+        process: Forked | subprocess.Popen[bytes]
+        with open(os.devnull) as nothing, open(output, "w"):
+            if self._server and not python_path and not ignoring_sigint:
+                process = self._server.start(
+                    words, env=environ, cwd=self.folder,
+                    stdin=nothing.fileno(), stdout=output, stderr=output, new_session=True,
+                )  # fmt: skip
+            else:
+                process = subprocess.Popen(
+                    [sys.executable, "-P", *words],
+                    env=environ,
+                    cwd=self.folder,
+                    stdin=nothing,
+                    stdout=output,
+                    stderr=output,
+                    start_new_session=True,
+                    preexec_fn=(lambda: signal.signal(signal.SIGINT, signal.SIG_IGN)) if ignoring_sigint else None,
+                )
         watchdog = threading.Timer(LIMIT_S, os.killpg, (process.pid, signal.SIGKILL))
         watchdog.start()
         lines = []
-        assert process.stdout is not None
-        with process.stdout:
-            for line in process.stdout:
+        with open(read_output) as shown:
+            for line in shown:
                 lines.append(line.rstrip("\n"))
                 if interrupt_at and interrupt_at in line:
                     interrupt_at = ""
                     for number in signals:
                         (os.killpg if to_all else os.kill)(process.pid, number)
-        code = process.wait()
+        code = process.wait(LIMIT_S)
         watchdog.cancel()
         return Ran(code, tuple(self._mask(line) for line in lines), has_orphans(process.pid))
 
@@ -164,6 +192,11 @@ class Launcher:
             line = line.replace(str(folder), placeholder)
         line = re.sub(r"\bpid \[\d+\]", "pid [N]", line)
         return re.sub(r"\[pid \d+", "[pid N", line)
+
+
+def _environment(python_path: str) -> dict[str, str]:
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "OVERRIDE_LAUNCH"))}
+    return {**kept, "PYTHONPATH": python_path}
 
 
 def has_orphans(group: int) -> bool:

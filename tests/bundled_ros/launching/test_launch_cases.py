@@ -25,8 +25,8 @@ def test_cases_are_many_and_distinct_and_name_their_sources() -> None:
 
 
 @pytest.mark.parametrize("case", ALL, ids=lambda case: case.id)
-def test_our_launch(case: Case, tmp_path: Path) -> None:
-    assert_case(case, Launcher(tmp_path), python_path="")
+def test_our_launch(case: Case, launcher: Launcher) -> None:
+    assert_case(case, launcher, python_path="")
 
 
 @pytest.mark.skipif(not REAL, reason="no real launch is installed")

@@ -21,11 +21,6 @@ WAITER = "Node(package='demo', executable='waiter', output='screen')"
 INTERRUPTED = "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)"
 
 
-@pytest.fixture
-def launcher(tmp_path: Path) -> Launcher:
-    return Launcher(tmp_path)
-
-
 def write(launcher: Launcher, actions: str, before: str = "") -> Path:
     path = launcher.folder / "main.launch.py"
     path.write_text(launch_file(actions, before))
