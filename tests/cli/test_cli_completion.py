@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -31,13 +32,18 @@ _python_argcomplete
 SETUP = {"zsh": "autoload -U compinit; compinit -u -D\n", "bash": "", "fish": ""}
 
 
+@cache
+def shell_code(shell: str) -> str:
+    """The code that enables completion."""
+    command = ["./ros-tutor", "completion", shell]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+
+
 def completions(shell: str, line: str, home: Path) -> list[str]:
     """The words that Tab offers at the end of a line."""
-    script = subprocess.run(
-        ["./ros-tutor", "completion", shell], cwd=ROOT, capture_output=True, text=True, check=True
-    ).stdout
+    program = f"{SETUP[shell]}{shell_code(shell)}\n{REQUEST[shell]}"
     completion = subprocess.run(
-        [shell, *(["--no-rcs"] if shell == "zsh" else []), "-c", f"{SETUP[shell]}{script}\n{REQUEST[shell]}"],
+        [shell, *(["--no-rcs"] if shell == "zsh" else []), "-c", program],
         cwd=ROOT,
         env={**os.environ, "HOME": str(home), "LINE": line},
         capture_output=True,

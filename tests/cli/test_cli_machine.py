@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from tutor.cli import main
+
 LIMIT_S = 100.0
 CLONE = Path(__file__).resolve().parents[2]
 RUN = (sys.executable, "-I", "-m", "tutor")
@@ -47,9 +49,8 @@ def read_only(tmp_path: Path) -> Path:
     return path
 
 
-@pytest.mark.parametrize("variables", [("HOME",), ("HOME", "TMPDIR")], ids=" ".join)
-def test_a_check_needs_no_writable_home_or_temporary_folder(read_only: Path, variables: list[str]) -> None:
-    result = run_command(*UNPRIVILEGED, *RUN, *CHECK, **dict.fromkeys(variables, str(read_only)))
+def test_a_check_needs_no_writable_home_or_temporary_folder(read_only: Path) -> None:
+    result = run_command(*UNPRIVILEGED, *RUN, *CHECK, HOME=str(read_only), TMPDIR=str(read_only))
     assert (result.returncode, result.stderr) == (0, ""), result.stdout + result.stderr
     assert not any(read_only.iterdir())
 
@@ -114,16 +115,15 @@ def test_too_few_file_descriptors_are_an_error_of_the_machine(limit: int) -> Non
 
 def test_a_soft_limit_on_file_descriptors_is_raised_where_allowed() -> None:
     lower_limit = lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (40, 1024))  # noqa: E731
-    command = [*RUN, "check", "i1.3", "--solution", "--format", "json"]
     result = subprocess.run(
-        command, capture_output=True, text=True, timeout=LIMIT_S, check=False, preexec_fn=lower_limit
+        [*RUN, *CHECK], capture_output=True, text=True, timeout=LIMIT_S, check=False, preexec_fn=lower_limit
     )
     assert result.returncode == 0, result.stdout + result.stderr
 
 
 def test_a_named_pipe_as_progress_file_or_output_blocks_nothing(tmp_path: Path) -> None:
     workspace = ("--workspace", str(tmp_path / "ws"))
-    assert run_command(*RUN, *workspace, "start", "i1.1").returncode == 0
+    assert main([*workspace, "start", "i1.1"]) == 0
     progress = tmp_path / "ws" / ".ros-tutor" / "progress.json"
     assert progress.is_file()
     progress.unlink()

@@ -90,7 +90,7 @@ async def wait_until(condition: Callable[[], bool], what: str) -> None:
     try:
         async with asyncio.timeout(LIMIT_S):
             while not condition():
-                await asyncio.sleep(0.02)
+                await asyncio.sleep(0.1)  # most conditions read all of /proc
     except TimeoutError:
         pytest.fail(f"not seen: {what}")
 

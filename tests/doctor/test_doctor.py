@@ -47,40 +47,59 @@ def child_pids() -> set[str]:
     return {name for task in Path("/proc/self/task").iterdir() for name in (task / "children").read_text().split()}
 
 
+FINDINGS = [
+    "Python",
+    "ROS 2",
+    "ROS variables",
+    "ROS packages",
+    "Shared memory",
+    "rclpy",
+    "example_interfaces",
+    "Loopback network",
+    "Loopback multicast",
+    "Discovery",
+    "Temporary files",
+    "Workspace",
+    "ROS domain",
+    "Terminal",
+]
+
+
 def test_this_machine_passes_and_nothing_is_left_behind(tmp_path: Path) -> None:
     before = child_pids()
     start = time.monotonic()
     findings = examine(tmp_path / "ws")
     took = time.monotonic() - start
     assert [finding for finding in findings if finding.ok is False] == []
-    assert [finding.name for finding in findings] == [
-        "Python",
-        "ROS 2",
-        "ROS variables",
-        "ROS packages",
-        "Shared memory",
-        "rclpy",
-        "example_interfaces",
-        "Loopback network",
-        "Loopback multicast",
-        "Discovery",
-        "Temporary files",
-        "Workspace",
-        "ROS domain",
-        "Terminal",
-    ]
+    assert [finding.name for finding in findings] == FINDINGS
     assert took < 30
     assert child_pids() <= before
     assert list(tmp_path.iterdir()) == []  # the workspace is not created
 
 
-def test_workspace_is_optional_and_rclpy_is_not_imported() -> None:
-    output = run_in_child(
-        "import sys\nfrom tutor.doctor import examine\n"
-        "print([f.name for f in examine(None)], 'rclpy' in sys.modules, 'textual' in sys.modules)"
-    )
-    assert "Workspace" not in output
-    assert output.endswith("False False\n")
+EXAMINES_WITH_A_BROKEN_PROBE = """
+import sys
+from tutor.doctor import examine, terminal
+def capabilities(environ):
+    raise ValueError("what is this")
+terminal.capabilities = capabilities
+for finding in examine(None):
+    print(finding.name, finding.ok, finding.text, bool(finding.hint), sep="|")
+print("rclpy" in sys.modules, "textual" in sys.modules)
+"""
+
+
+def test_a_probe_that_raises_does_not_hide_the_others_workspace_is_optional_and_rclpy_is_not_imported() -> None:
+    *lines, imported = run_in_child(EXAMINES_WITH_A_BROKEN_PROBE).splitlines()
+    *others, broken = (line.split("|") for line in lines)
+    assert [finding[0] for finding in others] == [
+        name for name in FINDINGS if name not in ("Workspace", "ROS domain", "Terminal")
+    ]
+    assert [finding for finding in others if finding[1] == "False"] == []
+    assert broken[1] == "False"
+    assert "ValueError: what is this" in broken[2]
+    assert broken[3] == "True", "it has a hint"
+    assert imported == "False False"
 
 
 def test_wrong_python_and_machine() -> None:
@@ -203,43 +222,34 @@ def test_an_unwritable_workspace() -> None:
 
 
 @pytest.mark.parametrize(
-    ("variables", "parts"),
+    ("environ", "encoding", "ok", "part"),
     [
-        ({"TERM": "xterm-256color", "COLUMNS": "80", "LINES": "24"}, ("ok=True", "colour, UTF-8")),
-        ({"TERM": "dumb"}, ("ok=None", "TERM names no terminal")),
-        ({"TERM": "vt100"}, ("ok=None", "few colours")),
-        ({"TERM": "xterm-256color", "PYTHONIOENCODING": "latin-1"}, ("ok=None", "not UTF-8")),
+        ({"TERM": "xterm-256color"}, "utf-8", True, "colour, UTF-8"),
+        ({"TERM": "dumb"}, "utf-8", None, "TERM names no terminal"),
+        ({"TERM": "vt100"}, "utf-8", None, "few colours"),
+        ({"TERM": "xterm-256color"}, "latin-1", None, "not UTF-8"),
     ],
 )
-def test_terminal_capabilities(variables: dict[str, str], parts: tuple[str, ...]) -> None:
-    code = "import sys\nfrom tutor.doctor import terminal\nprint(repr(terminal.capabilities()), file=sys.stderr)"
-    env = {name: value for name, value in os.environ.items() if name not in ("COLORTERM", "PYTHONIOENCODING")}
+def test_terminal_capabilities(
+    environ: dict[str, str], encoding: str, ok: bool | None, part: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     outer, inner = pty.openpty()
+    fcntl.ioctl(inner, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
     try:
-        fcntl.ioctl(inner, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
-        done = subprocess.run(
-            [sys.executable, "-c", code],
-            env={**env, "PYTHONPATH": str(ROOT), **variables},
-            stdout=inner, stderr=subprocess.PIPE, text=True, timeout=30, check=True,
-        )  # fmt: skip
+        with open(inner, "w", encoding=encoding) as stdout:
+            monkeypatch.setattr(sys, "stdout", stdout)
+            finding = terminal.capabilities(environ)
+            monkeypatch.undo()
     finally:
         os.close(outer)
-        os.close(inner)
-    for part in parts:
-        assert part in done.stderr
+    assert finding.ok is ok
+    assert part in finding.text
 
 
-def test_no_terminal_at_all_is_only_a_warning() -> None:
-    output = run_in_child("from tutor.doctor import terminal\nprint(terminal.capabilities())")
-    assert "ok=None" in output
-    assert "not a terminal" in output
-
-
-def test_a_probe_that_raises_does_not_hide_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken() -> Finding:
-        raise ValueError("what is this")
-
-    monkeypatch.setattr(terminal, "capabilities", lambda environ: broken())
-    findings = examine(None)
-    assert_failed(findings[-1], "ValueError: what is this")
-    assert all(finding.ok is not False for finding in findings[:-1])
+def test_no_terminal_at_all_is_only_a_warning(monkeypatch: pytest.MonkeyPatch) -> None:
+    with open(os.devnull, "w") as stdout:
+        monkeypatch.setattr(sys, "stdout", stdout)
+        finding = terminal.capabilities()
+        monkeypatch.undo()
+    assert finding.ok is None
+    assert "not a terminal" in finding.text

@@ -4,25 +4,28 @@ from __future__ import annotations
 
 import asyncio
 import importlib
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from tests.engine.helpers import Scene, refuse_facts
+from tests.engine.helpers import FILE, Scene, refuse_facts
 from tutor.content import load_course
-from tutor.judge.ending import judge_ending
+from tutor.judge import ending
+from tutor.judge.bench import Bench
+from tutor.judge.ending import judge_ending, repeat_if_doubtful
 from tutor.judge.submission import Submission
-from tutor.ros.environment import RosEnvironment
+from tutor.judge.trace import Ending, Trace
+from tutor.judge.verdict import Verdict
 from tutor.workspace import solution
 
-# Appended to a solution, to crash as rclpy's C++ code may after shutdown. `{}`: the runs (from 1) that crash, the code
+# Appended to a program, to crash as rclpy's C++ code may after shutdown. `{}`: the runs (from 1) that crash, the code
 # that these runs execute, and the code that every run executes at its very end.
 CRASHES = """
 import os, pathlib, signal
-import rclpy
-from rclpy.executors import SingleThreadedExecutor
 def spin_on():
+    import rclpy
+    from rclpy.executors import SingleThreadedExecutor
     context = rclpy.Context()
     context.init()
     executor = SingleThreadedExecutor(context=context)
@@ -53,73 +56,102 @@ SCENARIOS = [
 ]
 
 
-async def run_scenario(
-    ros: RosEnvironment,
-    folder: Path,
-    exercise: str,
-    scenario: str,
-    runs: tuple[int, ...],
-    code: str,
-    always: str = "",
-) -> Any:
-    """Return a scenario's facts about the exercise's solution, which runs `code` at the end of these runs (from 1)."""
+# For what does not depend on the scenario: a program that needs no ROS until it crashes.
+ENDS_ON_CTRL_C = """
+import threading
+print("up", flush=True)
+try:
+    threading.Event().wait()
+except KeyboardInterrupt:
+    pass
+"""
+
+
+@dataclass(frozen=True)
+class Interrupted:
+    """The facts of `press_ctrl_c`."""
+
+    trace: Trace
+    ending: Ending | None
+
+
+@repeat_if_doubtful
+async def press_ctrl_c(bench: Bench) -> Interrupted:
+    """Press Ctrl+C once the program is up."""
+    async with bench.start(FILE) as run:
+        assert await run.until(lambda: bool(run.output), 20.0), run.trace()
+        trace = run.trace()
+        return Interrupted(trace, await run.interrupt())
+
+
+async def judge_interrupted(scene: Scene, crashing_runs: tuple[int, ...], code: str, always: str = "") -> Verdict:
+    """Judge how the program ends that runs `code` at the end of these runs (from 1)."""
+    facts = await press_ctrl_c(scene.bench(ENDS_ON_CTRL_C + CRASHES.format(crashing_runs, code, always)))
+    return judge_ending(facts.trace, facts.ending)
+
+
+def count_starts(folder: Path) -> int:
+    return len((folder / "ends").read_text())
+
+
+async def test_a_single_crash_is_forgiven_in_each_scenario_that_ends_with_ctrl_c(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
     from tutor.engine.bench import RosBench
 
-    files = {}
-    for name, path in solution(load_course().find(exercise)).files.items():
-        files[name] = folder / name
-        text = path.read_text()
-        assert text.count(TRIES) == 1, path
-        files[name].write_text(text.replace(TRIES, TRIES_SAFELY) + CRASHES.format(runs, code, always))
-    bench = RosBench(Submission(exercise, files), ros, refuse_facts, lambda fraction, text: None)
-    scenarios = importlib.import_module(f"checks.{exercise.replace('.', '_')}.scenarios")
-    return await getattr(scenarios, scenario)(bench)
+    # One repetition shows that a scenario is repeated. How often that happens does not depend on the scenario.
+    monkeypatch.setattr(ending, "_MAX_RETRIES", 1)
 
-
-async def test_a_single_crash_is_forgiven(ros: RosEnvironment, scene: Scene) -> None:
-    async def check_one(number: int, exercise: str, scenario: str) -> None:
-        folder = scene.folder / str(number)
+    async def check_one(folder: Path, exercise: str, name: str) -> None:
         folder.mkdir()
-        facts = await run_scenario(ros, folder, exercise, scenario, (1,), SPIN_ON if scenario == "quiet" else CRASH)
+        files = {}
+        for file, path in solution(load_course().find(exercise)).files.items():
+            text = path.read_text()
+            assert text.count(TRIES) == 1, path
+            files[file] = folder / file
+            files[file].write_text(text.replace(TRIES, TRIES_SAFELY) + CRASHES.format((1,), CRASH, ""))
+        bench = RosBench(Submission(exercise, files), scene.ros, refuse_facts, lambda fraction, text: None)
+        scenarios = importlib.import_module(f"checks.{exercise.replace('.', '_')}.scenarios")
+        facts = await getattr(scenarios, name)(bench)
         verdict = judge_ending(facts.trace, facts.ending)
-        assert verdict.passed, (exercise, scenario, verdict)
-        assert (folder / "ends").read_text() == "...", (exercise, scenario)  # the crash, and two more runs
+        assert verdict.passed, (exercise, name, verdict)
+        assert count_starts(folder) == 2, (exercise, name)  # the crash, and a repetition
 
     async with asyncio.TaskGroup() as group:
-        for number, (exercise, scenario) in enumerate(SCENARIOS):
-            group.create_task(check_one(number, exercise, scenario))
+        for exercise, name in SCENARIOS:
+            group.create_task(check_one(scene.folder / f"{exercise} {name}", exercise, name))
 
 
-@pytest.mark.parametrize(("crashes", "starts"), [((1, 2), 2), ((1, 3), 3)])
-async def test_a_second_crash_fails(scene: Scene, crashes: tuple[int, ...], starts: int) -> None:
-    facts = await run_scenario(scene.ros, scene.folder, "i1.3", "call_each_service", crashes, CRASH)
-    verdict = judge_ending(facts.trace, facts.ending)
+async def test_after_a_single_crash_the_program_is_run_twice_more(scene: Scene) -> None:
+    assert (await judge_interrupted(scene, (1,), CRASH)).passed
+    assert count_starts(scene.folder) == 3
+
+
+@pytest.mark.parametrize(("crashing_runs", "starts"), [((1, 2), 2), ((1, 3), 3)])
+async def test_a_second_crash_fails(scene: Scene, crashing_runs: tuple[int, ...], starts: int) -> None:
+    verdict = await judge_interrupted(scene, crashing_runs, CRASH)
     assert verdict.cause is not None
-    assert "signal 11, at calculator_server.py, line" in str(verdict.cause), verdict
-    assert len((scene.folder / "ends").read_text()) == starts
+    assert "signal 11, at node.py, line" in str(verdict.cause), verdict
+    assert count_starts(scene.folder) == starts
 
 
 async def test_a_second_spin_after_shutdown_fails(scene: Scene) -> None:
-    facts = await run_scenario(scene.ros, scene.folder, "i1.3", "call_each_service", (1, 2), SPIN_ON)
-    verdict = judge_ending(facts.trace, facts.ending)
+    verdict = await judge_interrupted(scene, (1, 2), SPIN_ON)
     assert "RCLError: failed to initialize wait set" in str(verdict.cause), verdict
-    assert (scene.folder / "ends").read_text() == ".."
+    assert count_starts(scene.folder) == 2
 
 
 async def test_an_exit_code_hidden_by_an_rclpy_race_is_found_on_a_further_run(scene: Scene) -> None:
-    facts = await run_scenario(scene.ros, scene.folder, "i1.3", "call_each_service", (1,), RACE, "raise SystemExit(3)")
-    verdict = judge_ending(facts.trace, facts.ending)
+    verdict = await judge_interrupted(scene, (1,), RACE, "raise SystemExit(3)")
     assert "exit code 3" in str(verdict.cause), verdict
-    assert (scene.folder / "ends").read_text() == "..."
+    assert count_starts(scene.folder) == 3
 
 
 async def test_an_rclpy_race_is_forgiven_even_on_every_run(scene: Scene) -> None:
-    facts = await run_scenario(scene.ros, scene.folder, "i1.3", "call_each_service", (1, 2), RACE)
-    assert judge_ending(facts.trace, facts.ending).passed
-    assert (scene.folder / "ends").read_text() == ".."
+    assert (await judge_interrupted(scene, (1, 2), RACE)).passed
+    assert count_starts(scene.folder) == 2
 
 
 async def test_a_program_that_does_not_crash_is_started_once(scene: Scene) -> None:
-    facts = await run_scenario(scene.ros, scene.folder, "i1.3", "call_each_service", (), CRASH)
-    assert judge_ending(facts.trace, facts.ending).passed
-    assert (scene.folder / "ends").read_text() == "."
+    assert (await judge_interrupted(scene, (), CRASH)).passed
+    assert count_starts(scene.folder) == 1

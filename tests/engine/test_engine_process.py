@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -97,14 +98,13 @@ def engine(*arguments: str | Path) -> Iterator[Engine]:
         started.kill()
 
 
-def run_engine(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "tutor.engine", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=LIMIT_S,
-    )
+# Runs the engine's `main` once for each list of arguments, and writes the exit codes to stderr as well.
+RUNS_EACH = """
+import json, sys
+from tutor.engine.__main__ import main
+for sys.argv[1:] in json.loads(sys.argv[1]):
+    print("exit code", main(), file=sys.stderr)
+"""
 
 
 def test_stdout_has_only_events() -> None:
@@ -121,33 +121,27 @@ def test_stdout_has_only_events() -> None:
     assert exercise.result.criteria == (judged.result,)
 
 
-def test_a_failed_check_exits_with_0(tmp_path: Path) -> None:
-    (tmp_path / "temperature_publisher.py").write_text("raise SystemExit(3)")
-    with engine("i1.1", tmp_path, "--criterion", "publishes") as started:
-        code, events, err = started.wait()
-    assert (code, err) == (0, "")
-    finished = events[-1]
-    assert isinstance(finished, CheckFinished)
-    assert finished.report.verdict is Status.FAILED
-
-
-def test_a_skeletons_check_reports_what_is_missing_and_with_first_ends_at_the_first_failure() -> None:
-    with engine("i1.1", SOLUTION.with_name("skeleton"), "--first") as started:
+def test_a_failed_check_exits_with_0_reports_what_is_missing_and_with_first_ends_at_the_first_failure() -> None:
+    with engine(
+        "i1.1", SOLUTION.with_name("skeleton"), "--first", "--criterion", "publishes", "--criterion", "rate"
+    ) as started:
         code, events, err = started.wait()
     assert (code, err) == (0, "")
     reported = [event.so_far for event in events if isinstance(event, Progress) and event.criterion == "publishes"]
     assert any("no publisher on /sensor/temperature yet, /temperature_publisher is up" in each for each in reported)
     (exercise,) = (event.result for event in events if isinstance(event, ExerciseJudged))
     statuses = {each.id: each.verdict.status for each in exercise.criteria}
-    assert [id for id, status in statuses.items() if status is Status.FAILED] == ["publishes"]
-    assert statuses["rate"] is Status.SKIPPED
+    assert statuses == {"publishes": Status.FAILED, "rate": Status.SKIPPED}
     assert exercise.verdict is Status.FAILED
+    finished = events[-1]
+    assert isinstance(finished, CheckFinished)
+    assert finished.report.verdict is Status.FAILED
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_engine_cleans_up(tmp_path: Path, number: int) -> None:
     (tmp_path / "temperature_publisher.py").write_text(WAITS)
-    with engine("i1.1", tmp_path) as started:
+    with engine("i1.1", tmp_path, "--criterion", "publishes") as started:
         started.read_until(CheckStarted)
         deadline = time.monotonic() + 20
         while len(started.running()) < 3:  # itself, a supervisor and a learner
@@ -162,7 +156,7 @@ def test_an_interrupted_engine_cleans_up(tmp_path: Path, number: int) -> None:
 def test_a_killed_engine_leaves_no_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TMPDIR", str(tmp_path))  # nobody removes the log folders of a killed engine
     (tmp_path / "temperature_publisher.py").write_text(WAITS)
-    with engine("i1.1", tmp_path) as started:
+    with engine("i1.1", tmp_path, "--criterion", "publishes") as started:
         started.read_until(CheckStarted)
         deadline = time.monotonic() + 20
         while len(started.running()) < 3:
@@ -172,7 +166,8 @@ def test_a_killed_engine_leaves_no_process(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_the_engine_ends_when_its_reader_is_gone(tmp_path: Path) -> None:
-    with engine("i1.1", SOLUTION) as started:
+    (tmp_path / "temperature_publisher.py").write_text(WAITS)
+    with engine("i1.1", tmp_path, "--criterion", "publishes") as started:
         started.read_until(CheckStarted)
         started.close_stdout()
         code, _, _ = started.wait()
@@ -180,13 +175,22 @@ def test_the_engine_ends_when_its_reader_is_gone(tmp_path: Path) -> None:
 
 
 def test_wrong_usage_gets_an_error_without_a_traceback(tmp_path: Path) -> None:
-    for arguments, word in [
-        (("i9.9", tmp_path), "i9.9"),
-        (("i1.1", tmp_path), "temperature_publisher.py"),
-        (("i1.1", tmp_path / "nothing.py"), "nothing.py"),
-        (("i1.1", SOLUTION, "--lessons", tmp_path), str(tmp_path)),
-    ]:
-        answer = run_engine(*arguments)
-        assert (answer.returncode, answer.stdout) == (2, ""), answer
-        assert word in answer.stderr
-        assert "Traceback" not in answer.stderr
+    cases: list[tuple[list[str | Path], str]] = [
+        (["i9.9", tmp_path], "i9.9"),
+        (["i1.1", tmp_path], "temperature_publisher.py"),
+        (["i1.1", tmp_path / "nothing.py"], "nothing.py"),
+        (["i1.1", SOLUTION, "--lessons", tmp_path], str(tmp_path)),
+    ]
+    with engine(*cases[0][0]) as started:
+        code, *_ = started.wait()
+    assert code == 2
+    each = json.dumps([list(map(str, arguments)) for arguments, _ in cases])
+    answer = subprocess.run(
+        [sys.executable, "-c", RUNS_EACH, each], capture_output=True, text=True, check=False, timeout=LIMIT_S
+    )
+    assert (answer.returncode, answer.stdout) == (0, ""), answer
+    errors = answer.stderr.split("exit code 2\n")
+    assert errors.pop() == ""
+    for (_, word), error in zip(cases, errors, strict=True):
+        assert word in error
+        assert "Traceback" not in error

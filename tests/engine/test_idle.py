@@ -47,7 +47,13 @@ def test_a_process_that_wakes_before_the_deadline_is_not_idle(process: FakeProce
     assert [process.advance(0.5) for _ in range(4)][-1] is expected
 
 
-def test_time_without_cpu_for_us_restarts_the_idle_time(process: FakeProcess) -> None:
+def test_time_without_cpu_for_us_extends_the_idle_time(process: FakeProcess) -> None:
     process.advance(0.2)
     process.cpu_wait_s += 1.0
     assert [process.advance(0.6) for _ in range(3)] == [False, False, True]
+
+
+def test_a_machine_that_is_always_busy_extends_the_idle_time_sixfold_at_most(process: FakeProcess) -> None:
+    process.advance(0.2)
+    process.cpu_wait_s += 1000.0
+    assert [process.advance(0.5) for _ in range(9)] == [False] * 8 + [True]  # 6 * 0.7 s

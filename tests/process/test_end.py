@@ -96,13 +96,31 @@ async def test_end_leaves_no_process(bench: Any, source: str) -> None:
     assert learner.survivors() == []
 
 
-@each_case
-async def test_our_own_death_leaves_no_process(bench: Any, source: str) -> None:
-    helper = await asyncio.create_subprocess_exec(*bench.helper(source), env=bench.helper_env, cwd=bench.folder)
-    await bench.noted_pid("main")
-    await bench.noted_pid("child")
-    helper.kill()
-    await helper.wait()
+async def test_our_own_death_leaves_no_process(bench: Any) -> None:
+    commands = {name: bench.script(source) for name, source in CASES.items()}
+    for name in CASES:
+        (bench.folder / name).mkdir()
+    helper = bench.script(
+        f"""
+import asyncio
+from pathlib import Path
+from tutor.process import LearnerProcess
+async def main():
+    learners = [
+        await LearnerProcess.start(command, env={bench.env!r}, cwd=Path(name))
+        for name, command in {commands!r}.items()
+    ]
+    await asyncio.gather(*(learner.wait(None) for learner in learners))
+asyncio.run(main())
+""",
+        flags=(),
+    )
+    process = await asyncio.create_subprocess_exec(*helper, env=bench.helper_env, cwd=bench.folder)
+    for name in CASES:
+        await bench.noted_pid(f"{name}/main")
+        await bench.noted_pid(f"{name}/child")
+    process.kill()
+    await process.wait()
     await bench.all_gone()
 
 
@@ -128,14 +146,14 @@ async def test_our_own_death_ends_the_learner_even_if_a_fork_of_ours_lives_on(be
 
 
 async def test_our_own_death_at_any_moment_of_the_start_leaves_no_process(bench: Any) -> None:
-    for step in range(12):
+    for step in range(6):
         helper = await asyncio.create_subprocess_exec(
             *bench.helper("note('main'); forever()", then="pass", before="note('helper')"),
             env=bench.helper_env,
             cwd=bench.folder,
         )
         await bench.noted_pid("helper")
-        await asyncio.sleep(step * 0.005)  # not a wait for an event: each iteration kills at another moment
+        await asyncio.sleep(step * 0.01)  # not a wait for an event: each iteration kills at another moment
         helper.kill()
         await helper.wait()
         await bench.all_gone()
@@ -274,7 +292,7 @@ async def test_cancellation_while_ending_leaves_no_process(bench: Any) -> None:
 
 
 async def test_cancellation_while_starting_leaves_no_process(bench: Any) -> None:
-    for turns in range(0, 40, 3):
+    for turns in range(0, 40, 6):
         task = asyncio.create_task(bench.start(STUBBORN))
         for _ in range(turns):
             await asyncio.sleep(0.001)

@@ -33,7 +33,7 @@ async def wait_for_exit(learner: LearnerProcess) -> Exit:
     return found
 
 
-@pytest.mark.parametrize("code", [0, 1, 3, 130, 255])
+@pytest.mark.parametrize("code", [0, 130, 255])
 async def test_the_exit_code_is_reported(bench: Any, code: int) -> None:
     learner = await bench.start(f"sys.exit({code})")
     found = await wait_for_exit(learner)
@@ -50,7 +50,7 @@ async def test_a_fatal_signal_is_reported(bench: Any, number: signal.Signals) ->
 
 
 async def test_output_is_complete_when_the_exit_is_known(bench: Any) -> None:
-    for _ in range(20):
+    for _ in range(10):
         learner = await bench.start(
             "print('a\\n' * 5000 + 'last'); print('oops', file=sys.stderr); os._exit(sys.stdout.flush() or 7)"
         )
@@ -355,7 +355,7 @@ async def test_a_program_does_not_write_to_our_stdout(bench: Any, capfd: pytest.
 
 
 async def test_many_programs_run_at_once(bench: Any) -> None:
-    learners = await asyncio.gather(*(bench.start(f"print({n}); sys.exit({n})") for n in range(12)))
+    learners = await asyncio.gather(*(bench.start(f"print({n}); sys.exit({n})") for n in range(8)))
     for n, learner in enumerate(learners):
         assert (await wait_for_exit(learner)).code == n
         assert texts(learner) == [str(n)]

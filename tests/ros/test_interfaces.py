@@ -54,9 +54,8 @@ TYPES: dict[str, Fields] = {
     "builtin_interfaces/msg/Time": {"sec": (INT32, 0, ""), "nanosec": (UINT32, 0, "")},
 }
 
-# A server and a client in a separate process, which prints what it observed as JSON. {first} makes the import work.
-NODE = """
-{first}
+# A server and a client in a process of their own; `seen` is what it observed.
+ADDS = """
 import json
 import rclpy
 import example_interfaces
@@ -73,7 +72,7 @@ def announced(topic):
         *node.get_publishers_info_by_topic(topic, no_mangle=True),
         *node.get_subscriptions_info_by_topic(topic, no_mangle=True),
     ]
-    return sorted({{str(endpoint.topic_type_hash) for endpoint in endpoints}})
+    return sorted({str(endpoint.topic_type_hash) for endpoint in endpoints})
 
 rclpy.init()
 node = rclpy.create_node("interfaces_test")
@@ -83,15 +82,13 @@ client = node.create_client(AddTwoInts, "add")
 assert client.wait_for_service(10)
 answer = client.call_async(AddTwoInts.Request(a=-2, b=2**40))
 rclpy.spin_until_future_complete(node, answer, timeout_sec=10)
-print(json.dumps({{
+seen = {
     "file": example_interfaces.__file__,
     "sum": answer.result().sum,
     "request": announced("rq/addRequest"),
     "response": announced("rr/addReply"),
     "event": announced("rt/add/_service_event"),
-}}))
-node.destroy_node()
-rclpy.try_shutdown()
+}
 """
 
 
@@ -122,12 +119,8 @@ for name in ("SetBool", "Trigger"):
 print(json.dumps(seen))
 """
 
-# Publishes two strings to itself and calls its own action.
-EXCHANGE = f"""
-from tutor.ros.bundled_interfaces import activate
-activate()
-import json
-import rclpy
+# After ADDS: publishes two strings to itself and calls its own action.
+EXCHANGES = f"""
 from {PACKAGE}.action import Fibonacci
 from {PACKAGE}.msg import String, WString
 from rclpy.action import ActionClient, ActionServer
@@ -140,8 +133,6 @@ def count(goal):
     goal.succeed()
     return Fibonacci.Result(sequence=[0, 1, 1][: goal.request.order])
 
-rclpy.init()
-node = rclpy.create_node("interfaces_test")
 listener = node.create_subscription(String, "text", listen, 10)
 wide_listener = node.create_subscription(WString, "wide", listen, 10)
 publisher, wide = node.create_publisher(String, "text", 10), node.create_publisher(WString, "wide", 10)
@@ -160,7 +151,10 @@ goal = client.send_goal_async(Fibonacci.Goal(order=3))
 rclpy.spin_until_future_complete(node, goal, timeout_sec=10)
 result = goal.result().get_result_async()
 rclpy.spin_until_future_complete(node, result, timeout_sec=10)
-print(json.dumps({{"text": text, "sequence": result.result().result.sequence.tolist()}}))
+seen |= {{"text": text, "sequence": result.result().result.sequence.tolist()}}
+"""
+PRINTS = """
+print(json.dumps(seen))
 node.destroy_node()
 rclpy.try_shutdown()
 """
@@ -241,27 +235,26 @@ def test_a_process_can_import_it_through_its_environment(environment: dict[str, 
         "AMENT_PREFIX_PATH": str(bundled_interfaces.prefix()),
         "LD_LIBRARY_PATH": str(bundled_interfaces.library_dir()),
     }
-    seen = run_python(NODE.format(first=""), environment)
+    seen = run_python(ADDS + PRINTS, environment)
     assert Path(seen["file"]).is_relative_to(bundled_interfaces.prefix())
     assert seen["sum"] == 2**40 - 2
     for kind in ("request", "response", "event"):
         assert seen[kind] == [type_hash(f"{SERVICE}_{kind.title()}")]
 
 
-def test_activate_makes_it_work_in_the_running_process(environment: dict[str, str]) -> None:
-    seen = run_python(NODE.format(first="from tutor.ros.bundled_interfaces import activate; activate()"), environment)
+def test_activate_makes_services_messages_and_actions_work_in_the_running_process(environment: dict[str, str]) -> None:
+    activate = "from tutor.ros.bundled_interfaces import activate; activate()"
+    seen = run_python(activate + ADDS + EXCHANGES + PRINTS, environment)
     assert Path(seen["file"]).is_relative_to(bundled_interfaces.prefix())
     assert seen["sum"] == 2**40 - 2
+    assert seen["text"] == ["good day", "Grüß Gott"]
+    assert seen["sequence"] == [0, 1, 1]
 
 
 def test_its_types_have_the_fields_of_those_that_they_are_copies_of(environment: dict[str, str]) -> None:
     seen = run_python(FIELDS, environment)
     assert len(seen) == 28 + 2 * 2  # the messages but WString; SetBool and Trigger, request and response
     assert {name: fields for name, (fields, _) in seen.items()} == {name: fields for name, (_, fields) in seen.items()}
-
-
-def test_messages_and_actions_can_be_exchanged(environment: dict[str, str]) -> None:
-    assert run_python(EXCHANGE, environment) == {"text": ["good day", "Grüß Gott"], "sequence": [0, 1, 1]}
 
 
 def test_activate_does_nothing_if_the_package_is_installed(environment: dict[str, str], tmp_path: Path) -> None:

@@ -16,15 +16,32 @@ from tutor.workspace import Workspace, claims, domain_of
 
 ROOT = Path(claims.__file__).parents[2]
 
-# A program that reports itself ready, waits for a line on stdin, and prints the domain ID of its workspace.
+# Prints the domain ID of a workspace.
 PRINT_DOMAIN = """
 import sys
 from pathlib import Path
 from tutor.workspace import Workspace, claims, domain_of
 claims.REGISTRY = Path(sys.argv[1])
-print("here", flush=True)
-input()
 print(domain_of(Workspace(Path(sys.argv[2])), {}))
+"""
+# Prints the domain ID of each workspace: one process for each, all of which ask when the pipe is closed.
+PRINT_DOMAINS = """
+import os, sys
+from pathlib import Path
+from tutor.ros import domain
+from tutor.workspace import Workspace, claims, domain_of
+claims.REGISTRY = Path(sys.argv[1])
+wait, go = os.pipe()
+asking = []
+for root in sys.argv[2:]:
+    if not (pid := os.fork()):
+        os.close(go)
+        os.read(wait, 1)
+        os.write(1, f"{domain_of(Workspace(Path(root)), {})}\\n".encode())
+        os._exit(0)
+    asking.append(pid)
+os.close(go)
+assert not any([os.waitpid(pid, 0)[1] for pid in asking])
 """
 
 
@@ -148,19 +165,18 @@ def test_claims_of_deleted_workspaces_expire(tmp_path: Path, registry: Path) -> 
 
 def ask_concurrently(registry: Path, roots: list[Path]) -> list[int]:
     """Ask for the domain ID of each root, all at the same moment and each in its own process."""
-    env = {**os.environ, "PYTHONPATH": str(ROOT)}
-    started = [
-        subprocess.Popen([sys.executable, "-c", PRINT_DOMAIN, registry, root], env=env, stdin=-1, stdout=-1, text=True)
-        for root in roots
-    ]
-    for process in started:
-        assert process.stdout is not None
-        assert process.stdout.readline() == "here\n"
-    for process in started:
-        assert process.stdin is not None
-        process.stdin.write("\n")
-        process.stdin.flush()
-    return [int(process.communicate(timeout=60)[0]) for process in started]
+    ran = subprocess.run(
+        [sys.executable, "-c", PRINT_DOMAINS, registry, *roots],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert ran.returncode == 0, ran.stderr
+    domains = [int(line) for line in ran.stdout.splitlines()]
+    assert len(domains) == len(roots)
+    return domains
 
 
 def test_concurrent_processes_and_threads_agree_on_one_workspace(tmp_path: Path, registry: Path) -> None:
@@ -261,7 +277,6 @@ def test_two_users_share_the_registry_but_not_their_claims(tmp_path: Path, regis
         programs.append((root, code))
     domains = []
     for root, code in programs:
-        code = code.replace('print("here", flush=True)\ninput()\n', "")
         code = code.replace(
             "print(domain_of", "claims.preferred_order = lambda workspace: list(claims.USABLE_DOMAINS)\nprint(domain_of"
         )

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tutor.errors import StorageError
@@ -220,11 +220,13 @@ progresses = st.builds(
 )
 
 
+@settings(max_examples=50)
 @given(progresses)
 def test_every_progress_round_trips(progress: Progress) -> None:
     assert decode(encode(progress)) == progress
 
 
+@settings(max_examples=50)
 @given(st.text() | st.recursive(st.none() | st.integers() | st.text(), st.lists).map(json.dumps))
 def test_any_other_text_is_reported_as_damaged(text: str) -> None:
     with pytest.raises(ValueError, match="it is damaged"):

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 
 from tutor.process import NextWake
+from tutor.process.cpu_wait import MAX_EXTENSION_FACTOR
 
 POLL_S = 0.1
 """Minimum interval between two readings of the process's threads."""
@@ -15,8 +16,8 @@ class IdleDetector:
     """Detects whether a process is idle.
 
     `next_wake(by)`: see `tutor.process.next_wake`. `for_s`: how long its threads must have been blocked, in seconds.
-    `cpu_wait_s()`: how long we have waited for a CPU so far; that time does not count, since messages may have arrived
-    that we have not seen.
+    `cpu_wait_s()`: how long we have waited for a CPU so far; within limits, that time does not count, since messages
+    may have arrived that we have not seen.
     """
 
     def __init__(self, next_wake: Callable[[float], NextWake], cpu_wait_s: Callable[[], float], for_s: float) -> None:
@@ -40,5 +41,6 @@ class IdleDetector:
             self._idle_since, self._waited_before_s = now, self._cpu_wait_s()
             self._idle = False
         else:
-            self._idle = now - self._idle_since >= self._for_s + self._cpu_wait_s() - self._waited_before_s
+            waited_s = min(self._cpu_wait_s() - self._waited_before_s, MAX_EXTENSION_FACTOR * self._for_s)
+            self._idle = now - self._idle_since >= self._for_s + waited_s
         return self._idle

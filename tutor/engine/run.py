@@ -9,7 +9,7 @@ import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -175,7 +175,7 @@ class RosRun:
         answers = await asyncio.gather(
             *(
                 self._waits.for_response(
-                    parameters.get_parameters(self._observer, [node], NO_TIMEOUT_S), 2 * limit_s, None
+                    partial(parameters.get_parameters, self._observer, [node], NO_TIMEOUT_S), 2 * limit_s, None
                 )
                 for node in self.graph.parameter_nodes
             )
@@ -188,7 +188,7 @@ class RosRun:
     ) -> SetAnswer:
         asked = time.time()
         answer = await self._waits.for_response(
-            parameters.set_parameters(self._observer, node, values, atomic=atomic, limit_s=NO_TIMEOUT_S),
+            partial(parameters.set_parameters, self._observer, node, values, atomic=atomic, limit_s=NO_TIMEOUT_S),
             limit_s,
             None,
         )
@@ -200,14 +200,14 @@ class RosRun:
         # A new client needs a moment to discover the server, which is no part of the service's response time.
         asked = time.time()
         if matched := await self._waits.for_response(
-            self._observer.wait_for_server(service, type, NO_TIMEOUT_S), limit_s, False
+            partial(self._observer.wait_for_server, service, type, NO_TIMEOUT_S), limit_s, False
         ):
             asked = time.time()
         response = None
         with contextlib.suppress(AnswerTooLarge):
             if matched:
                 response = await self._waits.for_response(
-                    self._observer.call(service, type, request, NO_TIMEOUT_S, resend_s=resend_s), limit_s, None
+                    partial(self._observer.call, service, type, request, NO_TIMEOUT_S, resend_s=resend_s), limit_s, None
                 )
         return CallAnswer(
             service=service,

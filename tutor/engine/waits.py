@@ -12,16 +12,13 @@ from tutor.engine.idle import IdleDetector
 from tutor.errors import EngineError, MachineTooBusy
 from tutor.judge.waiting import RESENT_S
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
-from tutor.process.cpu_wait import estimate_unblocked_s
+from tutor.process.cpu_wait import MAX_EXTENSION_FACTOR, estimate_unblocked_s
 from tutor.ros.observer import Observer
 
 T = TypeVar("T")
 
 POLL_S = 0.05
 """Poll interval for what raises no events of its own, such as the graph; also the maximum age of cached readings."""
-
-MAX_EXTENSION_FACTOR = 5
-"""A limit is extended by the node's and our own waits for a CPU, by at most this many times the limit."""
 
 TOO_BUSY = "this machine is too busy: the node, or the process that observes it, did not get to run"
 
@@ -83,9 +80,12 @@ class Waits:
         idle = self._idle_detector(RESENT_S)
         return await self._until(ended, limit_s, lambda: (self.cpu_time().main_waited_s,), idle, all_sent)
 
-    async def for_response(self, request: Coroutine[Any, Any, T], limit_s: float, default: T) -> T:
-        """Await a response; return `default` if none comes within the limit, or before the process exits or is idle."""
-        task = asyncio.ensure_future(request)
+    async def for_response(self, request: Callable[[], Coroutine[Any, Any, T]], limit_s: float, default: T) -> T:
+        """Send a request, and await its response.
+
+        Return `default` if none comes within the limit, or before the process exits or is idle.
+        """
+        task = asyncio.ensure_future(request())
         task.add_done_callback(lambda _: self._changed.set())
         self._pending_requests += 1
         try:

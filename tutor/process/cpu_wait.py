@@ -16,6 +16,11 @@ TABLE_MAX_AGE_S = 0.1
 OWN_MAX_AGE_S = 0.05
 """Maximum age of our own cached CPU time: while thirty runs are watched, this process has hundreds of threads."""
 
+MAX_EXTENSION_FACTOR = 5
+"""A limit is extended by waits for a CPU, by at most this many times the limit: by then, even a process on a very busy
+machine has run many times.
+"""
+
 _process_table: tuple[float, dict[int, Process]] = (0.0, {})
 _own_reading: tuple[float, _ProcessMeter, CpuTime] | None = None
 
