@@ -565,24 +565,25 @@ RIGHT = (
 
 
 @pytest.mark.parametrize("node", RIGHT)
-@pytest.mark.parametrize("late_s", [0.0005, 0.03, 0.15, 0.3])
+@pytest.mark.parametrize("late_s", [0.0005, 0.15, 0.3])
 def test_correct_nodes_pass(node: type[FakeStats], late_s: float) -> None:
     assert_all_passed(judge_trials(node, late_s=late_s))
 
 
 @pytest.mark.parametrize("node", RIGHT)
-@pytest.mark.parametrize("first", FIRST_NUMBERS)
-@pytest.mark.parametrize("missed", range(LEFT_OUT[0], LEFT_OUT[1] + 1))
-def test_correct_nodes_pass_whatever_numbers_are_chosen(node: type[FakeStats], first: int, missed: int) -> None:
-    steady_trial, jump_trial = steady(node()), jump(node(), missed, first=first)
-    assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
-    assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
-    assert_passed(judges.judge_rate(steady_trial, jump_trial))
-    assert_passed(judge_gaps(jump_trial, jump_twice(node(), missed, first=first), steady_trial))
+def test_correct_nodes_pass_whatever_numbers_are_chosen(node: type[FakeStats]) -> None:
+    """Every number left out, each with one of the two ends of the first numbers; other nodes get the other end."""
+    for missed in range(LEFT_OUT[0], LEFT_OUT[1] + 1):
+        first = FIRST_NUMBERS[(RIGHT.index(node) + missed) % 2]
+        steady_trial, jump_trial = steady(node()), jump(node(), missed, first=first)
+        assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
+        assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
+        assert_passed(judges.judge_rate(steady_trial, jump_trial))
+        assert_passed(judge_gaps(jump_trial, jump_twice(node(), missed, first=first), steady_trial))
 
 
 @pytest.mark.parametrize("node", RIGHT)
-@pytest.mark.parametrize("slow_s", [0.3, 0.6, 0.9])
+@pytest.mark.parametrize("slow_s", [0.3, 0.9])
 def test_summaries_from_a_slow_timer_pass(node: type[FakeStats], slow_s: float) -> None:
     assert_all_passed(judge_trials(node, slow_s=slow_s))
 
@@ -603,7 +604,7 @@ FORMATS = st.sampled_from([
 ])  # fmt: skip
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(
     written=FORMATS,
     hz=st.floats(4.9, 5.0),

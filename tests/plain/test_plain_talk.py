@@ -141,11 +141,20 @@ def test_lesson_check_hints_and_checklist_through_a_pipe(tmp_path: Path, env: di
     assert "<html" in (tmp_path / "ros_tutor_ws" / "checklist.html").read_text()
 
 
-def test_a_solved_lesson_is_run_and_checked_for_real(tmp_path: Path, env: dict[str, str]) -> None:
-    lesson = load_course().find("i1.1")
-    node = Workspace(tmp_path / "ws").path_of("temperature_publisher.py")
+@pytest.mark.timeout(300)
+def test_solved_lessons_are_run_inspected_with_ros2_commands_and_checked_for_real(
+    tmp_path: Path, env: dict[str, str]
+) -> None:
+    workspace = Workspace(tmp_path / "ws")
+    course = load_course()
+
+    def solve(lesson_id: str) -> None:
+        for file in course.find(lesson_id).files:
+            workspace.path_of(file.name).write_text(file.solution.read_text())
+
+    service = "service call /add example_interfaces/srv/AddTwoInts '{a: 2, b: 40}'"
     with subprocess.Popen(
-        [sys.executable, "-c", PROGRAM, "--plain", "--workspace", str(tmp_path / "ws")],
+        [sys.executable, "-c", PROGRAM, "--plain", "--workspace", str(workspace.root)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
@@ -153,22 +162,38 @@ def test_a_solved_lesson_is_run_and_checked_for_real(tmp_path: Path, env: dict[s
     ) as process:
         assert process.stdin is not None
         assert process.stdout is not None
-        process.stdin.write(as_input("start"))
-        process.stdin.flush()
-        while "Edit it in your editor" not in process.stdout.readline():
-            assert process.poll() is None
-        node.write_text(lesson.files[0].solution.read_text())
+        for typed, lesson_id in ((("start",), "i1.1"), (("4", "start"), "i2.1"), (("3", "start"), "i1.3")):
+            process.stdin.write(as_input(*typed))
+            process.stdin.flush()
+            while "Edit it in your editor" not in process.stdout.readline():
+                assert process.poll() is None
+            solve(lesson_id)
         process.stdin.write(
-            as_input("run", "log", "3", "start", "run", "1", "check", "stop", "lessons", "quit", "never read")
+            as_input(
+                *("1", "run", "log"),
+                *("i2.1", "run", "echo /chatter 2", "param set /parameterized_publisher message_prefix Moin"),
+                *("param get /parameterized_publisher message_prefix", "topic list", "echo", "param 'set"),
+                *("i1.3", "run", service),
+                *("1", "check", "stop", "lessons", "quit", "never read"),
+            )
         )
         process.stdin.close()
         output = process.stdout.read()
         assert process.wait(LIMIT_S) == 0
     assert "Running in ROS domain 92: ros2 run my_package temperature_publisher\n" in output
     assert re.search(r"\[INFO\].*\[temperature_publisher\]", output)
+    assert "Your node temperature_publisher.py: stopped.\nRunning" in output  # before a node of another lesson runs
+    first, second = output.split("Command: echo /chatter 2\n")[1].split("Command:")[0].splitlines()
+    assert re.fullmatch(r"data: .Hello.*", first), output
+    assert second != first
+    assert "Set parameter successful\n" in output
+    assert "String value is: Moin\n" in output
+    assert re.search(r"^/chatter$", output, re.MULTILINE)
+    assert "Which topic? As in: echo /chatter." in output
+    assert "A quotation mark is missing.\n" in output
+    assert "sum=42" in output, output
     assert re.search(r"^i1\.1 Sensor Publisher: passed\. 6 of 6 passed, bonus 1 of 1, after \d", output, re.MULTILINE)
     assert "Well done. next goes to the next lesson" in output
-    assert "Your node temperature_publisher.py: stopped.\nRunning" in output  # before a node of another lesson runs
     assert "Command: stop\nYour node calculator_server.py: stopped.\n" in output
     assert "1: i1.1 Sensor Publisher, easy, passed. You are here.\n" in output
     assert output.endswith("Command: quit\nGoodbye. Your progress is kept.\n")
@@ -231,42 +256,6 @@ def test_plain_takes_no_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--plain", "list"]) == 2
     message = "ros-tutor: --plain takes no command: list writes plain text anyway\n"
     assert capsys.readouterr() == ("", message)
-
-
-def test_nodes_are_inspected_and_controlled_with_ros2_commands(tmp_path: Path, env: dict[str, str]) -> None:
-    workspace = Workspace(tmp_path / "ws")
-    course = load_course()
-    for name in ("i2.1", "i1.3"):
-        main(["start", name, "--workspace", str(workspace.root)])
-        for file in course.find(name).files:
-            workspace.path_of(file.name).write_text(file.solution.read_text())
-    service = "service call /add example_interfaces/srv/AddTwoInts '{a: 2, b: 40}'"
-    typed = as_input(
-        *("i2.1", "run", "echo /chatter 2", "param set /parameterized_publisher message_prefix Moin"),
-        *("echo /chatter 1", "param get /parameterized_publisher publish_rate", "topic list", "echo", "param 'set"),
-        *("i1.3", "run", service, "quit"),
-    )
-    result = subprocess.run(
-        [sys.executable, "-c", PROGRAM, "--plain", "--workspace", str(workspace.root)],
-        input=typed,
-        capture_output=True,
-        text=True,
-        timeout=2 * LIMIT_S,
-        check=False,
-        env={**env, "ROS_DOMAIN_ID": "91"},
-    )
-    output = result.stdout
-    assert result.returncode == 0
-    first, second = output.split("Command: echo /chatter 2\n")[1].split("Command:")[0].splitlines()
-    assert re.fullmatch(r"data: .Hello.*", first), output
-    assert second != first
-    assert "Set parameter successful\n" in output
-    assert re.search(r"Command: echo /chatter 1\ndata: .Moin.*\nCommand", output), output
-    assert "Double value is: 1.0\n" in output
-    assert re.search(r"^/chatter$", output, re.MULTILINE)
-    assert "Which topic? As in: echo /chatter." in output
-    assert "A quotation mark is missing.\n" in output
-    assert "sum=42" in output, output
 
 
 def test_a_silent_topic_is_reported(tmp_path: Path, env: dict[str, str]) -> None:

@@ -222,7 +222,7 @@ async def test_the_graph_explains_why_two_nodes_are_not_connected_in_any_size(th
         await me.sees("──✗", "not connected", "reliability best_effort", "──▶")
 
 
-async def test_from_an_empty_domain_a_node_comes_with_the_lessons_plot_and_goes_with_topics_of_other_lessons(
+async def test_on_an_empty_domain_a_node_comes_with_its_plot_and_goes_with_the_topics_of_a_previous_lesson(
     empty_world: PrivateDomain,
 ) -> None:
     async with watching(empty_world, (120, 30)) as me:
@@ -233,7 +233,7 @@ async def test_from_an_empty_domain_a_node_comes_with_the_lessons_plot_and_goes_
         await me.sees("asked: 20 to 30", "•", "╌╌╌", "30┤", "20┤")  # samples and the required range
         me.app.pane.set_lesson(load_course().find("i1.2"))
         await me.until(lambda: me.topics().chosen == "/chatter")
-        await me.sees("/sensor/temperature", "data: warm")
+        await me.sees("/sensor/temperature", "data: warm", "Hz · jitter")
         await asyncio.to_thread(empty_world.interrupt, node)
         await me.sees_no("/sensor/temperature")
         await me.sees("No node runs in domain", "/chatter", "silent for", "0 nodes")
