@@ -13,6 +13,7 @@ import pytest
 from textual.css.model import RuleSet
 from textual.css.stylesheet import Stylesheet
 from textual.document._syntax_aware_document import SyntaxAwareDocument
+from textual.events import Paste
 from textual.keys import _character_to_key
 from textual.pilot import Pilot
 from textual.widget import Widget
@@ -105,6 +106,20 @@ class Learner(Person[TutorApp]):
     async def type_text(self, text: str) -> None:
         await self.pilot.press(*("enter" if c == "\n" else _character_to_key(c) for c in text))
 
+    def paste(self, text: str) -> None:
+        """Paste a text, as quickly as one key is pressed. It arrives before keys that are pressed afterwards."""
+        self.app.post_message(Paste(text))
+
+    async def runs(self, code: str | None = None) -> Node:
+        """Press r, after giving the file this text, and wait until a new node has been started."""
+        if code is not None:
+            self.file.write_text(code)
+        before = self.node
+        await self.press("r")
+        await self.until(lambda: self.node not in (None, before), "a new node")
+        assert self.node is not None
+        return self.node
+
     async def focus_editor(self) -> CodeEditor:
         """Move the focus to the editor. At first, the cursor is at the very beginning of the file."""
         await self.press("e")
@@ -124,6 +139,17 @@ class Learner(Person[TutorApp]):
         """The row of one criterion, as text."""
         rows = self.main.query_one(CriteriaPanel).rows
         return next(str(row.render()) for row in rows if row.finding.id == id)
+
+    async def start_check(self) -> None:
+        """Press c, and have the engine say that it has started."""
+        await self.press("c")
+        await self.engine_emits(*fakes.started_events())
+
+    async def end_check(self) -> None:
+        """Let the engine exit, and wait until the app has noticed: another check can be started then."""
+        assert isinstance(self.session, fakes.FakeSession)
+        self.session.engine.close()
+        await self.until(lambda: self.main.checks.running is None, "the check has ended")
 
     async def engine_emits(self, *lines: Event | str) -> None:
         """Have the engine emit these events. In a daemon thread, as opening the pipe blocks until the child reads."""

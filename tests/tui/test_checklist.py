@@ -115,7 +115,8 @@ async def test_ticking_the_last_item_in_a_small_terminal_shows_what_comes_next(l
         already = dict.fromkeys(most, now())
         me.session.workspace.progress(print).change(lambda progress: replace(progress, ticks=already))
         await me.sees("6 Checklist", "q Quit")
-        await me.press("ctrl+p", *"do by now")
+        await me.press("ctrl+p")
+        me.paste("do by now")
         await me.sees("Tick what you can do by now")
         await me.press("down", "enter")
         await me.sees("14 of 15 ticked", "Space Tick", "x Export", "Esc Back")
@@ -140,7 +141,7 @@ async def test_ticking_the_last_item_in_a_small_terminal_shows_what_comes_next(l
 
 
 async def test_each_format_is_exported_and_no_file_is_replaced_without_asking(learner: Any) -> None:
-    async with learner((100, 30)) as me:
+    async with learner((80, 24)) as me:
         root: Path = me.session.workspace.root
         page = root / "checklist.html"
         page.write_text("mine")
@@ -173,7 +174,7 @@ async def test_each_format_is_exported_and_no_file_is_replaced_without_asking(le
         await me.until(lambda: isinstance(me.app.screen, ChecklistScreen), "back")
         await me.press("x")
         await me.sees("(•) Markdown")
-        await me.press(*"no/x.json")
+        me.paste("no/x.json")
         await me.sees("(•) JSON", "There is no folder")
         await me.press("enter")
         assert isinstance(me.app.screen, ExportScreen)
@@ -197,9 +198,8 @@ async def test_the_last_pass_leads_to_the_checklist_where_capital_x_exports_too(
         )
         me.main.records.read()
         await me.sees("5 of 6 passed")
-        await me.press("c")
-        lesson = me.session.lessons[0]
-        await me.engine_emits(*fakes.started_events(), *fakes.lesson_final_events(lesson, fakes.GOOD))
+        await me.start_check()
+        await me.engine_emits(*fakes.lesson_final_events(me.session.lessons[0], fakes.GOOD))
         await me.sees("Every exercise is passed now.", "Next: press 6 for the checklist")
         await me.press("6")
         await me.sees("of 15 ticked")

@@ -16,7 +16,7 @@ def backups(path: Path) -> list[str]:
     return sorted(other.read_text() for other in path.parent.glob(f"{path.name}.~*~"))
 
 
-async def test_typing_is_autosaved_and_command_keys_work_after_escape(learner: Any) -> None:
+async def test_typing_is_autosaved_and_a_change_from_outside_is_loaded(learner: Any) -> None:
     async with learner() as me:
         editor = await me.focus_editor()
         await me.sees("Esc Commands", "Ctrl+S Save", "F5 Run", "F9 Check")
@@ -29,25 +29,9 @@ async def test_typing_is_autosaved_and_command_keys_work_after_escape(learner: A
         await me.sees("Objective")
         assert editor.text == fakes.NODE
 
-
-async def test_the_editor_indents_python(learner: Any) -> None:
-    async with learner() as me:
-        me.file.write_text("")
-        editor = await me.focus_editor()
-        await me.until(lambda: editor.text == "")
-        await me.type_text("def f(x):\nif x:\nreturn 1\nreturn 2\ny = 3")
-        expected = "def f(x):\n    if x:\n        return 1\n    return 2\ny = 3"
-        await me.until(lambda: editor.text == expected, expected)
-        await me.type_text("\nif y:\n")
-        await me.until(lambda: editor.text == expected + "\nif y:\n    ", "indented")
-        await me.press("backspace")
-        await me.until(lambda: editor.text == expected + "\nif y:\n", "dedented")
-
-
-async def test_an_outside_change_is_loaded_keeps_the_cursor_and_can_be_undone(learner: Any) -> None:
-    async with learner() as me:
-        editor = await me.focus_editor()
-        await me.press("down", "down", "right")
+        # A change made outside is loaded, leaves the cursor where it was, and can be undone.
+        await me.focus_editor()
+        await me.press("ctrl+home", "down", "down", "right")
         me.file.write_text("# theirs\n" + fakes.NODE)
         await me.sees("was changed outside", "# theirs")
         assert editor.cursor_location == (3, 1), "the same line, now one row further down"
@@ -55,15 +39,69 @@ async def test_an_outside_change_is_loaded_keeps_the_cursor_and_can_be_undone(le
         await me.until(lambda: me.file.read_text() == fakes.NODE)
 
 
+async def test_ctrl_f_finds_a_text_and_typing_replaces_what_is_selected_and_is_indented(learner: Any) -> None:
+    async with learner() as me:
+        editor = await me.focus_editor()
+        rows = [row for row, line in enumerate(fakes.NODE.split("\n")) for _ in range(line.count('log("'))]
+        await me.press("ctrl+f", *'LOG("')
+        await me.sees("not found")
+        await me.press("ctrl+u", *'log("')
+        await me.sees(f"1 of {len(rows)}")
+        assert editor.selected_text == 'log("'
+        seen = []
+        for key in ("enter", "down", "enter", "enter", "up"):
+            await me.press(key)
+            await me.pilot.pause()
+            seen.append(editor.selection.start[0])
+        assert seen == [rows[1], rows[2], rows[3], rows[0], rows[3]], "wraps around at the end, and back"
+        await me.press("escape", "ctrl+g")
+        await me.until(
+            lambda: editor.selected_text == 'log("' and editor.selection.start[0] == rows[0], "the next match"
+        )
+        await me.press("X")
+        assert (text := editor.text) == fakes.NODE.replace('log("', "X", 1), "typing replaces the match"
+
+        # To both ends of the file, and all of it selected and replaced, by lines that are indented as Python is.
+        await me.press("ctrl+end")
+        assert editor.cursor_location == editor.document.end
+        await me.press("ctrl+home")
+        assert editor.cursor_location == (0, 0)
+        await me.press("ctrl+shift+end")
+        assert editor.selected_text == text
+        await me.press("ctrl+a")
+        await me.type_text("def f():\nif x:\nreturn 1\nreturn\ny")
+        expected = "def f():\n    if x:\n        return 1\n    return\ny"
+        await me.until(lambda: me.file.read_text() == expected, expected)
+        await me.type_text("\nif y:\n")
+        await me.until(lambda: editor.text == expected + "\nif y:\n    ", "indented")
+        await me.press("backspace")
+        await me.until(lambda: editor.text == expected + "\nif y:\n", "dedented")
+        await me.press("escape", "ctrl+f", "escape", "1")
+        await me.sees("Objective")
+
+
 async def cause_conflict(me: Any) -> None:
     """Type, and change the file outside before autosave writes it: at once, as that takes only half a second."""
-    (await me.focus_editor()).insert("m")
+    me.editor.insert("m")
     me.file.write_text("theirs = 1\n")
     await me.sees("was changed outside", "Keep mine", "Take the file's")
 
 
-async def test_in_a_conflict_the_learner_keeps_their_version_and_the_files_is_backed_up(learner: Any) -> None:
-    async with learner() as me:
+async def start_again(me: Any) -> None:
+    """Remove the backups, and have the editor show the skeleton, with the cursor at its very beginning."""
+    for backup in me.file.parent.glob(f"{me.file.name}.~*~"):
+        backup.unlink()
+    me.file.write_text(fakes.NODE)
+    await me.until(lambda: me.editor.text == fakes.NODE, "loaded")
+    await me.press("ctrl+home")
+
+
+async def test_in_a_conflict_either_version_is_kept_and_the_other_is_backed_up(
+    learner: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async with learner((80, 24)) as me:
+        # The learner keeps their version.
+        await me.focus_editor()
         await cause_conflict(me)
         assert backups(me.file) == ["m" + fakes.NODE]
         await me.press("d")
@@ -73,9 +111,8 @@ async def test_in_a_conflict_the_learner_keeps_their_version_and_the_files_is_ba
         assert me.file.read_text() == "m" + fakes.NODE
         assert backups(me.file) == ["theirs = 1\n"]
 
-
-async def test_in_a_conflict_the_learner_takes_the_files_version_and_theirs_is_backed_up(learner: Any) -> None:
-    async with learner((80, 24)) as me:
+        # They take the file's version.
+        await start_again(me)
         await cause_conflict(me)
         await me.press("escape")
         await me.sees("version is shown", "theirs = 1")
@@ -85,17 +122,13 @@ async def test_in_a_conflict_the_learner_takes_the_files_version_and_theirs_is_b
         await me.press("x")
         await me.until(lambda: me.file.read_text() == "txheirs = 1\n", "typing continues")
 
-
-async def test_text_typed_while_the_backup_is_written_is_backed_up_too(
-    learner: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    async with learner() as me:
-
+        # They take it, having typed on while their version was backed up: that is backed up, too.
         def back_up_while_typing(path: Path, text: str) -> Path:
             if text == "m" + fakes.NODE:
                 me.app.call_from_thread(me.editor.insert, "ore")
             return back_up_file(path, text)
 
+        await start_again(me)
         monkeypatch.setattr("tutor.tui.control.files.back_up_file", back_up_while_typing)
         await cause_conflict(me)
         await me.press("escape")
@@ -123,16 +156,8 @@ async def test_the_views_of_the_code_and_a_reset_that_keeps_a_backup(learner: An
         assert len(backups(me.file)) == 1
 
 
-async def test_quitting_saves_pending_edits(learner: Any) -> None:
-    async with learner() as me:
-        await me.focus_editor()
-        await me.press("x", "ctrl+q")
-        await me.until(lambda: me.app.return_code == 0)
-        assert me.file.read_text() == "x" + fakes.NODE
-
-
 async def test_a_file_that_is_still_being_read_when_the_app_closes_is_not_shown(learner: Any) -> None:
-    async with learner() as me:
+    async with learner((80, 24)) as me:
         pane = me.main.query_one(CodePane)
         await me.main.close_down()
         await pane.remove_children()
@@ -140,57 +165,24 @@ async def test_a_file_that_is_still_being_read_when_the_app_closes_is_not_shown(
         assert not pane.children
 
 
-async def test_a_file_that_is_not_a_text_is_left_alone(learner: Any) -> None:
-    async with learner() as me:
+async def test_what_is_no_text_is_left_alone_function_keys_work_and_quitting_saves_pending_edits(learner: Any) -> None:
+    async with learner((80, 24)) as me:
         me.file.write_bytes(b"\xff\xfe")
         await me.press("2")
         await me.sees("cannot be shown", "is not UTF-8")
         assert me.file.read_bytes() == b"\xff\xfe"
+        me.file.write_text(fakes.NODE)
+        await me.sees("1  import signal")
 
-
-async def test_ctrl_f_finds_a_text_and_steps_through_the_matches(learner: Any) -> None:
-    async with learner() as me:
-        editor = await me.focus_editor()
-        rows = [row for row, line in enumerate(fakes.NODE.split("\n")) for _ in range(line.count('log("'))]
-        await me.press("ctrl+f", *'LOG("')
-        await me.sees("not found")
-        await me.press("ctrl+u", *'log("')
-        await me.sees(f"1 of {len(rows)}")
-        assert editor.selected_text == 'log("'
-        seen = []
-        for key in ("enter", "down", "enter", "enter", "up"):
-            await me.press(key)
-            await me.pilot.pause()
-            seen.append(editor.selection.start[0])
-        assert seen == [rows[1], rows[2], rows[3], rows[0], rows[3]], "wraps around at the end, and back"
-        await me.press("escape", "ctrl+g")
-        await me.until(
-            lambda: editor.selected_text == 'log("' and editor.selection.start[0] == rows[0], "the next match"
-        )
-        await me.press("X")
-        assert editor.text == fakes.NODE.replace('log("', "X", 1), "typing replaces the match"
-        await me.press("escape", "ctrl+f", "escape", "1")
-        await me.sees("Objective")
-
-
-async def test_select_all_and_jump_to_both_ends_of_the_file(learner: Any) -> None:
-    async with learner() as me:
-        editor = await me.focus_editor()
-        await me.press("ctrl+end")
-        assert editor.cursor_location == editor.document.end
-        await me.press("ctrl+home")
-        assert editor.cursor_location == (0, 0)
-        await me.press("ctrl+shift+end")
-        assert editor.selected_text == fakes.NODE
-        await me.press("ctrl+a", *"x = 1")
-        await me.until(lambda: me.file.read_text() == "x = 1", "all of it replaced")
-
-
-async def test_in_the_editor_function_keys_run_the_commands_that_help_lists(learner: Any) -> None:
-    async with learner() as me:
+        # Function keys run the commands that help lists, and do not select text.
         editor = await me.focus_editor()
         await me.press("f6")
         assert not editor.selected_text
         await me.press("f7")
         await me.until(lambda: me.main.page == "live")
         assert not editor.selected_text
+
+        await me.focus_editor()
+        await me.press("x", "ctrl+q")
+        await me.until(lambda: me.app.return_code == 0)
+        assert me.file.read_text() == "x" + fakes.NODE

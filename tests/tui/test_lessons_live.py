@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from pathlib import Path
 
 import pytest
 
+from tests.running import is_running
 from tests.tui.conftest import Learner, open_app
 from tutor.session import Session
 from tutor.workspace import AppState
@@ -41,53 +43,89 @@ class Reader(Learner):
 
 
 @asynccontextmanager
-async def reading(session: Session, exercise: str) -> AsyncIterator[Reader]:
+async def reading(session: Session, exercise: str, size: tuple[int, int] = (150, 36)) -> AsyncIterator[Reader]:
     """A reader of this exercise, whose workspace holds our solution."""
     lesson = session.course.find(exercise)
     session.start(lesson)
     for file in lesson.files:
         session.path(file).write_bytes(file.solution.read_bytes())
     session.save_app_state(AppState(lesson=lesson.id))
-    async with open_app(session, (180, 48)) as learner:
+    async with open_app(session, size) as learner:
         me = Reader(learner.app, learner.pilot, session)
         await me.sees(f"{lesson.id.upper()}  {lesson.title}", "Objective")
         yield me
 
 
 async def test_i1_1(session: Session) -> None:
-    async with reading(session, "i1.1") as me:
+    async with reading(session, "i1.1", (120, 36)) as me:
         me.reads("Run your node with `r`, and switch to Live with `4`")
         await me.press("r")
-        await me.sees("thermometer_1 publishes 2.0")
+        await me.sees("Lessons", "● running  temperature_publisher.py", "thermometer_1 publishes 2.0")
         await me.press("4")
         me.reads("A timer of 0.5 s gives 2.00 Hz", "two dashed lines at 20 and 30", "a dot for each message")
         await me.sees("/sensor/temperature  std_msgs/Float64", "data: 2", "asked: 20 to 30", "╌╌", "•")
+        await me.sees("1 node", "Parameters 2", "reliable, volatile")
         await me.sees_rate(2.0)
+
+        # The log is beside the Live page where there is room, unless the learner hides the latter.
+        await me.sees("● running  temperature_publisher.py", "INFO")
+        await me.press("3")
+        await me.until(lambda: me.app.focused is not None and me.app.focused.id == "log-view", "the log has the focus")
+        await me.sees("asked: 20 to 30")
+        await me.press("L")
+        await me.sees_no("asked: 20 to 30")
+        await me.press("L")
+        await me.sees("asked: 20 to 30", "INFO")
+        await me.pilot.resize_terminal(80, 24)
+        await me.sees_no("asked: 20 to 30")
+        await me.press("4")
+        await me.sees("asked: 20 to 30")
+        assert "INFO" not in me.screen()
+
         me.reads("**Parameters** (`P`): both of yours", "The node says *accepted*, yet goes on as before")
         await me.press("P")
-        await me.sees("publish_rate", "sensor_name", "double", "string")
-        await me.press("down", "enter", "ctrl+u", *"roof", "enter")
+        await me.sees("publish_rate", "sensor_name", "double", "string", "Enter Set")
+        await me.press("down", "enter")
+        await me.sees("Set /temperature_publisher sensor_name")
+        await me.press("ctrl+u")
+        me.paste("roof")
+        await me.press("enter")
         await me.sees("sensor_name = roof  accepted")
         me.reads("**Graph** (`G`): your node and the topic, and that nobody subscribes yet")
         await me.press("escape", "G")
         await me.sees("/temperature_publisher", "/sensor/temperature", "nobody listens")
+
         me.reads("write `publish_rate:=5.0` and `sensor_name:=kitchen` on two lines, and press F5")
         await me.press("o")
         await me.sees("F5 runs")
-        await me.press(*"publish_rate:=5.0", "enter", *"sensor_name:=kitchen", "f5")
+        me.paste("publish_rate:=5.0\nsensor_name:=kitchen")
+        me.app.screen.query_one("#run-remaps").text = "/sensor/temperature:=/greenhouse"  # type: ignore[attr-defined]
+        await me.press("f5")
         me.reads("The rate is now 5.00 Hz, and the log mentions the kitchen")
-        await me.sees("kitchen: ")
-        await me.press("T")
-        await me.sees_rate(5.0)
+        await me.sees("kitchen publishes 5.0 readings")
+        await me.press("4", "T")
+        await me.sees("/greenhouse", "std_msgs/Float64")
+        await me.until(lambda: re.search(r"\b(4\.9\d|5\.0\d) Hz · jitter", me.screen()) is not None, "5 Hz")
+        await me.press("right_square_bracket")
+        await me.sees("publish_rate", "5.0", "sensor_name", "kitchen")
+
+        assert is_running(me.file)
+        await me.press("r")
+        await me.sees("No node runs in domain")
+        await me.press("3")
+        await me.sees("stopped")
+        assert not is_running(me.file)
 
 
 async def test_i1_2(session: Session) -> None:
     async with reading(session, "i1.2") as me:
         me.reads("Run it with `r`, then press `b`: that starts a talker beside it", "`[` and `]` switch from one log")
         await me.press("r")
-        await me.sees("Waiting for messages")
+        await me.sees("● running  message_stats.py", "Waiting for messages on /chatter")
         await me.press("b")
-        await me.sees("● running  talker", "Hello World: 0")
+        await me.sees("● running  talker", "ros2 run demo_nodes_py talker", "Hello World: 0", "b stops it")
+        await me.press("left_square_bracket")
+        await me.sees("● running  message_stats.py", "r stops it")
         me.reads("`/chatter` with 1.00 Hz, one publisher (Pub) and one subscriber (Sub), and the messages")
         await me.press("T")
         await me.sees("data: 'Hello World: ")
@@ -98,9 +136,10 @@ async def test_i1_2(session: Session) -> None:
         await me.press("M")
         await me.sees("Publish a message", "data string")
         await me.until_field_focused()
-        await me.press(*"Hello World: 99", "enter")
+        me.paste("Hello World: 99")
+        await me.press("enter")
         await me.sees("✓ published once on /chatter")
-        await me.press("3", "left_square_bracket")
+        await me.press("3")
         await me.sees("messages are missing between")
         me.reads("Press `b` again to stop the talker, and once more to start it again, from 0")
         await me.press("b")
@@ -108,14 +147,20 @@ async def test_i1_2(session: Session) -> None:
         await me.press("b")
         await me.sees("● talker")
         await me.press("left_square_bracket")
-        await me.sees("The publisher was restarted")
+        await me.sees("The publisher was restarted", "10 messages, ")
         me.reads("**Graph** (`G`): the talker, `/chatter`, and your node, with arrows from one to the next")
         await me.press("G")
         await me.sees("/talker", "/chatter", "/message_stats", "──▶")
 
+        pids = [pid for node in me.main.nodes.running if (pid := node.pid) is not None]
+        assert len(pids) == 2
+        await me.press("q")
+        await me.until(lambda: me.app.return_code == 0)
+        assert not any(Path(f"/proc/{pid}").exists() for pid in pids)
+
 
 async def test_i1_3(session: Session) -> None:
-    async with reading(session, "i1.3") as me:
+    async with reading(session, "i1.3", (120, 36)) as me:
         me.reads(
             "`r` runs the file that is shown",
             "`j` runs the other file beside it, so that your client meets your server",
@@ -145,6 +190,26 @@ async def test_i1_3(session: Session) -> None:
         await me.sees("/divide a=1, b=0", "sum: 0")
         await me.press("escape", "3", "left_square_bracket", "left_square_bracket")
         await me.sees("Cannot divide 1 by zero")
+        await me.press("r")
+        await me.sees("■ ended  calculator_server.py")
+
+        # The client beside our server, with the whole width for the log.
+        await me.press("L", "f")
+        await me.sees("calculator_client.py")
+        await me.press("b")
+        await me.sees("● running  our server", "Calculator is up")
+        client = await me.runs()
+        await me.until(client.over.is_set, "it has ended")
+        assert not client.state.failed, client.state
+        await me.sees("calculator_client.py", "add(10, 5) = 15", "■ ended")
+        await me.press("b")
+        await me.sees("■ our server")
+        await me.press("j")
+        await me.sees("● running  calculator_server.py", "j stops it")
+        await me.press("b")
+        await me.sees("Your calculator_server.py is already running")
+        await me.press("j")
+        await me.sees("■ ended  calculator_server.py")
 
 
 async def test_i2_1(session: Session) -> None:
@@ -154,7 +219,9 @@ async def test_i2_1(session: Session) -> None:
         me.reads("`enabled`, `message_prefix` and `publish_rate`, with type and value", "A new prefix is *accepted*")
         await me.press("P")
         await me.sees("enabled", "message_prefix", "publish_rate", "boolean", "string", "double")
-        await me.press("down", "enter", "ctrl+u", *"Ahoy", "enter")
+        await me.press("down", "enter", "ctrl+u")
+        me.paste("Ahoy")
+        await me.press("enter")
         await me.sees("message_prefix = Ahoy  accepted")
         me.reads("A rate of `0.0` should be *rejected*, with your reason beside it")
         await me.press("down", "enter", "ctrl+u", *"0.0", "enter")
@@ -172,14 +239,16 @@ async def test_i2_1(session: Session) -> None:
         await me.sees("silent")
         me.reads("`b` starts a listener beside your node", "Try `publish_rate:=0.0`, too: what does the log say?")
         await me.press("b")
-        await me.sees("● running  listener")
+        await me.sees("● running  listener", "2 nodes")
         await me.press("o")
-        await me.press(*"publish_rate:=0.0", "f5")
+        await me.sees("F5 runs")
+        me.paste("publish_rate:=0.0")
+        await me.press("f5")
         await me.sees("publish_rate must be", "ended")
 
 
 async def test_i2_2(session: Session) -> None:
-    async with reading(session, "i2.2") as me:
+    async with reading(session, "i2.2", (120, 36)) as me:
         me.reads("`r` launches your file, and the log shows both nodes")
         await me.press("r")
         await me.sees("I heard: ", "Publishing: ")
@@ -191,7 +260,10 @@ async def test_i2_2(session: Session) -> None:
         me.reads("write `topic:=my_topic` and `namespace:=robot1`, and press F5")
         await me.press("o")
         await me.sees("Launch arguments")
-        await me.press(*"topic:=my_topic", "enter", *"namespace:=robot1", "f5")
+        me.paste("topic:=my_topic")
+        await me.press("enter")
+        me.paste("namespace:=robot1")
+        await me.press("f5")
         await me.sees("robot1.minimal_publisher")
         me.reads("`/robot1/minimal_publisher`, `/robot1/my_topic` and `/robot1/minimal_subscriber`, with arrows")
         await me.press("G")

@@ -14,6 +14,7 @@ from textual.widgets._footer import FooterKey
 from textual.widgets.markdown import MarkdownBlock
 
 from tests.tui import fakes
+from tutor.tui.commands import all_commands
 from tutor.tui.control.layout import Criteria, Layout, layout_for
 from tutor.tui.dialogs.help import KeyTable
 from tutor.tui.themes import BACKGROUNDS, DARK, LIGHT, TEXT_COLOURS
@@ -23,7 +24,9 @@ SIZES = [(120, 36), (80, 24)]
 
 
 @pytest.mark.parametrize("size", SIZES)
-async def test_the_welcome_screen_says_where_the_work_will_be_and_enter_begins(learner: Any, size: Any) -> None:
+async def test_the_welcome_screen_says_where_the_work_will_be_and_enter_leads_to_the_lessons(
+    learner: Any, size: Any
+) -> None:
     async with learner(size, started=False) as me:
         await me.sees("Learn ROS 2", "Your work will be in", "Press Enter")
         assert not me.session.workspace.exists
@@ -31,6 +34,14 @@ async def test_the_welcome_screen_says_where_the_work_will_be_and_enter_begins(l
         await me.sees("I1.1  Sensor Publisher", "Objective")
         assert me.session.workspace.exists
         assert me.session.path(me.session.lessons[0].files[0]).exists()
+
+        # The next and the previous lesson.
+        await me.press("n")
+        await me.sees("I1.3  Calculator Service", "temperature sensor (i1.3)")
+        await me.press("n", "n")
+        await me.sees("I2.3  Multi-Threaded Service", "This is the last lesson.")
+        await me.press("p", "p")
+        await me.sees("I1.1  Sensor Publisher")
 
 
 async def test_the_workspace_can_be_elsewhere_and_is_found_the_next_time(learner: Any, tmp_path: Path) -> None:
@@ -61,34 +72,31 @@ async def test_quitting_the_welcome_screen_creates_no_workspace(learner: Any) ->
         assert not me.session.workspace.exists
 
 
-async def test_the_list_of_lessons_shows_difficulty_and_progress_in_words(learner: Any) -> None:
+async def test_the_lessons_are_listed_with_difficulty_and_progress_and_opened_by_click_and_key(learner: Any) -> None:
     async with learner() as me:
         await me.sees(
             "I1.1 Sensor Publisher", "●○○ easy", "started", "●●○ medium", "●●● challenge", "new", "0 of 3 passed"
         )
+        await me.pilot.click(me.main.query_one("#lessons").query("LessonRow")[1])
+        await me.sees("I1.3  Calculator Service")
 
-
-@pytest.mark.parametrize("size", SIZES)
-async def test_next_and_previous_lesson(learner: Any, size: Any) -> None:
-    async with learner(size) as me:
-        await me.press("n")
-        await me.sees("I1.3  Calculator Service", "temperature sensor (i1.3)")
-        await me.press("n", "n")
-        await me.sees("I2.3  Multi-Threaded Service", "This is the last lesson.")
-        await me.press("p", "p")
-        await me.sees("I1.1  Sensor Publisher")
-
-
-async def test_a_click_on_a_lesson_opens_it(learner: Any) -> None:
-    async with learner() as me:
-        row = me.main.query_one("#lessons").query("LessonRow")[2]
-        await me.pilot.click(row)
+        # Home and End work in the lists, and keys from the help work everywhere.
+        await me.press("l", "l", "end", "enter")
         await me.sees("I2.3  Multi-Threaded Service")
+        await me.press("l", "l", "home", "enter")
+        await me.sees("I1.1  Sensor Publisher")
+        await me.press("i")
+        await me.sees("There is no evidence here")
+        await me.press("5", "end", "enter")
+        await me.sees("shutdown  Ctrl+C ends the node cleanly")
 
 
-async def test_in_a_small_terminal_the_lessons_are_a_drawer_and_the_criteria_a_tab(learner: Any) -> None:
+async def test_the_panels_fold_in_a_small_terminal_and_unfold_when_it_grows(learner: Any) -> None:
     async with learner((80, 24)) as me:
         await me.sees("Lesson", "Code", "Log", "Criteria", "q Quit")
+        await me.until(lambda: "0/3" in me.screen().partition("\n")[0], "the progress in the header")
+
+        # The lessons are a drawer, and the criteria a tab.
         assert "0 of 3 passed" not in me.screen()
         await me.press("l")
         await me.sees("0 of 3 passed")
@@ -98,17 +106,14 @@ async def test_in_a_small_terminal_the_lessons_are_a_drawer_and_the_criteria_a_t
         await me.press("5")
         await me.sees("The publishing rate can be set with a parameter")
 
-
-async def test_the_panels_unfold_when_the_terminal_grows_and_fold_when_it_shrinks(learner: Any) -> None:
-    async with learner((80, 24)) as me:
-        await me.press("5")
         await me.pilot.resize_terminal(120, 36)
         await me.sees("0 of 3 passed", "Objective", "not checked yet")
+        await me.until(lambda: "0 of 3 passed" in me.screen().partition("\n")[0], "the progress in the header")
         await me.pilot.resize_terminal(180, 50)
         await me.sees("0 of 3 passed", "Objective", "not checked yet")
         await me.pilot.resize_terminal(60, 18)
+        await me.sees_no("0 of 3 passed")
         await me.sees("Objective")
-        assert "0 of 3 passed" not in me.screen()
 
 
 def test_the_layout_follows_the_size() -> None:
@@ -145,15 +150,9 @@ async def test_moving_the_focus_restyles_frames_but_neither_text_nor_footer_keys
         assert [*me.main.query(FooterKey)] == keys
 
 
-async def test_the_header_shows_the_learners_progress(learner: Any) -> None:
+async def test_every_command_has_a_handler_and_help_names_every_key(learner: Any) -> None:
     async with learner() as me:
-        await me.until(lambda: "0 of 3 passed" in me.screen().partition("\n")[0])
-        await me.pilot.resize_terminal(80, 24)
-        await me.until(lambda: "0/3" in me.screen().partition("\n")[0])
-
-
-async def test_help_names_every_key(learner: Any) -> None:
-    async with learner() as me:
+        assert {me.main.can(command) for command in all_commands()} == {True, False}
         await me.press("question_mark")
         await me.sees("Run your node in your own ROS domain", "Ctrl+P")
         tables = me.app.screen.query(KeyTable)
@@ -164,21 +163,24 @@ async def test_help_names_every_key(learner: Any) -> None:
         await me.press("escape")
         await me.sees_no("Run your node in your own ROS domain")
 
-
-async def test_the_palette_goes_to_a_lesson(learner: Any) -> None:
-    async with learner() as me:
-        await me.press("ctrl+p")
-        await me.press(*"multi")
-        await me.sees("Go to I2.3 Multi-Threaded Service")
-        await me.press("down", "enter")
-        await me.sees("I2.3  Multi-Threaded Service")
-
-
-async def test_the_theme_is_switched(learner: Any) -> None:
-    async with learner() as me:
         assert me.app.current_theme.dark
         await me.press("t")
         assert not me.app.current_theme.dark
+
+
+async def test_the_palette_goes_to_a_lesson_and_to_a_line_in_one(learner: Any) -> None:
+    async with learner((80, 24)) as me:
+        await me.press("ctrl+p", *"calc")
+        await me.sees("Go to I1.3 Calculator Service")
+        await me.press("down", "enter")
+        await me.sees("I1.3  Calculator Service")
+
+        await me.press("ctrl+p")
+        me.paste("random")
+        await me.sees("Publish random values from 20.0 to 30.0", "I2.3 Multi-Threaded Service, line")
+        await me.press("up", "enter")
+        await me.until(lambda: me.main.model.lesson.id == "i2.3", "the lesson is open")
+        await me.sees("I2.3  Multi-Threaded Service", "Publish random values")
 
 
 @pytest.mark.parametrize("theme", [DARK, LIGHT], ids=lambda theme: theme.name)
@@ -198,7 +200,7 @@ def test_every_text_colour_has_enough_contrast_on_every_background(theme: Any) -
             assert ratio >= 4.5, f"{name} on {background}: {ratio:.2f}"
 
 
-async def test_the_code_is_shown_with_line_numbers_and_follows_the_file_on_disk(learner: Any) -> None:
+async def test_the_code_follows_the_file_on_disk_and_f_shows_the_other_file(learner: Any) -> None:
     async with learner() as me:
         await me.press("2")
         await me.sees("1  import signal", "thermometer.py")
@@ -211,27 +213,9 @@ async def test_the_code_is_shown_with_line_numbers_and_follows_the_file_on_disk(
         await me.until(lambda: not removed.is_attached)
         assert not removed.render_line(0).text.strip(), "painted until the next layout, though its styles are gone"
 
-
-async def test_f_shows_the_other_file_of_a_lesson_with_two(learner: Any) -> None:
-    async with learner() as me:
         await me.press("n", "s")
         await me.sees("server.py and client.py", "1  import signal")
         await me.press("f")
         await me.until(lambda: me.main.model.file_index == 1)
         await me.pilot.click("#code-head", offset=(2, 0))
         assert (await asyncio.to_thread(me.session.path(me.session.lessons[1].files[1]).read_text)) == fakes.NODE
-
-
-async def test_home_and_end_work_in_the_lists_and_keys_from_the_help_work_everywhere(
-    learner: Any,
-) -> None:
-    async with learner() as me:
-        await me.press("l", "l")
-        await me.press("end", "enter")
-        await me.sees("I2.3  Multi-Threaded Service")
-        await me.press("l", "l", "home", "enter")
-        await me.sees("I1.1  Sensor Publisher")
-        await me.press("i")
-        await me.sees("There is no evidence here")
-        await me.press("5", "end", "enter")
-        await me.sees("shutdown  Ctrl+C ends the node cleanly")

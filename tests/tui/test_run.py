@@ -9,13 +9,24 @@ import pytest
 from tests.tui import fakes
 from tests.tui.conftest import is_alive
 from tutor.session.node import Phase
-from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.line_view import Row
 from tutor.tui.widgets.log_view import _wrapped
 
+ECHO = "import os, sys\nprint('given', *sys.argv[1:], flush=True)\nprint('pid', os.getpid(), flush=True)\n"
+
+CRASHES = """\
+import sys
+for number in range(60):
+    print("line", number, flush=True)
+def tick(depth):
+    tick(depth - 1) if depth else int("no number")
+sys.setrecursionlimit(400)
+tick(12)
+"""
+
 
 @pytest.mark.parametrize("size", [(120, 36), (80, 24)])
-async def test_the_log_of_a_running_node_is_shown_with_its_levels(learner: Any, size: Any) -> None:
+async def test_the_log_of_a_running_node_is_shown_with_its_levels_and_followed(learner: Any, size: Any) -> None:
     async with learner(size) as me:
         await me.press("r")
         await me.sees("running", "INFO", "ready", "WARN", "the sensor is warm", "print", "a printed line", "r Stop")
@@ -23,71 +34,73 @@ async def test_the_log_of_a_running_node_is_shown_with_its_levels(learner: Any, 
         await me.press("r")
         await me.sees("ended", "stopped", "bye", "r Run")
 
+        # After a crash, the last line of the exception is visible.
+        await me.runs(CRASHES)
+        await me.sees("following", "ValueError: invalid literal", "ended by itself with exit code 1")
 
-async def test_a_node_that_ignores_ctrl_c_is_ended_anyway(learner: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+        # A log that fills while its page is hidden is still followed.
+        go = me.file.with_name("go")
+        await me.runs(f"import os, time\nwhile not os.path.exists({str(go)!r}):\n    time.sleep(0.05)\n" + CRASHES)
+        await me.sees("● running")
+        await me.press("1")
+        await me.sees("Objective")
+        go.touch()
+        await me.until(lambda: me.node.state.phase is Phase.ENDED)
+        await me.pilot.pause()
+        await me.press("3")
+        await me.sees("following", "ValueError: invalid literal", "ended by itself with exit code 1")
+        await me.press("home")
+        await me.sees("scrolled up: End follows", "line 0")
+        await me.press("1", "3")
+        await me.sees("scrolled up: End follows", "line 0")
+        await me.press("end")
+        await me.sees("following", "ValueError: invalid literal")
+
+
+async def test_a_node_that_crashes_floods_the_log_or_ignores_ctrl_c(
+    learner: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("tutor.session.node.INTERRUPT_S", 0.2)
     async with learner() as me:
-        me.session.path(me.session.lessons[0].files[0]).write_text(
-            "import os\nprint(os.getpid(), flush=True)\n" + fakes.STUBBORN
-        )
+        # Its traceback leads to its lines in the editor.
+        await me.runs("def tick():\n    raise ValueError('wrong')\n\nprint('[not markup]', flush=True)\ntick()\n")
+        await me.sees("[not markup]", "Traceback", "ValueError: wrong", "ended by itself with exit code 1")
+        await me.sees("← g or click")
+        await me.press("g")
+        await me.until(lambda: me.main.page == "code" and me.editor.cursor_location == (1, 4), "the raise")
+        await me.press("escape", "3")
+        row = next(n for n, line in enumerate(me.text("#log-view").split("\n")) if "line 5" in line)
+        await me.pilot.click("#log-view", offset=(20, row))
+        await me.until(lambda: me.main.page == "code" and me.editor.cursor_location == (4, 0), "the call")
+        assert me.app.focused is me.editor
+        await me.press("escape")
+
+        # A flood of lines leaves the app usable.
+        node = await me.runs("n = 0\nwhile True:\n    n += 1\n    print('line', n)\n")
+        await me.until(lambda: node.state.dropped > 0)
+        await me.press("1")
+        await me.sees("Objective")
         await me.press("r")
+        await me.until(lambda: node.state.phase is Phase.ENDED)
+
+        node = await me.runs("import os\nprint(os.getpid(), flush=True)\n" + fakes.STUBBORN)
         await me.sees("deaf")
-        pid = int(me.node.state.lines[0].text)
+        pid = int(node.state.lines[0].text)
         await me.press("r")
         await me.sees("ignored Ctrl+C")
         await me.until(lambda: not is_alive(pid))
 
-
-async def test_a_crashing_node_shows_its_traceback_and_exit_code(learner: Any) -> None:
-    async with learner() as me:
-        me.session.path(me.session.lessons[0].files[0]).write_text("print('[not markup]')\nraise ValueError('wrong')\n")
-        await me.press("r")
-        await me.sees("[not markup]", "Traceback", "ValueError: wrong", "ended by itself with exit code 1")
-
-
-async def test_a_flood_of_lines_leaves_the_app_usable(learner: Any) -> None:
-    async with learner() as me:
-        me.session.path(me.session.lessons[0].files[0]).write_text(
-            "n = 0\nwhile True:\n    n += 1\n    print('line', n)\n"
-        )
-        await me.press("r")
-        await me.until(lambda: me.node is not None and me.node.state.dropped > 0)
-        await me.press("1")
-        await me.sees("Objective")
-        await me.press("r")
-        await me.until(lambda: me.node.state.phase is Phase.ENDED)
-
-
-async def test_the_node_keeps_running_while_another_lesson_is_open_and_the_terminal_is_resized(learner: Any) -> None:
-    async with learner() as me:
-        await me.press("r")
+        # Quitting ends a node.
+        node = await me.runs(ECHO + fakes.NODE)
         await me.sees("ready")
-        await me.press("n")
-        await me.pilot.resize_terminal(80, 24)
-        await me.sees("I1.3", "● running")
-        await me.press("3")
-        await me.sees("the sensor is warm")
-
-
-async def test_quitting_ends_the_node(learner: Any) -> None:
-    async with learner() as me:
-        me.session.path(me.session.lessons[0].files[0]).write_text(
-            "import os\nprint(os.getpid(), flush=True)\n" + fakes.NODE
-        )
-        await me.press("r")
-        await me.sees("ready")
-        await me.until(lambda: any(line.text.isdecimal() for line in me.node.state.lines))
-        pid = int(next(line.text for line in me.node.state.lines if line.text.isdecimal()))
+        pid = int(next(line.text for line in node.state.lines if line.text.startswith("pid ")).split()[1])
         assert is_alive(pid)
         await me.press("q")
         await me.until(lambda: me.app.return_code == 0)
         assert not is_alive(pid)
 
 
-ECHO = "import os, sys\nprint('given', *sys.argv[1:], flush=True)\nprint('pid', os.getpid(), flush=True)\n"
-
-
-async def test_a_node_runs_with_the_parameters_and_remaps_that_the_learner_sets(learner: Any) -> None:
+async def test_a_node_runs_with_options_and_keeps_running_while_another_lesson_is_open(learner: Any) -> None:
     async with learner() as me:
         me.file.write_text(ECHO + fakes.NODE)
         await me.press("o")
@@ -102,42 +115,14 @@ async def test_a_node_runs_with_the_parameters_and_remaps_that_the_learner_sets(
         await me.sees("given --ros-args -p rate:=5.0 -r chatter:=/news", "$       ros2 run my_package thermometer")
         await me.until(lambda: me.session.app_state().run_of("i1.1").parameters == ("rate:=5.0",), "remembered")
 
-
-async def test_a_save_restarts_the_node_if_enabled(learner: Any) -> None:
-    async with learner() as me:
-        me.file.write_text(text := ECHO + fakes.NODE)
-        pane = me.main.query_one(CodePane)
-        # Otherwise, this write restarts the node later, one restart more than the test expects.
-        await me.until(lambda: pane.has_editor(me.file) and pane.text(me.file) == text, "the new text is noticed")
-        await me.press("W")
-        await me.sees("a save restarts")
-        await me.press("r")
-        await me.sees("the sensor is warm")
-        before = me.node
-        await me.focus_editor()
-        await me.press("end", "#", "ctrl+s")
-        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "restarted")
-        assert before.over.is_set()
-        await me.until(lambda: "the sensor is warm" in me.screen())
-
-
-async def test_an_outside_change_restarts_the_node_and_leaves_the_focus_in_the_editor(learner: Any) -> None:
-    async with learner() as me:
-        await me.press("W", "r")
-        await me.sees("the sensor is warm")
-        before = me.node
-        await me.focus_editor()
-        me.file.write_text(ECHO + fakes.NODE)
-        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "restarted")
-        await me.until(lambda: any("pid" in line.text for line in me.node.state.lines), "output of the new file")
-        assert me.main.page == "code"
-        assert me.app.focused is me.editor
-        await me.press("escape", "1")
-        me.file.write_text(fakes.NODE)
+        await me.press("n")
+        await me.pilot.resize_terminal(80, 24)
+        await me.sees("I1.3", "● running")
+        await me.press("3")
         await me.sees("the sensor is warm")
 
 
-async def test_the_log_is_filtered_paused_and_cleared(learner: Any) -> None:
+async def test_the_log_is_filtered_paused_and_cleared_and_a_save_restarts_the_node(learner: Any) -> None:
     async with learner() as me:
         await me.press("r")
         await me.sees("the sensor is warm", "a printed line", "a long line")
@@ -157,19 +142,28 @@ async def test_the_log_is_filtered_paused_and_cleared(learner: Any) -> None:
         await me.press("x")
         await me.sees("0 of 5 lines")
 
+        await me.press("W")
+        await me.sees("a save restarts")
+        before = await me.runs()
+        await me.sees("the sensor is warm")
+        await me.focus_editor()
+        await me.press("end", "#", "ctrl+s")
+        await me.until(lambda: me.node is not before and me.node.state.phase is Phase.RUNNING, "restarted")
+        assert before.over.is_set()
 
-async def test_a_traceback_leads_to_its_line_in_the_editor(learner: Any) -> None:
-    async with learner() as me:
-        me.file.write_text("def tick():\n    raise ValueError('no')\n\ntick()\n")
-        await me.press("r")
-        await me.sees("ValueError: no", "← g or click")
-        await me.press("g")
-        await me.until(lambda: me.main.page == "code" and me.editor.cursor_location == (1, 4), "the raise")
-        await me.press("escape", "3")
-        row = next(n for n, line in enumerate(me.text("#log-view").split("\n")) if "line 4" in line)
-        await me.pilot.click("#log-view", offset=(20, row))
-        await me.until(lambda: me.main.page == "code" and me.editor.cursor_location == (3, 0), "the call")
+        await me.sees("the sensor is warm")
+
+        # A change from outside restarts it, too, and leaves the focus in the editor.
+        saved = me.node
+        await me.focus_editor()
+        me.file.write_text(ECHO + fakes.NODE)
+        await me.until(lambda: me.node is not saved and me.node.state.phase is Phase.RUNNING, "restarted")
+        await me.until(lambda: any("pid" in line.text for line in me.node.state.lines), "output of the new file")
+        assert me.main.page == "code"
         assert me.app.focused is me.editor
+        await me.press("escape", "1")
+        me.file.write_text(fakes.NODE)
+        await me.sees("the sensor is warm")
 
 
 async def test_a_server_and_its_client_run_side_by_side(learner: Any) -> None:
@@ -193,44 +187,3 @@ def test_the_hint_after_a_traceback_line_is_never_wrapped() -> None:
         assert any("← g or click" in row for row in rows)
         assert all(len(row) <= 80 for row in rows)
         assert sum(row.count("x") for row in rows) == length
-
-
-CRASHES = """\
-import sys
-for number in range(60):
-    print("line", number, flush=True)
-def tick(depth):
-    tick(depth - 1) if depth else int("no number")
-sys.setrecursionlimit(400)
-tick(12)
-"""
-
-
-@pytest.mark.parametrize("size", [(120, 36), (80, 24)])
-async def test_after_a_crash_the_last_line_of_the_exception_is_visible(learner: Any, size: Any) -> None:
-    async with learner(size) as me:
-        me.file.write_text(CRASHES)
-        await me.press("r")
-        await me.sees("following", "ValueError: invalid literal", "ended by itself with exit code 1")
-
-
-@pytest.mark.parametrize("size", [(120, 36), (80, 24)])
-async def test_a_log_that_fills_while_its_page_is_hidden_is_still_followed(learner: Any, size: Any) -> None:
-    async with learner(size) as me:
-        go = me.file.with_name("go")
-        me.file.write_text(f"import os, time\nwhile not os.path.exists({str(go)!r}):\n    time.sleep(0.05)\n" + CRASHES)
-        await me.press("r")
-        await me.sees("● running")
-        await me.press("1")
-        await me.sees("Objective")
-        go.touch()
-        await me.until(lambda: me.node.state.phase is Phase.ENDED)
-        await me.pilot.pause()
-        await me.press("3")
-        await me.sees("following", "ValueError: invalid literal", "ended by itself with exit code 1")
-        await me.press("home")
-        await me.sees("scrolled up: End follows", "line 0")
-        await me.press("1", "3")
-        await me.sees("scrolled up: End follows", "line 0")
-        await me.press("end")
-        await me.sees("following", "ValueError: invalid literal")

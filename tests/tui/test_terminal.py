@@ -25,21 +25,62 @@ async def open_terminal(me: Any) -> None:
     await me.until(lambda: isinstance(me.app.focused, Prompt), "the prompt has the focus")
 
 
-async def test_a_typed_command_prints_its_output_below(learner: Any) -> None:
-    async with learner() as me:
+async def enter(me: Any, command: str) -> None:
+    """Paste a command, and press Enter."""
+    me.paste(command)
+    await me.press("enter")
+
+
+async def test_commands_print_their_output_below_and_share_a_shell_and_a_history(learner: Any) -> None:
+    async with learner((80, 24)) as me:
         await open_terminal(me)
-        await me.type_text("echo out; echo err >&2; exit 3\n")
-        await me.sees("1 echo out; echo err >&2", "[exit code 3]")
+        await me.type_text("echo one\n")
+        await enter(me, "echo two")
+        await me.type_text("ech")
+
+        # The history goes back, and returns to the unfinished line.
+        prompt = me.main.query_one(Prompt)
+        for key, text in (
+            ("up", "echo two"),
+            ("up", "echo one"),
+            ("up", "echo one"),
+            ("down", "echo two"),
+            ("down", "ech"),
+        ):
+            await me.press(key)
+            await me.until(lambda text=text: prompt.value == text, text)
+        await me.press("ctrl+c")
+        await me.until(lambda: not prompt.value)
+
+        await enter(me, "echo out; echo err >&2; exit 3")
+        await me.sees("3 echo out; echo err >&2", "[exit code 3]")
         assert {"out", "err"} <= set(output(me).splitlines())
 
+        # What a program prints is plain text.
+        await enter(me, "printf '[b]\\033[31mred\\033[0m \\033]0;title\\007end\\n'")
+        await me.until(lambda: "[b]red end" in output(me).splitlines())
 
-async def test_several_commands_run_at_once_and_ctrl_c_stops_the_one_that_is_shown(learner: Any) -> None:
-    async with learner() as me:
+        # `cd` and `export` last.
+        await enter(me, "cd src")
+        await enter(me, "export WHERE=here")
+        await enter(me, "basename $PWD; echo $WHERE")
+        await me.until(lambda: output(me).splitlines()[-2:] == ["src", "here"])
+        await enter(me, "cd nowhere")
+        await me.sees("cd: nowhere: No such file or directory")
+
+        await me.main.close_down()
+        commands = me.session.typed_commands()
+        assert commands[:3] == ["echo one", "echo two", "echo out; echo err >&2; exit 3"]
+        assert commands[-1] == "cd nowhere"
+
+
+async def test_several_commands_run_at_once_ctrl_c_stops_the_one_shown_and_quitting_the_others(learner: Any) -> None:
+    async with learner((80, 24)) as me:
         await open_terminal(me)
-        await me.type_text("echo first $$; exec sleep 600\n")
+        await enter(me, "echo first $$; exec sleep 600")
         await me.until(lambda: "first" in output(me).replace("echo first", ""))
         first = int(output(me).split()[-1])
-        await me.type_text("echo second $$; exec sleep 600\n")
+        await enter(me, "echo second $$; exec sleep 600")
         await me.until(lambda: "second" in output(me).replace("echo second", ""))
         second = int(output(me).split()[-1])
         assert is_alive(first)
@@ -54,11 +95,7 @@ async def test_several_commands_run_at_once_and_ctrl_c_stops_the_one_that_is_sho
         await me.until(lambda: not is_alive(first))
         await me.sees("Terminal")
 
-
-async def test_quitting_the_app_ends_its_commands(learner: Any) -> None:
-    async with learner() as me:
-        await open_terminal(me)
-        await me.type_text("echo $$; sleep 600 & sleep 600\n")
+        await enter(me, "echo $$; sleep 600 & sleep 600")
         await me.until(lambda: output(me).splitlines()[-1].isdecimal())
         pid = int(output(me).splitlines()[-1])
         assert me.main.busy
@@ -66,80 +103,9 @@ async def test_quitting_the_app_ends_its_commands(learner: Any) -> None:
         assert not is_alive(pid)
 
 
-async def test_history_goes_back_and_returns_to_the_unfinished_line(learner: Any) -> None:
-    async with learner() as me:
-        await open_terminal(me)
-        await me.type_text("echo one\n")
-        await me.type_text("echo two\n")
-        await me.type_text("ech")
-        prompt = me.main.query_one(Prompt)
-        for key, text in (
-            ("up", "echo two"),
-            ("up", "echo one"),
-            ("up", "echo one"),
-            ("down", "echo two"),
-            ("down", "ech"),
-        ):
-            await me.press(key)
-            await me.until(lambda text=text: prompt.value == text, text)
-        await me.press("ctrl+c")
-        await me.until(lambda: not prompt.value)
-        await me.main.close_down()
-        assert me.session.typed_commands() == ["echo one", "echo two"]
-
-
-async def test_tab_completes_programs_and_paths(learner: Any) -> None:
-    async with learner() as me:
-        await open_terminal(me)
-        prompt = me.main.query_one(Prompt)
-        await me.type_text("pyt")
-        await me.press("tab")
-        await me.until(lambda: prompt.value == "python3 ")
-        await me.type_text("sr")
-        await me.press("tab")
-        await me.until(lambda: prompt.value == "python3 src/")
-        await me.press("tab")
-        await me.until(lambda: prompt.value == "python3 src/my_package/")
-
-
-async def test_keys_typed_ahead_keep_their_order(learner: Any) -> None:
-    async with learner() as me:
-        await open_terminal(me)
-        prompt = me.main.query_one(Prompt)
-        await me.press(*"bc", "home", "a", "end", "d", "left", "left", "left", "delete", "x", "ctrl+e", "e")
-        await me.until(lambda: prompt.value == "axcde", prompt.value)
-
-
-async def test_cd_and_export_persist(learner: Any) -> None:
-    async with learner() as me:
-        await open_terminal(me)
-        await me.type_text("cd src\n")
-        await me.type_text("export WHERE=here\n")
-        await me.type_text("basename $PWD; echo $WHERE\n")
-        await me.until(lambda: output(me).splitlines()[-2:] == ["src", "here"])
-        await me.type_text("cd nowhere\n")
-        await me.sees("cd: nowhere: No such file or directory")
-
-
-async def test_after_escape_from_the_prompt_the_keys_of_the_app_work_again(learner: Any) -> None:
-    async with learner() as me:
-        await open_terminal(me)
-        await me.type_text("echo here\n")
-        await me.until(lambda: output(me).splitlines()[-1:] == ["here"])
-        await me.press("escape")
-        await me.until(lambda: isinstance(me.app.focused, OutputView))
-        await me.press("1")
-        await me.sees("temperature sensor")
-
-
-async def test_program_output_is_plain_text(learner: Any) -> None:
-    async with learner() as me:
-        await open_terminal(me)
-        await me.type_text("printf '[b]\\033[31mred\\033[0m \\033]0;title\\007end\\n'\n")
-        await me.until(lambda: "[b]red end" in output(me).splitlines())
-
-
-async def test_a_lesson_command_is_run_by_key_and_by_click(learner: Any, monkeypatch: Any) -> None:
+async def test_a_lesson_command_is_run_by_key_and_click_and_the_prompt_completes_in_order(
+    learner: Any, monkeypatch: Any
+) -> None:
     body = fakes.BODY + "\n```bash\necho by \\\n    key   # shown\necho by click\n```\n"
     monkeypatch.setattr(fakes, "BODY", body)
     async with learner() as me:
@@ -152,6 +118,24 @@ async def test_a_lesson_command_is_run_by_key_and_by_click(learner: Any, monkeyp
         row, line = next((y, line) for y, line in enumerate(me.screen().splitlines()) if "echo by click" in line)
         await me.pilot.click(offset=(line.index("echo by click") + 2, row))
         await me.until(lambda: output(me).splitlines()[-1:] == ["by click"])
+
+        # Keys typed ahead keep their order, and Tab completes programs and paths.
+        await me.until(lambda: isinstance(me.app.focused, Prompt), "the prompt has the focus")
+        prompt = me.main.query_one(Prompt)
+        await me.press(*"bc", "home", "a", "end", "d", "left", "left", "left", "delete", "x", "ctrl+e", "e")
+        await me.until(lambda: prompt.value == "axcde", prompt.value)
+        await me.press("ctrl+u", *"pyt", "tab")
+        await me.until(lambda: prompt.value == "python3 ")
+        await me.press(*"sr", "tab")
+        await me.until(lambda: prompt.value == "python3 src/")
+        await me.press("tab")
+        await me.until(lambda: prompt.value == "python3 src/my_package/")
+
+        # After Esc, the keys of the app work again.
+        await me.press("escape")
+        await me.until(lambda: isinstance(me.app.focused, OutputView))
+        await me.press("1")
+        await me.sees("temperature sensor")
 
 
 async def test_completion_files_are_where_the_files_of_a_killed_app_are_swept(tmp_path: Path) -> None:
