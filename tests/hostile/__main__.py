@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -86,7 +87,7 @@ def check(name: str, exercise: str, arguments: Iterable[str], folder: Path | Non
         for inner in ("tmp", "home"):
             (base / inner).mkdir()
         work = shutil.copytree(folder, base / "work") if folder else base
-        shared_before = set(os.listdir("/dev/shm"))
+        shared_before, running_before = set(os.listdir("/dev/shm")), _running()
         command = [*module_command("tutor"), "check", exercise, *arguments, "--format", "json"]
         if folder:
             command.append(str(work))
@@ -104,26 +105,29 @@ def check(name: str, exercise: str, arguments: Iterable[str], folder: Path | Non
             found.wrong.append(f"it has not ended after {LIMIT_S:g} s")
             process.kill()
             process.wait()
-        found.left = [*_end_orphans(), *_find_files(base / "tmp")]
+        found.left = [*_end_orphans(running_before), *_find_files(base / "tmp")]
         found.left += [f"/dev/shm/{name}" for name in sorted(set(os.listdir("/dev/shm")) - shared_before)]
         if found.exit not in (0, 1, 3):
             found.wrong.append((base / "errors").read_text(errors="replace")[-300:].strip())
         return found, report.read_bytes()
 
 
-def _end_orphans() -> list[str]:
-    """Kill the orphans that we, as the subreaper, have inherited, and return their command lines."""
+def _running() -> frozenset[int]:
+    return frozenset(process.pid for process in descendants(os.getpid()))
+
+
+def _end_orphans(before: frozenset[int]) -> list[str]:
+    """Kill the orphans that we, as the subreaper, have inherited, except `before`, and return their command lines."""
     left = []
     for orphan in descendants(os.getpid()):
+        if orphan.pid in before:
+            continue
         command = Path(f"/proc/{orphan.pid}/cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
         if orphan.alive:
             left.append(command.strip() or f"process {orphan.pid}")
             os.kill(orphan.pid, signal.SIGKILL)
-    try:
-        while os.waitpid(-1, os.WNOHANG)[0]:
-            pass
-    except ChildProcessError:
-        pass
+        with suppress(ChildProcessError):
+            os.waitpid(orphan.pid, 0)
     return left
 
 
