@@ -49,7 +49,9 @@ class Files:
         model = self._host.model
         model.file_index = index
         self._pane.show_names(model.paths, index)
-        path = model.path
+        self._watch(model.path)
+
+    def _watch(self, path: Path) -> None:
         on_change = partial(self._host.post_message, messages.FileTouched(path))
         self._host.start_worker(watch_file, path, on_change, group="file", exclusive=True)
 
@@ -240,7 +242,7 @@ class Files:
         """Show the code, now that the skeletons are in the workspace."""
         if message.exercise != self._host.model.lesson.id:
             return
-        self.touched(messages.FileTouched(self._host.model.path))
+        self._watch(self._host.model.path)  # from now on: its first look reads the file
         self._host.show_page("code")
         if message.written:
             self._host.say(f"{' and '.join(message.written)} is in your workspace: e to edit, then c to check.")
