@@ -1,25 +1,4 @@
-"""A bench for each test."""
+"""A bench for each test, as for those of the `ros2` commands."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from pathlib import Path
-
-import pytest
-
-from tests.fork_server import ForkServer
-from tests.ros2cli import bench as bench_module
-
-
-@pytest.fixture(scope="session")
-def ros2_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ForkServer]:
-    """A server that forks commands and nodes."""
-    with bench_module.ros2_server(tmp_path_factory.mktemp("server")) as provided:
-        yield provided
-
-
-@pytest.fixture
-def bench(tmp_path: Path, ros2_server: ForkServer) -> Iterator[bench_module.Bench]:
-    """A bench on a domain of its own."""
-    with bench_module.bench(tmp_path, ros2_server) as provided:
-        yield provided
+from tests.ros2cli.conftest import bench as bench
+from tests.ros2cli.conftest import ros2_server as ros2_server
