@@ -289,6 +289,23 @@ def test_rate_fails(found: RateProbes, cause: str, word: str) -> None:
     assert_failed(judge_rate(found), cause, word)
 
 
+LEFT_OVER = """\
+from rclpy.node import Node
+class Thermometer(Node):
+    def __init__(self):
+        super().__init__("thermometer")
+        self.declare_parameter("publish_rate", 1.0)
+        self.timer = self.create_timer(0.5, self.tick)
+        self.timer = self.create_timer(1.0 / self.get_parameter("publish_rate").value, self.tick)
+"""
+
+
+def test_messages_in_bursts_are_explained_by_a_timer_that_is_left_over() -> None:
+    seen = trace(*MESSAGES, graph=PUBLISHING, sources={"node.py": LEFT_OVER})
+    in_bursts = [replace(probe(hz, hz, seen=seen), rate=Rate(hz, 20, 19 / hz, 0.1 / hz)) for hz in RATES_HZ]
+    assert_failed(judge_rate(rates(*in_bursts)), "two timers", "line 6")
+
+
 def test_the_nearest_parameter_is_the_one_explained() -> None:
     noise = [probe(hz, 1.0, "a_noise") for hz in RATES_HZ]
     near = [probe(hz, 1 / hz, "z_rate") for hz in RATES_HZ]
