@@ -63,12 +63,7 @@ class Waits:
         idle = self._idle_detector(idle_s) if idle_s is not None else None
         return await self._until(seen, limit_s, lambda: (self.cpu_time().waited_s, own_cpu_time().waited_s), idle)
 
-    async def for_exit(
-        self,
-        limit_s: float,
-        meanwhile: Callable[[], object] = lambda: None,
-        all_sent: Callable[[], bool] = lambda: False,
-    ) -> bool:
+    async def for_exit(self, limit_s: float, meanwhile: Callable[[], object], all_sent: Callable[[], bool]) -> bool:
         """Wait as `tutor.judge.bench.Run.wait_for_exit` does."""
 
         def ended() -> bool:
