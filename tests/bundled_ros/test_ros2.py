@@ -267,3 +267,9 @@ def test_an_error_of_rclpy_that_follows_from_ctrl_c_is_no_failure(bench: Bench, 
     )
     ran = bench.python("-c", program)
     assert ran.code == code, ran.stderr
+
+
+def test_a_demo_node_fails_if_its_arguments_cannot_be_parsed(bench: Bench) -> None:
+    ran = bench.ros2("run", "demo_nodes_py", "listener", "--ros-args", "-r", "__node:=no-name")
+    assert ran.code != 0
+    assert "Failed to parse global arguments" in ran.stderr

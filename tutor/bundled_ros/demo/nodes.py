@@ -58,14 +58,19 @@ def main() -> None:
     package, program, *arguments = sys.argv[1:]
     try:
         rclpy.init(args=[program, *arguments])
-        rclpy.spin(Talker(package) if program == "talker" else Listener())
+        _spin(package, program)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    finally:
+        try_shutdown()
+
+
+def _spin(package: str, program: str) -> None:
+    try:
+        rclpy.spin(Talker(package) if program == "talker" else Listener())
     except RuntimeError:  # rclpy's own: Ctrl+C shut the context down just before a call that needs it
         if ok():
             raise
-    finally:
-        try_shutdown()
 
 
 if __name__ == "__main__":
