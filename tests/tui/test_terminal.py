@@ -11,6 +11,7 @@ from tests.tui.conftest import is_alive
 from tutor import private_folders
 from tutor.tui.terminal.completion import complete
 from tutor.tui.terminal.output_view import OutputView
+from tutor.tui.terminal.pane import TerminalPane
 from tutor.tui.terminal.prompt import Prompt
 
 
@@ -67,6 +68,18 @@ async def test_commands_print_their_output_below_and_share_a_shell_and_a_history
         await me.until(lambda: output(me).splitlines()[-2:] == ["src", "here"])
         await enter(me, "cd nowhere")
         await me.sees("cd: nowhere: No such file or directory")
+
+        # An error stays when the command above it ends, and leaves with the next line.
+        await enter(me, "echo go; read line; echo ended")
+        await me.until(lambda: output(me).splitlines()[-1:] == ["go"])
+        await enter(me, "cd nowhere")
+        await me.sees("cd: nowhere")
+        me.main.query_one(TerminalPane).running[0].stop()
+        await me.sees("■ 6 echo go", "cd: nowhere: No such file or directory")
+        await enter(me, "cd .")
+        await me.sees_no("cd: nowhere")
+        await enter(me, "cd nowhere")
+        await me.sees("cd: nowhere")
 
         await me.main.close_down()
         commands = me.session.typed_commands()

@@ -38,13 +38,14 @@ class OutputView(LineView):
 
     def show_state(self, state: NodeState | None, *, new: bool = False) -> None:
         """Show a command's current state; `new`: a different command, so scroll to its end."""
-        self._state, self._error = state, ""
+        self._state = state
         self._lay_out(to_end=new)
 
     def show_error(self, text: str) -> None:
-        """Show one line that says what could not be done."""
-        self._error = text
-        self._lay_out(to_end=True)
+        """Show a line that says what could not be done below the output; "" removes it."""
+        if text or self._error:
+            self._error = text
+            self._lay_out(to_end=True)
 
     def on_resize(self, event: events.Resize) -> None:
         """Wrap to the new width."""

@@ -53,6 +53,7 @@ class TerminalPane(Vertical):
         self._numbers = count(1)
         self._jobs: dict[str, Node] = {}
         self._pending_lines: list[str] = []
+        self._error_tab: str | None = None  # the command below whose output an error is shown
         self._ready = False
 
     def compose(self) -> ComposeResult:
@@ -104,6 +105,7 @@ class TerminalPane(Vertical):
             return
         self._history.add(line)
         self._show_offers("")
+        self._show_error("")
         if line in ("clear", "exit"):
             self._clear()
             return
@@ -112,7 +114,7 @@ class TerminalPane(Vertical):
                 self._shell = changed
                 self._show_place()
             case str() as error:
-                self.query_one(OutputView).show_error(error)
+                self._show_error(error)
                 self.add_class("-filled")
             case None:
                 self._start(self._shell, line)
@@ -175,6 +177,8 @@ class TerminalPane(Vertical):
     @on(TabStrip.Turned)
     def _turned(self, message: TabStrip.Turned) -> None:
         message.stop()
+        if message.tab != self._error_tab:
+            self._show_error("")
         job = self._jobs.get(message.tab)
         self.query_one(OutputView).show_state(job.state if job else None, new=True)
         self.query_one("#terminal-jobs", TabStrip).refresh()
@@ -183,6 +187,10 @@ class TerminalPane(Vertical):
     def _turn_asked(self, message: Prompt.Turned) -> None:
         message.stop()
         self.action_turn(message.by)
+
+    def _show_error(self, text: str) -> None:
+        self._error_tab = self._shown if text else None
+        self.query_one(OutputView).show_error(text)
 
     def action_turn(self, by: int) -> None:
         """Show the output of the next (1) or previous (-1) command."""
@@ -214,6 +222,7 @@ class TerminalPane(Vertical):
 
     def _clear(self) -> None:
         """Remove the commands that have ended."""
+        self._show_error("")
         self._jobs = {name: job for name, job in self._jobs.items() if job.state.alive}
         names = list(self._jobs)
         self._show_jobs(select=names[-1] if names else "")
