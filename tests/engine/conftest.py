@@ -11,6 +11,9 @@ from pathlib import Path
 import pytest
 
 from tests.engine.helpers import Scene
+from tutor.engine.check import NODE_MODULES
+from tutor.engine.forking import start_fork_server
+from tutor.process.fork_client import ForkServer
 from tutor.ros import process_setup
 from tutor.ros.environment import RosEnvironment, detect
 
@@ -30,10 +33,19 @@ def ros() -> Iterator[RosEnvironment]:
     sys.path[:] = path
 
 
+@pytest.fixture(scope="module")
+def fork_server(ros: RosEnvironment) -> Iterator[ForkServer | None]:
+    """The server that nodes are forked from, as in a check."""
+    with start_fork_server(ros, NODE_MODULES) as server:
+        yield server
+
+
 @pytest.fixture
-async def scene(ros: RosEnvironment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> AsyncIterator[Scene]:
+async def scene(
+    ros: RosEnvironment, fork_server: ForkServer | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> AsyncIterator[Scene]:
     """Runs learners' scripts; after the test none of their processes may be left, and no domain reserved."""
-    scene = Scene(ros, tmp_path, monkeypatch)
+    scene = Scene(ros, fork_server, tmp_path, monkeypatch)
     yield scene
     leftovers = scene.leftovers()
     assert not leftovers

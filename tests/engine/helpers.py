@@ -18,6 +18,7 @@ from tutor.judge.events import Event
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Verdict, passed
+from tutor.process.fork_client import ForkServer
 from tutor.process.supervisor import processes
 from tutor.ros import domain
 from tutor.ros.environment import RosEnvironment
@@ -65,8 +66,11 @@ node.create_timer(0.05, lambda: publisher.publish(String(data=node.get_name())))
 class Scene:
     """Runs learners' scripts in a folder, and tracks their processes and domains."""
 
-    def __init__(self, ros: RosEnvironment, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def __init__(
+        self, ros: RosEnvironment, fork_server: ForkServer | None, folder: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
         self.ros = ros
+        self.fork_server = fork_server
         self.folder = folder
         self.events: list[Event] = []
         self.reserved_domains: set[int] = set()
@@ -98,9 +102,13 @@ class Scene:
 
     def bench(self, source: str) -> RosBench:
         """Return a bench with this script as node.py."""
+        return self.bench_of(self.submission(node=source))
+
+    def bench_of(self, submission: Submission) -> RosBench:
+        """Return a bench with this submission."""
         from tutor.engine.bench import RosBench
 
-        return RosBench(self.submission(node=source), self.ros, refuse_facts, lambda fraction, text: None)
+        return RosBench(submission, self.ros, refuse_facts, lambda fraction, text: None, fork_server=self.fork_server)
 
     async def judge(
         self,
@@ -120,7 +128,9 @@ class Scene:
 
         check = Check("t1", criteria)
         submission = self.submission(node=source)
-        return await Runner(check, lesson(check), submission, self.ros, only, record, first=first).run()
+        return await Runner(
+            check, lesson(check), submission, self.ros, only, record, fork_server=self.fork_server, first=first
+        ).run()
 
     def leftovers(self) -> list[int]:
         """Return the pids of living processes that this test has started."""

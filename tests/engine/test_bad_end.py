@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.engine.helpers import FILE, Scene, refuse_facts
+from tests.engine.helpers import FILE, Scene
 from tutor.content import load_course
 from tutor.judge import ending
 from tutor.judge.bench import Bench
@@ -97,8 +97,6 @@ def count_starts(folder: Path) -> int:
 async def test_a_single_crash_is_forgiven_in_each_scenario_that_ends_with_ctrl_c(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from tutor.engine.bench import RosBench
-
     # One repetition shows that a scenario is repeated. How often that happens does not depend on the scenario.
     monkeypatch.setattr(ending, "_MAX_RETRIES", 1)
 
@@ -110,7 +108,7 @@ async def test_a_single_crash_is_forgiven_in_each_scenario_that_ends_with_ctrl_c
             assert text.count(TRIES) == 1, path
             files[file] = folder / file
             files[file].write_text(text.replace(TRIES, TRIES_SAFELY) + CRASHES.format((1,), CRASH, ""))
-        bench = RosBench(Submission(exercise, files), scene.ros, refuse_facts, lambda fraction, text: None)
+        bench = scene.bench_of(Submission(exercise, files))
         scenarios = importlib.import_module(f"checks.{exercise.replace('.', '_')}.scenarios")
         facts = await getattr(scenarios, name)(bench)
         verdict = judge_ending(facts.trace, facts.ending)

@@ -6,7 +6,7 @@ import asyncio
 
 import pytest
 
-from tests.engine.helpers import Scene, refuse_facts
+from tests.engine.helpers import Scene
 from tutor.content import load_course
 from tutor.judge.submission import Submission
 from tutor.workspace import solution
@@ -18,11 +18,9 @@ STARTUP_S, ANSWER_S = 60.0, 20.0
 
 @pytest.mark.timeout(200)
 async def test_the_calculator_saturates_results_outside_int64(scene: Scene) -> None:
-    from tutor.engine.bench import RosBench
-
     file = "calculator_server.py"
     files = solution(load_course().find("i1.3")).files
-    bench = RosBench(Submission("i1.3", files), scene.ros, refuse_facts, lambda fraction, text: None)
+    bench = scene.bench_of(Submission("i1.3", files))
     async with bench.start(file) as run:
         assert await run.until(lambda: "/divide" in [each.name for each in run.graph.servers], STARTUP_S)
         for service, a, b, nearest in (
@@ -43,11 +41,9 @@ async def test_the_calculator_saturates_results_outside_int64(scene: Scene) -> N
 
 @pytest.mark.timeout(200)
 async def test_the_slow_service_saturates_results_outside_int64(scene: Scene) -> None:
-    from tutor.engine.bench import RosBench
-
     file = "concurrent_service.py"
     files = solution(load_course().find("i2.3")).files
-    bench = RosBench(Submission("i2.3", files), scene.ros, refuse_facts, lambda fraction, text: None)
+    bench = scene.bench_of(Submission("i2.3", files))
     requests = ((MOST, 1, MOST), (LEAST, -1, LEAST), (1, 2, 3))
     async with bench.start(file) as run:
         assert await run.until(lambda: "/slow_add" in [each.name for each in run.graph.servers], STARTUP_S)

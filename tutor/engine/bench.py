@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import os
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from contextlib import AbstractAsyncContextManager, asynccontextmanager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
@@ -12,6 +11,7 @@ from typing import Any, TypeVar
 
 from tutor.bundled_ros.ros2 import overlay
 from tutor.bundled_ros.ros2.starting import ros2_command
+from tutor.engine.forking import node_env
 from tutor.engine.isolation import Isolation
 from tutor.engine.run import CollectedFacts, RosRun
 from tutor.engine.start_limiter import StartLimiter
@@ -21,9 +21,10 @@ from tutor.judge.exceptions import KnownException
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MAX_CHARACTERS
 from tutor.process import LearnerProcess
+from tutor.process.fork_client import ForkServer
 from tutor.process.log_folder import temporary_log_folder
 from tutor.ros.domain import reserve_domain
-from tutor.ros.environment import RosEnvironment, learner_env
+from tutor.ros.environment import RosEnvironment
 from tutor.ros.observer import Observer
 
 T = TypeVar("T")
@@ -50,6 +51,7 @@ class RosBench:
     the scenario reports before it ends. `expected_s`: the check's; of several waiting starts, the one with the longest
     goes first (a start may give its own). `exceptions`: known exceptions of the check. `follow`: entered for each run,
     with its watched topics and their types. `sigkilled`: the files whose process was ended by SIGKILL.
+    `fork_server`: where processes are forked.
     """
 
     submission: Submission
@@ -65,6 +67,7 @@ class RosBench:
     )
     on_facts: Callable[[object], None] = lambda facts: None
     sigkilled: list[Path] = field(default_factory=list)
+    fork_server: ForkServer | None = None
 
     @asynccontextmanager
     async def start(
@@ -143,22 +146,19 @@ class RosBench:
                 observer.watch_logs()
                 for topic, type_name in watch.items():
                     observer.watch(topic, type_name)
-                env = learner_env(
-                    self.ros,
-                    domain_id=domain_id,
-                    log_dir=log_dir,
-                    package_root=package_root(path),
-                    isolated=True,
-                    environ=os.environ,
-                )
-                env["TMPDIR"] = str(log_dir)  # temporary files are deleted with the run
-                env["PYTHONFAULTHANDLER"] = "1"  # see tutor.engine.ending.dump_stacks
+                env = node_env(self.ros, domain_id, log_dir, package_root(path))
                 argv = make_argv(env, log_dir)
                 wrapper = self.isolation.wrap(package_folder(path), log_dir, env) if self.isolation else ()
                 # A program may have deleted its own folder: its next start then reports that.
                 cwd = path.parent if path.parent.is_dir() else log_dir
                 async with await LearnerProcess.start(
-                    argv, env=env, cwd=cwd, terminal=terminal, wrapper=wrapper, on_change=facts.notify
+                    argv,
+                    env=env,
+                    cwd=cwd,
+                    terminal=terminal,
+                    wrapper=wrapper,
+                    fork_server=self.fork_server,
+                    on_change=facts.notify,
                 ) as process:
                     with _raise_if_killed(process):
                         yield RosRun(path, parameters, domain_id, process, observer, facts, self.exceptions)

@@ -7,7 +7,7 @@ import importlib
 import resource
 import time
 from collections.abc import Callable, Sequence
-from contextlib import nullcontext, suppress
+from contextlib import ExitStack, nullcontext, suppress
 
 from tutor import __version__
 from tutor.content import Course
@@ -31,16 +31,23 @@ _INTERFACES = (
     "type_description_interfaces",
     "example_interfaces",
 )
+_MESSAGE_MODULES = tuple(f"{package}.{kind}" for package in _INTERFACES for kind in ("msg", "srv"))
 _LAZY_MODULES = (
     "rclpy.serialization",
     "rosidl_generator_py",
-    *(f"{package}.{kind}" for package in _INTERFACES for kind in ("msg", "srv")),
+    *_MESSAGE_MODULES,
     *(f"{package}.{package}_s__rosidl_typesupport_c" for package in _INTERFACES),
 )
 """Modules that would otherwise be imported with the first message.
 
 `refuse_changed_modules` refuses a module whose file changes during a check, even if uv has merely hard-linked the file
 into another environment.
+"""
+
+NODE_MODULES = ("concurrent.futures", "numpy", "rosidl_generator_py", "yaml", *_MESSAGE_MODULES)
+"""What the fork server imports: each node would import it.
+
+Not rclpy itself, whose C library starts threads (of LTTng), which a forked process would lack.
 """
 
 
@@ -86,6 +93,7 @@ async def _run_check(
     first: bool,
 ) -> Report:
     from tutor.engine import unchanged
+    from tutor.engine.forking import start_fork_server
     from tutor.engine.modules import load_check
     from tutor.ros import bytecode, process_setup
     from tutor.ros.discovery import require_loopback
@@ -99,41 +107,54 @@ async def _run_check(
         raise EngineError(what, "switch the loopback interface on: sudo ip link set lo up") from error
     _require_descriptors()
     ros = detect()
-    try:
-        process_setup.prepare_for_rclpy(ros, isolated=True)
-        process_setup.keep_stdout()
-        await asyncio.to_thread(bytecode.compile_ros_modules, ros)
-        from tutor.engine.runner import Runner  # imports rclpy, whose environment must be set by then
-    except (ImportError, OSError, RuntimeError) as error:
-        raise EngineError(f"ROS 2 cannot be used here: {error}") from error
-
-    for name in _LAZY_MODULES:
-        with suppress(ImportError):
-            importlib.import_module(name)
-    unchanged.refuse_changed_modules()
-
-    def make_runner(submission: Submission) -> Runner:
-        lesson = course.find(submission.exercise)
-        check: Check = load_check(lesson)
-        return Runner(check, lesson, submission, ros, only, on_event, shared_limiter, isolation, first=first)
-
-    runners = [make_runner(submission) for submission in submissions]
-
-    def announce_waiting() -> None:
-        for runner in runners:
-            runner.announce_waiting()
-
-    # A caller that shares a limiter among checks decides itself how many run concurrently.
-    turn_socket = isolation.turn_socket if isolation else None
-    async with turns.turn(turn_socket, on_wait=announce_waiting) if start_limiter is None else nullcontext():
-        started = time.monotonic()
-        tasks = [asyncio.ensure_future(runner.run()) for runner in runners]
+    with ExitStack() as stack:
         try:
-            results = await asyncio.gather(*tasks)
-        finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            process_setup.prepare_for_rclpy(ros, isolated=True)
+            process_setup.keep_stdout()
+            await asyncio.to_thread(bytecode.compile_ros_modules, ros)
+            fork_server = None if isolation else stack.enter_context(start_fork_server(ros, NODE_MODULES))
+            from tutor.engine.runner import Runner  # imports rclpy, whose environment must be set by then
+        except (ImportError, OSError, RuntimeError) as error:
+            raise EngineError(f"ROS 2 cannot be used here: {error}") from error
+
+        for name in _LAZY_MODULES:
+            with suppress(ImportError):
+                importlib.import_module(name)
+        unchanged.refuse_changed_modules()
+
+        def make_runner(submission: Submission) -> Runner:
+            lesson = course.find(submission.exercise)
+            check: Check = load_check(lesson)
+            return Runner(
+                check,
+                lesson,
+                submission,
+                ros,
+                only,
+                on_event,
+                shared_limiter,
+                isolation,
+                fork_server,
+                first=first,
+            )
+
+        runners = [make_runner(submission) for submission in submissions]
+
+        def announce_waiting() -> None:
+            for runner in runners:
+                runner.announce_waiting()
+
+        # A caller that shares a limiter among checks decides itself how many run concurrently.
+        turn_socket = isolation.turn_socket if isolation else None
+        async with turns.turn(turn_socket, on_wait=announce_waiting) if start_limiter is None else nullcontext():
+            started = time.monotonic()
+            tasks = [asyncio.ensure_future(runner.run()) for runner in runners]
+            try:
+                results = await asyncio.gather(*tasks)
+            finally:
+                for task in tasks:
+                    task.cancel()
+                await asyncio.gather(*tasks, return_exceptions=True)
     report = Report(
         environment=Environment(ros_distro=ros.distro, ros=ros.kind, rmw=ros.rmw, ros_tutor=__version__),
         exercises=tuple(results),

@@ -24,6 +24,7 @@ from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJud
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault
+from tutor.process.fork_client import ForkServer
 from tutor.ros.environment import RosEnvironment
 
 OnEvent = Callable[[Event], None]
@@ -54,6 +55,7 @@ class Runner:
         on_event: OnEvent,
         start_limiter: StartLimiter | None = None,
         isolation: Isolation | None = None,
+        fork_server: ForkServer | None = None,
         *,
         first: bool = False,
     ) -> None:
@@ -66,6 +68,7 @@ class Runner:
         self._on_event = on_event
         self._start_limiter = start_limiter or StartLimiter()
         self._isolation = isolation
+        self._fork_server = fork_server
         self._first = first
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
@@ -173,6 +176,7 @@ class Runner:
             self._isolation,
             provisional.follow,
             lambda facts: self._take_facts(scenario, facts),
+            fork_server=self._fork_server,
         )
         async with self._start_limiter.scenarios.running(alone=alone):
             if alone and self._elapsed_s() > REPEAT_WITHIN_S:

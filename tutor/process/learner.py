@@ -17,6 +17,7 @@ from typing import Self
 from tutor.errors import EndError, StartError
 from tutor.judge.trace import Exit, OutputLine
 from tutor.process import memory, orphans
+from tutor.process.fork_client import ForkServer
 from tutor.process.link import SupervisorLink
 from tutor.process.output import Output
 from tutor.process.pipe import PipeReader
@@ -72,6 +73,7 @@ class LearnerProcess:
         cwd: Path,
         terminal: bool = False,
         wrapper: Sequence[str] = (),
+        fork_server: ForkServer | None = None,
         on_change: Callable[[], None] | None = None,
     ) -> Self:
         """Start `argv` in the folder `cwd` with exactly the environment `env`, plus our marker variable.
@@ -79,7 +81,7 @@ class LearnerProcess:
         The program gets its own session and process group, default signal handlers, empty stdin, and pipes for output.
         `terminal`: give it an idle terminal as stdin. `ros2 launch` checks whether stdin is a terminal, where Ctrl+C
         reaches the nodes by itself; otherwise it forwards the signal, and each node would get it twice.
-        `wrapper`: a command prefix to run it in (see `SupervisorLink.start`).
+        `wrapper`: a command prefix to run it in; `fork_server`: where to fork it (see `SupervisorLink.start`).
         `on_change` is called on the event loop after new output and after the exit.
         Raises StartError if the program cannot be started; nothing of the attempt is left then.
         """
@@ -88,7 +90,7 @@ class LearnerProcess:
         except OSError as error:
             raise StartError(f"The program cannot be started: {error}.") from error
         try:
-            await learner._launch(argv, env, cwd, wrapper)
+            await learner._launch(argv, env, cwd, wrapper, fork_server)
         except BaseException:
             await learner.end()
             raise
@@ -181,7 +183,14 @@ class LearnerProcess:
         if gone.result():
             raise EndError(gone.result())
 
-    async def _launch(self, argv: Sequence[str], env: Mapping[str, str], cwd: Path, wrapper: Sequence[str]) -> None:
+    async def _launch(
+        self,
+        argv: Sequence[str],
+        env: Mapping[str, str],
+        cwd: Path,
+        wrapper: Sequence[str],
+        fork_server: ForkServer | None,
+    ) -> None:
         environment = {**env, orphans.MARK: self._run}
         if not argv or any("\0" in text for text in (*argv, *environment.values(), str(cwd))):
             raise StartError("The program cannot be started: its command is empty or holds a NUL character.")
@@ -193,7 +202,8 @@ class LearnerProcess:
             os.fsencode(os.path.abspath(cwd)),
         )
         try:
-            await self._link.start(request, self._stdin.reader, self._stdout.writer, self._stderr.writer, wrapper)
+            streams = self._stdin.reader, self._stdout.writer, self._stderr.writer
+            await self._link.start(request, streams, wrapper, fork_server)
         except OSError as error:
             raise StartError(f"The program cannot be started: {error}.") from error
         finally:

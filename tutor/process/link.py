@@ -15,6 +15,7 @@ from pathlib import Path
 from tutor.judge.trace import Exit
 from tutor.process import orphans, prctl
 from tutor.process.cpu_wait import recent_processes
+from tutor.process.fork_client import ForkedSupervisor, ForkServer
 from tutor.process.supervisor import Process, descendants, descendants_in, kill, namespace_pid
 from tutor.process.wake_time import NextWake, next_wake
 
@@ -47,7 +48,7 @@ class SupervisorLink(asyncio.Protocol):
         self._pipes = pipes
         self._on_exit = on_exit
         self._exited = False
-        self._supervisor: subprocess.Popen[bytes] | None = None
+        self._supervisor: subprocess.Popen[bytes] | ForkedSupervisor | None = None
         self._control: asyncio.Transport | None = None
         self._received = b""
         self._finished = False
@@ -55,34 +56,25 @@ class SupervisorLink(asyncio.Protocol):
         self._wrapped = False
         self._takeover_timer: asyncio.TimerHandle | None = None
 
-    async def start(self, request: bytes, stdin: int, stdout: int, stderr: int, wrapper: Sequence[str]) -> None:
-        """Start the supervisor and send it a request. It and its processes share the given stdio descriptors.
+    async def start(
+        self,
+        request: bytes,
+        streams: tuple[int, int, int],
+        wrapper: Sequence[str] = (),
+        fork_server: ForkServer | None = None,
+    ) -> None:
+        """Start the supervisor and send it a request. It and its processes share these stdin, stdout and stderr.
 
         `wrapper`: a command prefix that runs the supervisor in its own PID namespace, as a child of the namespace's
         init process. The kernel kills the whole namespace when that one exits, and that one dies with us.
+        `fork_server`: where to fork it, if there is no wrapper.
 
         Raises OSError if the supervisor cannot be started.
         """
         prctl.guard()
         prctl.adopt_orphans(True)
-        ours, theirs = socket.socketpair()
-        owner = 1 if wrapper else os.getpid()
-        with theirs:
-            try:
-                self._supervisor = subprocess.Popen(
-                    [*wrapper, sys.executable, "-I", "-S", str(_SUPERVISOR), str(theirs.fileno()), str(owner)],
-                    stdin=stdin,
-                    stdout=stdout,
-                    stderr=stderr,
-                    pass_fds=(theirs.fileno(),),
-                    cwd="/",
-                    # Otherwise the ROS wheels would make the interpreter start twice.
-                    env={**os.environ, "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},
-                    start_new_session=True,
-                )
-            except OSError:
-                ours.close()
-                raise
+        forked = await fork_server.fork(streams) if fork_server is not None and not wrapper else None
+        self._supervisor, ours = forked or _start_supervisor(streams, wrapper)
         orphans.supervisors.add(self._supervisor.pid)
         self._ours.add(self._supervisor.pid)
         self._wrapped = bool(wrapper)
@@ -223,3 +215,29 @@ class SupervisorLink(asyncio.Protocol):
         if not self.gone.done():
             self.gone.set_result(left)
         self._set_ready("our helper process ended at once")
+
+
+def _start_supervisor(
+    streams: tuple[int, int, int], wrapper: Sequence[str]
+) -> tuple[subprocess.Popen[bytes], socket.socket]:
+    """Start a supervisor; return it, and our end of its socket."""
+    stdin, stdout, stderr = streams
+    ours, theirs = socket.socketpair()
+    owner = 1 if wrapper else os.getpid()
+    with theirs:
+        try:
+            supervisor = subprocess.Popen(
+                [*wrapper, sys.executable, "-I", "-S", str(_SUPERVISOR), str(theirs.fileno()), str(owner)],
+                stdin=stdin,
+                stdout=stdout,
+                stderr=stderr,
+                pass_fds=(theirs.fileno(),),
+                cwd="/",
+                # Otherwise the ROS wheels would make the interpreter start twice.
+                env={**os.environ, "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},
+                start_new_session=True,
+            )
+        except OSError:
+            ours.close()
+            raise
+    return supervisor, ours

@@ -25,6 +25,10 @@ import signal
 import sys
 import time
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 PR_SET_PDEATHSIG = 1
 PR_SET_DUMPABLE = 4
 PR_SET_CHILD_SUBREAPER = 36
@@ -123,7 +127,20 @@ def pack_request(argv: list[bytes], environment: list[bytes], cwd: bytes) -> byt
 class Supervisor:
     """Starts the learner's process, reports on it, and finally kills and reaps all its descendants."""
 
-    def __init__(self, control: int, owner: int) -> None:
+    def __init__(
+        self,
+        control: int,
+        owner: int,
+        *,
+        parent: int | None = None,
+        can_run: Callable[[list[bytes], dict[bytes, bytes]], bool] = lambda argv, environment: False,
+    ) -> None:
+        """`parent`: our parent's pid, if it is not the owner. `can_run`: whether a forked program can run a command.
+
+        It is called in the process that is to run the command, which then has `forked_argv`, and returns from `run`.
+        """
+        self.forked_argv: list[bytes] | None = None
+        self._can_run = can_run
         self._control = control
         os.set_inheritable(control, False)  # like all our other descriptors, so that an exec closes it
         self._main_pid = 0
@@ -134,7 +151,7 @@ class Supervisor:
         self._owner: int | None = None
         with contextlib.suppress(OSError):
             self._owner = os.pidfd_open(owner)
-        self._orphaned = os.getppid() != owner
+        self._orphaned = os.getppid() != (parent or owner)
         self._wake, wake = os.pipe()
         for end in (self._wake, wake):
             os.set_blocking(end, False)
@@ -193,7 +210,8 @@ class Supervisor:
             self._report(f"failed cannot start a process: {error.strerror}")
             return False
         if self._main_pid == 0:
-            self._exec(argv, environment, cwd, supervisor, report)
+            self._become(argv, environment, cwd, supervisor, report)
+            return False
         os.close(report)
         null = os.open(os.devnull, os.O_RDWR)
         for output in (1, 2):  # from here on, only the learner's processes hold the pipes open
@@ -210,10 +228,13 @@ class Supervisor:
         self._report(f"started {self._main_pid} {epoch!r}")
         return True
 
-    def _exec(
+    def _become(
         self, argv: list[bytes], environment: dict[bytes, bytes], cwd: bytes, supervisor: int, report: int
     ) -> None:
-        """Turn this forked child into the learner's process, as a shell in a terminal would start it."""
+        """Turn this forked child into the learner's process, as a shell in a terminal would start it.
+
+        Returns only if the forked process is to run the command itself.
+        """
         try:
             os.setsid()
             self._prctl(PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
@@ -226,12 +247,14 @@ class Supervisor:
             hard = resource.getrlimit(resource.RLIMIT_CORE)[1]
             resource.setrlimit(resource.RLIMIT_CORE, (0, hard))  # no core file among the learner's files
             os.chdir(cwd)
-            os.execvpe(argv[0], argv, environment)
+            if not self._can_run(argv, environment):
+                os.execvpe(argv[0], argv, environment)
+            os.close(report)
+            self.forked_argv = argv
         except BaseException as error:
             text = (error.strerror if isinstance(error, OSError) else None) or str(error)
             name = getattr(error, "filename", None) or argv[0]
             os.write(report, f"{os.fsdecode(name)}: {text}".encode("utf-8", "replace")[:2000])
-        finally:
             os._exit(127)
 
     def _watch(self) -> None:

@@ -1,0 +1,29 @@
+"""Starts the fork server of a check, from which its nodes are forked."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
+
+from tutor.process.fork_client import ForkServer
+from tutor.ros.environment import RosEnvironment, learner_env
+
+
+def node_env(ros: RosEnvironment, domain_id: int, log_dir: Path, package_root: Path | None) -> dict[str, str]:
+    """Return the environment of a node that is checked."""
+    env = learner_env(
+        ros, domain_id=domain_id, log_dir=log_dir, package_root=package_root, isolated=True, environ=os.environ
+    )
+    env["TMPDIR"] = str(log_dir)  # temporary files are deleted with the run
+    env["PYTHONFAULTHANDLER"] = "1"  # see tutor.engine.ending.dump_stacks
+    return env
+
+
+def start_fork_server(ros: RosEnvironment, modules: Iterable[str]) -> AbstractContextManager[ForkServer | None]:
+    """Start a fork server for nodes; None if it cannot be started, and then nodes start without one."""
+    try:
+        return ForkServer(ros.python, node_env(ros, 0, Path(os.devnull), None), modules)
+    except OSError:
+        return nullcontext()
