@@ -17,8 +17,8 @@ LATE_IMPORTS = """
 import sys
 def hear(event, args):
     global started
-    if event == "subprocess.Popen":
-        started = True
+    if event == "socket.sendmsg" or event == "subprocess.Popen" and "fork_server.py" not in str(args[1]):
+        started = True  # a program is forked, or started
     elif event == "import" and started:
         print("imported late:", args[0], file=sys.stderr)
 started = False

@@ -237,6 +237,8 @@ async def test_the_system_shows_the_command_line_and_the_environment_of_the_prog
     source = "import os\nprint(open('/proc/self/cmdline').read())"
     text = f"{sys.executable} {programs.folder}/program.py --ros-args"
     assert await programs.texts(source, "--ros-args") == [text + "\0"]
+    parents = source.replace("self", "{os.getppid()}").replace("'/", "f'/")
+    assert (await programs.texts(parents))[0].rstrip("\0").endswith("/supervisor.py")
     long = "x" * 9000
     assert (await programs.texts(source, long))[0].startswith(f"{sys.executable} {programs.folder}/program.py xxx")
 

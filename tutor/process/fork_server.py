@@ -28,11 +28,16 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from tutor.process.preloaded import Preloaded, is_shadowed, preload
     from tutor.process.supervisor import PR_SET_DUMPABLE, Supervisor
 else:  # run by file path
     from preloaded import Preloaded, is_shadowed, preload
     from supervisor import PR_SET_DUMPABLE, Supervisor
+
+SUPERVISOR = os.path.join(os.path.dirname(os.path.abspath(__file__)), "supervisor.py")
+"""What the command line of a supervisor shows."""
 
 READ_AT_START = (b"PYTHON", b"LD_", b"LC_", b"LANG")
 """The beginnings of variables that Python or the loader reads only at its start."""
@@ -78,6 +83,7 @@ class ForkServer:
         for number, stream in enumerate(streams):
             os.dup2(stream, number)
             os.close(stream)
+        _show(b" ".join(map(os.fsencode, [sys.executable, SUPERVISOR])))
         supervisor = Supervisor(control, owner, parent=server, can_run=self._can_run)
         supervisor.run()
         return supervisor.forked_argv
@@ -126,7 +132,7 @@ def run_program(argv: list[bytes], preloaded: Preloaded) -> None:
         random.seed()
     libc = ctypes.CDLL(None)
     libc.prctl(PR_SET_DUMPABLE, 1, 0, 0, 0)
-    _show(b" ".join(argv), b"\0".join(b"%b=%b" % variable for variable in os.environb.items()))
+    _show(b" ".join(argv), os.environb)
     if tempfile := sys.modules.get("tempfile"):
         vars(tempfile)["tempdir"] = None  # it may have cached another folder
     sys.orig_argv[:] = map(os.fsdecode, argv)
@@ -143,15 +149,17 @@ def run_program(argv: list[bytes], preloaded: Preloaded) -> None:
         sys.exit(1)
 
 
-def _show(command_line: bytes, environment: bytes) -> None:
+def _show(command_line: bytes, environment: Mapping[bytes, bytes] | None = None) -> None:
     """Set what /proc/PID/cmdline and environ show, as setproctitle(3) does: both are memory of this process."""
     with open("/proc/self/stat", "rb") as file:
         fields = file.read().rpartition(b")")[2].split()
     start, end, environment_start, environment_end = map(int, fields[45:49])
     room = end - start - 2
     ctypes.memmove(start, command_line[:room].ljust(room + 1, b"\0") + b".", room + 2)
-    room = environment_end - environment_start
-    ctypes.memmove(environment_start, environment[: room - 1].ljust(room, b"\0"), room)
+    if environment is not None:
+        text = b"\0".join(b"%b=%b" % variable for variable in environment.items())
+        room = environment_end - environment_start
+        ctypes.memmove(environment_start, text[: room - 1].ljust(room, b"\0"), room)
 
 
 def _main() -> None:
