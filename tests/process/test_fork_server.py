@@ -7,12 +7,11 @@ import re
 import signal
 import sys
 import time
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-import pytest_asyncio
 
 from tests.process.conftest import LIMIT_S, until
 from tutor.process import LearnerProcess, fork_client
@@ -88,26 +87,34 @@ class Programs:
         return [text for _, text in result.output]
 
 
-@pytest_asyncio.fixture
-async def programs(tmp_path: Path) -> AsyncIterator[Programs]:
-    library = tmp_path / "library"
+@pytest.fixture(scope="module")
+def env(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """The environment of the programs and of their server, whose Python path has `PACKAGE`."""
+    home = tmp_path_factory.mktemp("home")
     for name, text in PACKAGE.items():
-        (library / name).parent.mkdir(parents=True, exist_ok=True)
-        (library / name).write_text(text)
-    folder = tmp_path / "programs"
-    folder.mkdir()
-    env = {
+        (home / name).parent.mkdir(exist_ok=True)
+        (home / name).write_text(text)
+    return {
         "PATH": os.environ["PATH"],
-        "HOME": str(tmp_path),
-        "PYTHONPATH": str(library),
+        "HOME": str(home),
+        "PYTHONPATH": str(home),
         "PYTHONUNBUFFERED": "1",
         "PYTHONFAULTHANDLER": "1",
         "PYTHONDONTWRITEBYTECODE": "1",
         "OPENBLAS_NUM_THREADS": "1",
         "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
     }
+
+
+@pytest.fixture(scope="module")
+def server(env: dict[str, str]) -> Iterator[ForkServer]:
     with ForkServer(Path(sys.executable), env, MODULES) as server:
-        yield Programs(folder, server, env)
+        yield server
+
+
+@pytest.fixture
+def programs(tmp_path: Path, server: ForkServer, env: dict[str, str]) -> Programs:
+    return Programs(tmp_path, server, env)
 
 
 SAME = {
@@ -257,7 +264,7 @@ async def test_the_system_shows_the_command_line_and_the_environment_of_the_prog
 async def test_what_could_make_a_difference_is_not_forked(
     programs: Programs, case: str, expected: Sequence[str]
 ) -> None:
-    folder, elsewhere = programs.folder, programs.folder.parent / "elsewhere"
+    folder, elsewhere = programs.folder, programs.folder / "elsewhere"
     (elsewhere / "yaml").mkdir(parents=True)
     (elsewhere / "yaml" / "__init__.py").write_text("name = 'theirs'")
     source, env = "import yaml\nprint(yaml.name)", {}
@@ -310,6 +317,7 @@ async def test_a_program_whose_executable_is_missing_cannot_be_started(programs:
 async def test_programs_start_without_a_server_that_is_gone_or_hangs(
     programs: Programs, stop: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    programs.server = ForkServer(Path(sys.executable), programs.env, ["yaml"])
     file = programs.folder / "long.py"
     file.write_text("import os, time\nos.write(1, b'ready\\n')\ntime.sleep(600)")
     assert await programs.texts("print(1)") == ["1"]  # it has been started

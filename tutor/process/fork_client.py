@@ -93,6 +93,8 @@ class ForkServer:
             finally:
                 asyncio.get_running_loop().remove_reader(ours)
             answer, pidfds, _, _ = socket.recv_fds(ours, 16, 1)
+            if not answer:
+                raise ConnectionResetError("the fork server has ended")
         except OSError:  # a TimeoutError is one, too
             self._process.kill()
             self.close()
@@ -101,9 +103,6 @@ class ForkServer:
         except BaseException:
             ours.close()
             raise
-        if not answer:
-            ours.close()
-            return None
         ours.setblocking(False)
         return ForkedSupervisor(int(answer), pidfds[0]), ours
 

@@ -21,6 +21,7 @@ import faulthandler
 import gc
 import importlib.machinery
 import os
+import select
 import signal
 import socket
 import sys
@@ -38,6 +39,9 @@ else:  # run by file path
 
 SUPERVISOR = os.path.join(os.path.dirname(os.path.abspath(__file__)), "supervisor.py")
 """What the command line of a supervisor shows."""
+
+REAP_S = 0.5
+"""How long a supervisor that has ended remains a zombie."""
 
 READ_AT_START = (b"PYTHON", b"LD_", b"LC_", b"LANG")
 """The beginnings of variables that Python or the loader reads only at its start."""
@@ -60,9 +64,13 @@ class ForkServer:
         """Handle messages until the end of the stream. Returns the command line to run in a forked program."""
         owner, server = os.getppid(), os.getpid()
         while True:
+            children = _reap(os.WNOHANG)
+            if not select.select([self._control], [], [], REAP_S if children else None)[0]:
+                continue
             message, descriptors, _, _ = socket.recv_fds(self._control, 16, 4)
             if not message:
-                break
+                _reap(0)
+                return None
             if (pid := os.fork()) == 0:
                 self._control.close()
                 return self._supervise(descriptors, owner, server)
@@ -71,9 +79,6 @@ class ForkServer:
                 socket.send_fds(control, [b"%d" % pid], [pidfd])
             for descriptor in (pidfd, *descriptors[1:]):
                 os.close(descriptor)
-            _reap(os.WNOHANG)
-        _reap(0)
-        return None
 
     def _supervise(self, descriptors: list[int], owner: int, server: int) -> list[bytes] | None:
         """Be a supervisor until its program has ended. Returns its command line in the program."""
@@ -109,10 +114,14 @@ class ForkServer:
         return True
 
 
-def _reap(options: int) -> None:
-    with contextlib.suppress(ChildProcessError):
+def _reap(options: int) -> bool:
+    """Reap the children that have ended. Return whether any is left."""
+    try:
         while os.waitpid(-1, options)[0]:
             pass
+    except ChildProcessError:
+        return False
+    return True
 
 
 def _read_at_start(environment: dict[bytes, bytes]) -> dict[bytes, bytes]:
@@ -169,6 +178,7 @@ def _main() -> None:
     preloaded = preload(names.split(","))
     if len(os.listdir("/proc/self/task")) > 1:
         return  # the other threads would be missing in what is forked
+    os.close(os.pidfd_open(os.getpid()))  # fails if the system has none
     null = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):
         os.dup2(null, stream)
