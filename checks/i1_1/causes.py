@@ -79,7 +79,7 @@ def diagnose_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[
         return diagnose_undeclared_rate(wrong.trace)
     step = steps.set_timer_period(wrong.trace, wrong.name, wrong.unit)
     if wrong.rate is not None and wrong.rate.in_bursts:
-        return steps.diagnose_several_timers(wrong.trace) or causes.diagnose_bursts(step)
+        return causes.diagnose_bursts(wrong.trace, step)
     measured = [(probe, probe.rate) for probe in group if probe.rate is not None]
     if are_inverted(group):
         if wrong.unit == "Hz":

@@ -192,11 +192,6 @@ def diagnose_rate(trace: Trace, name: str, asked_hz: float) -> Cause | None:
     )
 
 
-def diagnose_several_timers(trace: Trace) -> Cause | None:
-    """Diagnose messages in bursts as those of several timers, which a loop makes, or a line that is left over."""
-    return find_in_files(trace, period_slips.diagnose_timer_loop, period_slips.diagnose_second_timer)
-
-
 def diagnose_whole_rate(trace: Trace, name: str) -> Cause | None:
     """Diagnose a rate that is cut to a whole number, so that a small one becomes 0."""
     read = file(trace)

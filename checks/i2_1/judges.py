@@ -133,10 +133,13 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
 
 def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
     rate, trace = seen.rate, seen.trace
-    if (cause := find_in_files(trace, slips.diagnose_xor, period_slips.diagnose_integer_period)) is not None:
-        return cause
+    period_slip = find_in_files(
+        trace, slips.diagnose_xor, period_slips.diagnose_second_timer, period_slips.diagnose_integer_period
+    )
+    if period_slip is not None:
+        return period_slip
     if rate is not None and rate.in_bursts:
-        return causes.diagnose_bursts(steps.send_once_per_tick(trace))
+        return causes.diagnose_bursts(trace, steps.send_once_per_tick(trace))
     if (waits := find_in_files(trace, spinning.diagnose_untimed_spin_once)) is not None:
         return waits
     read = started_node(trace)

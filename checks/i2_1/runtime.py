@@ -208,12 +208,13 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     period_slip = find_in_files(
         trace,
         slips.diagnose_xor,
+        period_slips.diagnose_second_timer,
         period_slips.diagnose_integer_period,
         period_slips.diagnose_nanoseconds,
         period_slips.diagnose_period_attribute,
     )
     if rate is not None and rate.in_bursts:
-        return period_slip or causes.diagnose_bursts(steps.send_once_per_tick(trace))
+        return period_slip or causes.diagnose_bursts(trace, steps.send_once_per_tick(trace))
     if rate is not None and rate.hz < asked:
         slow = find_in_files(
             trace,

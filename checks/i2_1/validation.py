@@ -20,7 +20,7 @@ from checks.i2_1.failures import (
     with_steps,
 )
 from tutor.judge import causes, tracebacks
-from tutor.judge.causes import parameter_callback_slips, spinning
+from tutor.judge.causes import parameter_callback_slips, period_slips, spinning
 from tutor.judge.rates import describe
 from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.trace import Trace
@@ -93,7 +93,12 @@ def _fail_if_crashed(bad: float, expected: str, trace: Trace) -> Verdict | None:
 
 
 def _diagnose_change(trace: Trace, text: str) -> Cause:
-    slip = find_in_files(trace, parameter_callback_slips.diagnose_callback_order, spinning.diagnose_untimed_spin_once)
+    slip = find_in_files(
+        trace,
+        period_slips.diagnose_second_timer,
+        parameter_callback_slips.diagnose_callback_order,
+        spinning.diagnose_untimed_spin_once,
+    )
     return slip or Cause("value changed all the same", text, steps.refuse_bad_rates(trace))
 
 
@@ -140,7 +145,7 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
         return failed(
             expected,
             f"rejected, but then {describe(seen.rate, seen.messages)}",
-            find_in_files(seen.trace, spinning.diagnose_untimed_spin_once)
+            find_in_files(seen.trace, period_slips.diagnose_second_timer, spinning.diagnose_untimed_spin_once)
             or Cause("partial change", "the timer was touched although the request was rejected", partial),
         )
     return passed(expected, f'both rejected ("{seen.answers[0].reason}"), nothing changed')

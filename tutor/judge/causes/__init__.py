@@ -12,13 +12,13 @@ from tutor.judge.causes.lifecycle import diagnose_lifecycle
 from tutor.judge.causes.output import diagnose_printed
 from tutor.judge.causes.parameters import (
     RCLPY_REASON,
-    diagnose_bursts,
     diagnose_old_timer,
     diagnose_parameter_type,
     diagnose_period_as_rate,
     diagnose_rate_as_period,
     diagnose_refusal,
 )
+from tutor.judge.causes.period_slips import diagnose_bursts
 from tutor.judge.causes.process import (
     QUICK_S,
     describe_no_answer,

@@ -70,15 +70,6 @@ def diagnose_refusal(reason: str, step: str) -> Cause:
     return Cause("rejected", reason if "read-only" in reason else text, step)
 
 
-def diagnose_bursts(step: str) -> Cause:
-    """Several messages are sent at once, by a loop in one callback or by two timers that fire together."""
-    return Cause(
-        "messages in bursts",
-        "several messages are sent at once, then none for a while: that is not a rate",
-        step,
-    )
-
-
 def diagnose_rate_as_period(name: str, step: str) -> Cause:
     """A rate in Hz is used as a period in seconds."""
     return Cause(names.RATE_AS_PERIOD, f"{name} is given in Hz, but the timer waits that many seconds", step)

@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from itertools import pairwise, takewhile
 
 from tutor.judge.edits import insert_after, remove_statement, replace_node, replace_statement
-from tutor.judge.rewriting.node import NodeFile, argument
+from tutor.judge.rewriting.node import NodeFile, argument, find_in_files
 from tutor.judge.source import calls_in, last_name, values_of, where
+from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
 _IMAGINED_PERIODS = ("period", "timer_period", "timer_period_sec", "timer_period_s", "interval", "period_sec", "rate")
@@ -142,6 +143,15 @@ def diagnose_twin_timers(file: NodeFile) -> Cause | None:
             text = f"lines {call.lineno} and {other.lineno} both make a timer with this period and callback"
             return Cause("two timers", text, step)
     return None
+
+
+def diagnose_bursts(trace: Trace, step: str) -> Cause:
+    """Several messages are sent at once: by timers that a loop makes or that are left over, or by a loop (`step`)."""
+    return find_in_files(trace, diagnose_timer_loop, diagnose_second_timer) or Cause(
+        "messages in bursts",
+        "several messages are sent at once, then none for a while: that is not a rate",
+        step,
+    )
 
 
 def diagnose_timer_loop(file: NodeFile) -> Cause | None:
