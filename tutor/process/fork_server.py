@@ -130,7 +130,9 @@ def _read_at_start(environment: dict[bytes, bytes]) -> dict[bytes, bytes]:
 
 def run_program(argv: list[bytes], preloaded: Preloaded) -> None:
     """Run `python FILE ARGUMENTS...` in this process, which has just been forked. Returns at its end, or exits."""
-    os.closerange(3, 2**20)
+    for descriptor in sorted(map(int, os.listdir("/proc/self/fd")))[3:]:
+        with contextlib.suppress(OSError):  # that of the list itself
+            os.close(descriptor)
     for number in (signal.SIGPIPE, signal.SIGXFSZ):  # as Python does at its start
         signal.signal(number, signal.SIG_IGN)
     signal.signal(signal.SIGINT, signal.default_int_handler)
