@@ -30,13 +30,16 @@ _FLUSHING_LIBRARY = b"librcl_logging_spdlog.so"
 _FLUSH_INTERVAL_S = 5.0
 """rcl's logging flushes its file every 5 s from a dedicated thread, which has no name of its own."""
 
+_ThreadWake = tuple[float, int]
+"""When a thread wakes up by itself, and how often it has been scheduled."""
+
 
 @dataclass(frozen=True, slots=True)
 class NextWake:
     """When a thread of one or more processes next wakes up by itself.
 
     `at` is in seconds since the epoch: inf means never, 0.0 that one may be running or nothing is known. `timeslices`
-    counts how often the threads that were read have been scheduled so far.
+    counts how often the threads that were read have been scheduled so far, except for the one that flushes the log.
     """
 
     at: float = 0.0
@@ -57,9 +60,8 @@ def next_wake(pids: Iterable[int], by: float = 0.0) -> NextWake:
 
 
 def _process_wake(pid: int, by: float) -> NextWake:
-    wakes: list[float] = []
-    background: list[float] = []
-    timeslices = 0
+    main: list[_ThreadWake] = []
+    background: list[_ThreadWake] = []
     try:
         for thread in sorted(os.listdir(f"/proc/{pid}/task"), key=str(pid).__ne__):  # the main thread first
             folder = f"/proc/{pid}/task/{thread}"
@@ -67,11 +69,11 @@ def _process_wake(pid: int, by: float) -> NextWake:
                 continue
             is_main = thread == str(pid)
             wake = _thread_wake(pid, _read_file(f"{folder}/syscall"))
-            (wakes if is_main else background).append(wake)
-            timeslices += int(_read_file(f"{folder}/schedstat").split()[2])
+            (main if is_main else background).append((wake, int(_read_file(f"{folder}/schedstat").split()[2])))
             if wake <= by and (is_main or wake == 0.0):  # the log-flushing thread is known only from all of them
-                return NextWake(wake, timeslices)
-        return NextWake(min((*wakes, *_drop_flusher(pid, background)), default=0.0), timeslices)
+                return NextWake(wake, sum(slices for _, slices in (*main, *background)))
+        threads = [*main, *_drop_flusher(pid, background)]
+        return NextWake(min((wake for wake, _ in threads), default=0.0), sum(slices for _, slices in threads))
     except (OSError, IndexError, ValueError):  # the process is ending, or this kernel has no such files
         return NextWake()
 
@@ -109,9 +111,12 @@ def _read_timeout(pid: int, address: int, *, realtime: bool) -> float:
     return at if realtime else at - time.monotonic() + time.time()
 
 
-def _drop_flusher(pid: int, background: list[float]) -> list[float]:
-    """Drop the log-flushing thread: the last to wake of those that wait no longer than its interval."""
-    due = sorted(at for at in background if 0.0 < at <= time.time() + _FLUSH_INTERVAL_S)
+def _drop_flusher(pid: int, background: list[_ThreadWake]) -> list[_ThreadWake]:
+    """Drop the log-flushing thread: the last to wake of those that wait no longer than its interval.
+
+    Should that be another one, it is the flusher's own wake-up that counts, and the process is not idle.
+    """
+    due = sorted(each for each in background if 0.0 < each[0] <= time.time() + _FLUSH_INTERVAL_S)
     if due and _FLUSHING_LIBRARY in _read_file(f"/proc/{pid}/maps"):
         background.remove(due[-1])
     return background
