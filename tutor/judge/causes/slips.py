@@ -204,6 +204,25 @@ def diagnose_events_executor(file: NodeFile) -> Cause | None:
     return Cause("EventsExecutor", text, step)
 
 
+def diagnose_bare_topic_names(file: NodeFile) -> Cause | None:
+    """Whether a QoS profile has DDS use topic names as they are, so that ROS nodes do not find each other."""
+    for node in ast.walk(file.tree):
+        match node:
+            case ast.keyword(arg=str(name), value=ast.Constant(value=True) as value):
+                pass
+            case ast.Assign(targets=[ast.Attribute(attr=name)], value=ast.Constant(value=True) as value):
+                pass
+            case _:
+                continue
+        if name != "avoid_ros_namespace_conventions":
+            continue
+        step = file.step([edits.replace_node(file.text, value, "False")])
+        if step is not None:
+            text = f"{name} leaves out the prefix that ROS gives to topics in DDS: no other ROS node finds this one"
+            return Cause("not a ROS topic", text, step)
+    return None
+
+
 def diagnose_raised_level(file: NodeFile, lowest: int) -> Cause | None:
     """Whether the program raises a logger's level, so that messages below it are left out.
 

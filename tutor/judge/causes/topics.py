@@ -54,7 +54,8 @@ def diagnose_no_messages(
         return replace(cause, hint=step) if cause.name == names.WRONG_TYPE and step and not suits else cause
     file = started_node(trace)
     return (
-        diagnose_spin_in_constructor(file)
+        find_in_files(trace, slips.diagnose_bare_topic_names)
+        or diagnose_spin_in_constructor(file)
         or diagnose_uncalled_setup(file, "create_publisher")
         or diagnose_awaited_service(trace)
         or Cause(
@@ -117,7 +118,7 @@ def diagnose_nothing_received(
         )
     return (
         _diagnose_misplaced(trace, subscriptions, ours.topic, ours.type, "create_subscription")
-        or find_in_files(trace, diagnose_spin_in_constructor)
+        or find_in_files(trace, slips.diagnose_bare_topic_names, diagnose_spin_in_constructor)
         or diagnose_uncalled_setup(started_node(trace), "create_subscription")
         or Cause(
             "no subscription",
