@@ -13,7 +13,7 @@ import pytest
 from tests.engine.helpers import Scene
 from tutor.engine.check import NODE_MODULES
 from tutor.engine.forking import start_fork_server
-from tutor.process.fork_client import ForkServer
+from tutor.process.fork_link import ForkServerLink
 from tutor.ros import process_setup
 from tutor.ros.environment import RosEnvironment, detect
 
@@ -34,7 +34,7 @@ def ros() -> Iterator[RosEnvironment]:
 
 
 @pytest.fixture(scope="module")
-def fork_server(ros: RosEnvironment) -> Iterator[ForkServer | None]:
+def fork_server(ros: RosEnvironment) -> Iterator[ForkServerLink | None]:
     """The server that nodes are forked from, as in a check."""
     with start_fork_server(ros, NODE_MODULES) as server:
         yield server
@@ -42,7 +42,7 @@ def fork_server(ros: RosEnvironment) -> Iterator[ForkServer | None]:
 
 @pytest.fixture
 async def scene(
-    ros: RosEnvironment, fork_server: ForkServer | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ros: RosEnvironment, fork_server: ForkServerLink | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> AsyncIterator[Scene]:
     """Runs learners' scripts; after the test none of their processes may be left, and no domain reserved."""
     scene = Scene(ros, fork_server, tmp_path, monkeypatch)

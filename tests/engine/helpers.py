@@ -18,7 +18,7 @@ from tutor.judge.events import Event
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Verdict, passed
-from tutor.process.fork_client import ForkServer
+from tutor.process.fork_link import ForkServerLink
 from tutor.process.supervisor import processes
 from tutor.ros import domain
 from tutor.ros.environment import RosEnvironment
@@ -67,7 +67,7 @@ class Scene:
     """Runs learners' scripts in a folder, and tracks their processes and domains."""
 
     def __init__(
-        self, ros: RosEnvironment, fork_server: ForkServer | None, folder: Path, monkeypatch: pytest.MonkeyPatch
+        self, ros: RosEnvironment, fork_server: ForkServerLink | None, folder: Path, monkeypatch: pytest.MonkeyPatch
     ) -> None:
         self.ros = ros
         self.fork_server = fork_server

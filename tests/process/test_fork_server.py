@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from tests.process.conftest import LIMIT_S, until
-from tutor.process import LearnerProcess, fork_client
-from tutor.process.fork_client import ForkedSupervisor, ForkServer
+from tutor.process import LearnerProcess, fork_link
+from tutor.process.fork_link import ForkedSupervisor, ForkServerLink
 
 PACKAGE = {
     "pack/__init__.py": "",
@@ -42,7 +42,7 @@ class Result:
 class Programs:
     """Runs programs, forked and not."""
 
-    def __init__(self, folder: Path, server: ForkServer, env: dict[str, str]) -> None:
+    def __init__(self, folder: Path, server: ForkServerLink, env: dict[str, str]) -> None:
         self.folder = folder
         self.server = server
         self.env = env
@@ -107,13 +107,13 @@ def env(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 
 @pytest.fixture(scope="module")
-def server(env: dict[str, str]) -> Iterator[ForkServer]:
-    with ForkServer(Path(sys.executable), env, MODULES) as server:
+def server(env: dict[str, str]) -> Iterator[ForkServerLink]:
+    with ForkServerLink(Path(sys.executable), env, MODULES) as server:
         yield server
 
 
 @pytest.fixture
-def programs(tmp_path: Path, server: ForkServer, env: dict[str, str]) -> Programs:
+def programs(tmp_path: Path, server: ForkServerLink, env: dict[str, str]) -> Programs:
     return Programs(tmp_path, server, env)
 
 
@@ -317,12 +317,12 @@ async def test_a_program_whose_executable_is_missing_cannot_be_started(programs:
 async def test_programs_start_without_a_server_that_is_gone_or_hangs(
     programs: Programs, stop: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    programs.server = ForkServer(Path(sys.executable), programs.env, ["yaml"])
+    programs.server = ForkServerLink(Path(sys.executable), programs.env, ["yaml"])
     file = programs.folder / "long.py"
     file.write_text("import os, time\nos.write(1, b'ready\\n')\ntime.sleep(600)")
     assert await programs.texts("print(1)") == ["1"]  # it has been started
     async with await programs.start(file, fork=True, env={}) as process:
-        monkeypatch.setattr(fork_client, "_FORK_LIMIT_S", 0.3)
+        monkeypatch.setattr(fork_link, "_FORK_LIMIT_S", 0.3)
         os.kill(programs.server._process.pid, stop)
         for _ in range(2):
             result = await programs.run("print(1)")
@@ -342,9 +342,9 @@ async def test_the_end_of_the_owner_ends_what_was_forked(programs: Programs) -> 
 import asyncio, os, sys
 from pathlib import Path
 from tutor.process import LearnerProcess
-from tutor.process.fork_client import ForkServer
+from tutor.process.fork_link import ForkServerLink
 async def main():
-    server = ForkServer(Path(sys.executable), {programs.env!r}, ["yaml"])
+    server = ForkServerLink(Path(sys.executable), {programs.env!r}, ["yaml"])
     process = await LearnerProcess.start(
         [sys.executable, {str(file)!r}], env={programs.env!r}, cwd=Path("."), fork_server=server
     )
@@ -355,7 +355,7 @@ async def main():
 asyncio.run(main())
 """
     )
-    root = str(Path(fork_client.__file__).parents[2])
+    root = str(Path(fork_link.__file__).parents[2])
     env = {"PYTHONPATH": root}
     async with await programs.start(owner, fork=False, env=env) as process:
         await until(

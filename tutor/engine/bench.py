@@ -21,7 +21,7 @@ from tutor.judge.exceptions import KnownException
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MAX_CHARACTERS
 from tutor.process import LearnerProcess
-from tutor.process.fork_client import ForkServer
+from tutor.process.fork_link import ForkServerLink
 from tutor.process.log_folder import temporary_log_folder
 from tutor.ros.domain import reserve_domain
 from tutor.ros.environment import RosEnvironment
@@ -67,7 +67,7 @@ class RosBench:
     )
     on_facts: Callable[[object], None] = lambda facts: None
     sigkilled: list[Path] = field(default_factory=list)
-    fork_server: ForkServer | None = None
+    fork_server: ForkServerLink | None = None
 
     @asynccontextmanager
     async def start(

@@ -11,7 +11,7 @@ import time
 from tutor.engine.source import add_source_lines
 from tutor.judge import tracebacks
 from tutor.judge.tracebacks import Frame
-from tutor.process import LearnerProcess, fork_client
+from tutor.process import LearnerProcess, fork_link
 
 BLOCKED_S = 0.5
 """Maximum delay of Ctrl+C until the node has finished what it is doing; one that is always busy never has."""
@@ -55,4 +55,4 @@ async def dump_stacks(process: LearnerProcess) -> tuple[Frame, ...]:
         os.kill(process.pid, signal.SIGABRT)
     await process.wait(DUMP_S)
     frames = tracebacks.dumped_frames(line for line in process.output if line.at >= aborted_at)
-    return add_source_lines([frame for frame in frames if frame.path != str(fork_client.PROGRAM)])
+    return add_source_lines([frame for frame in frames if frame.path != str(fork_link.PROGRAM)])

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
-from tutor.process.fork_client import ForkServer
+from tutor.process.fork_link import ForkServerLink
 from tutor.ros.environment import RosEnvironment, learner_env
 
 
@@ -21,9 +21,9 @@ def node_env(ros: RosEnvironment, domain_id: int, log_dir: Path, package_root: P
     return env
 
 
-def start_fork_server(ros: RosEnvironment, modules: Iterable[str]) -> AbstractContextManager[ForkServer | None]:
+def start_fork_server(ros: RosEnvironment, modules: Iterable[str]) -> AbstractContextManager[ForkServerLink | None]:
     """Start a fork server for nodes; None if it cannot be started, and then nodes start without one."""
     try:
-        return ForkServer(ros.python, node_env(ros, 0, Path(os.devnull), None), modules)
+        return ForkServerLink(ros.python, node_env(ros, 0, Path(os.devnull), None), modules)
     except OSError:
         return nullcontext()

@@ -24,7 +24,7 @@ from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJud
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault
-from tutor.process.fork_client import ForkServer
+from tutor.process.fork_link import ForkServerLink
 from tutor.ros.environment import RosEnvironment
 
 OnEvent = Callable[[Event], None]
@@ -55,7 +55,7 @@ class Runner:
         on_event: OnEvent,
         start_limiter: StartLimiter | None = None,
         isolation: Isolation | None = None,
-        fork_server: ForkServer | None = None,
+        fork_server: ForkServerLink | None = None,
         *,
         first: bool = False,
     ) -> None:

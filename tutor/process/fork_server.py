@@ -1,9 +1,10 @@
-"""The fork server: a process that has imported rclpy, from which supervisors and their programs are forked.
+"""The fork server: a process that has imported what rclpy imports, from which supervisors and programs are forked.
 
-Starting Python and importing rclpy is three quarters of the CPU time of a node's start. A program that is forked from
-here is a process of its own all the same, with its own arguments, environment, folder, streams, session and command
-line; it ends and reports exceptions as `python FILE` does, and sees a module only once it imports it (see `preloaded`).
-Whatever could make a difference is run by exec, as without a fork server: see `_can_run`.
+Starting Python, numpy and the messages is half of the CPU time of a node's start. A program that is forked from here is
+a process of its own all the same, with its own arguments, environment, folder, streams, session and command line; it
+ends and reports exceptions as `python FILE` does, and sees a module only once it imports it (see `preloaded`). It
+differs in the frames of this file below its own in a dump of its stacks, and in that the programs of one server share
+the seed of `hash`. What could make a difference beyond that is run by exec, as without a server: see `_can_run`.
 
 Run by file path with the interpreter and the environment of the learners' programs; its arguments are the file
 descriptor of its socket, the names of the modules to import, and padding that makes room for other command lines, as

@@ -17,7 +17,7 @@ from typing import Self
 from tutor.errors import EndError, StartError
 from tutor.judge.trace import Exit, OutputLine
 from tutor.process import memory, orphans
-from tutor.process.fork_client import ForkServer
+from tutor.process.fork_link import ForkServerLink
 from tutor.process.link import SupervisorLink
 from tutor.process.output import Output
 from tutor.process.pipe import PipeReader
@@ -73,7 +73,7 @@ class LearnerProcess:
         cwd: Path,
         terminal: bool = False,
         wrapper: Sequence[str] = (),
-        fork_server: ForkServer | None = None,
+        fork_server: ForkServerLink | None = None,
         on_change: Callable[[], None] | None = None,
     ) -> Self:
         """Start `argv` in the folder `cwd` with exactly the environment `env`, plus our marker variable.
@@ -189,7 +189,7 @@ class LearnerProcess:
         env: Mapping[str, str],
         cwd: Path,
         wrapper: Sequence[str],
-        fork_server: ForkServer | None,
+        fork_server: ForkServerLink | None,
     ) -> None:
         environment = {**env, orphans.MARK: self._run}
         if not argv or any("\0" in text for text in (*argv, *environment.values(), str(cwd))):

@@ -15,7 +15,7 @@ from pathlib import Path
 from tutor.judge.trace import Exit
 from tutor.process import orphans, prctl
 from tutor.process.cpu_wait import recent_processes
-from tutor.process.fork_client import ForkedSupervisor, ForkServer
+from tutor.process.fork_link import ForkedSupervisor, ForkServerLink
 from tutor.process.supervisor import Process, descendants, descendants_in, kill, namespace_pid
 from tutor.process.wake_time import NextWake, next_wake
 
@@ -61,7 +61,7 @@ class SupervisorLink(asyncio.Protocol):
         request: bytes,
         streams: tuple[int, int, int],
         wrapper: Sequence[str] = (),
-        fork_server: ForkServer | None = None,
+        fork_server: ForkServerLink | None = None,
     ) -> None:
         """Start the supervisor and send it a request. It and its processes share these stdin, stdout and stderr.
 

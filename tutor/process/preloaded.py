@@ -21,7 +21,7 @@ class Preloaded:
     """Modules by name, and what each of them imported: a finder on `sys.meta_path` that gives them out on import.
 
     A module that nobody has imported yet is neither in `sys.modules` nor an attribute of its package. So a program that
-    forgets `import rclpy.node` fails here as it does anywhere else.
+    forgets `import std_msgs.msg` fails here as it does anywhere else.
     """
 
     def __init__(self, modules: Mapping[str, ModuleType], imports: Mapping[str, Iterable[str]]) -> None:

@@ -45,7 +45,7 @@ class ForkedSupervisor:
                 signal.pidfd_send_signal(self._pidfd, signal.SIGKILL)
 
 
-class ForkServer:
+class ForkServerLink:
     """A process that has imported modules; see `tutor.process.fork_server`. A context manager that ends it."""
 
     def __init__(self, python: Path, env: Mapping[str, str], modules: Iterable[str]) -> None:
@@ -71,7 +71,7 @@ class ForkServer:
                 self._control.close()
                 raise
 
-    def __enter__(self) -> ForkServer:
+    def __enter__(self) -> ForkServerLink:
         return self
 
     def __exit__(self, *_: object) -> None:
