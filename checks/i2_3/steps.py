@@ -111,8 +111,10 @@ def _fix_executor(file: NodeFile) -> list[Edit]:
     )
     name, imported = file.import_name(_MULTI_THREADED, "rclpy.executors")
     if spun is not None and multi is not None and own is not None:
-        statement = file.statement(spun)
-        return [remove_statement(file.text, statement)]
+        if file.function_around(own) is not file.function_around(spun):  # in a thread, which main() has to wait for
+            event, imported = file.import_name("Event", "threading")
+            return [*imported, replace_statement(spun, f"{event}().wait()")]
+        return [remove_statement(file.text, file.statement(spun))]
     if spun is not None and multi is not None and kept and len(spun.args) == 1:
         node = ast.unparse(spun.args[0])
         added = "" if file.calls("add_node") else f"{kept}.add_node({node})\n"

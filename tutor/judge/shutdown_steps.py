@@ -22,6 +22,7 @@ from tutor.judge.rewriting.callbacks import outermost
 from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.rewriting.program import clean_ending, code_of, first_sound_step, guard_spin
 from tutor.judge.rewriting.program_scope import SPINS
+from tutor.judge.source import calls_in
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 
@@ -56,7 +57,7 @@ def allow_interrupt(trace: Trace) -> str:
 def exit_with_zero(trace: Trace) -> str:
     """How to end the program with exit code 0."""
     return (
-        find_in_files(trace, _without_status)
+        find_in_files(trace, _without_status_in_handler, _without_status)
         or first_sound_step(trace, clean_ending)
         or "return normally from main() after Ctrl+C; call no sys.exit() with another code, and end what uses the "
         "node, such as threads, before you destroy it"
@@ -73,6 +74,16 @@ def _without_status(file: NodeFile) -> str | None:
             continue
         if any(isinstance(each, ast.Return) and each.value is not None for each in ast.walk(function)):
             return file.step([replace_statement(statement, ast.unparse(inner))])
+    return None
+
+
+def _without_status_in_handler(file: NodeFile) -> str | None:
+    """The step that exits with 0 in a signal handler, where the number of the signal is at hand."""
+    for registered in file.calls("signal"):
+        function = file.function(registered.args[1]) if len(registered.args) == 2 else None
+        for call in calls_in(function, "exit", "_exit", "SystemExit"):
+            if len(call.args) == 1 and ast.unparse(call.args[0]) not in ("0", "None"):
+                return file.step([replace_node(file.text, call.args[0], "0")])
     return None
 
 
