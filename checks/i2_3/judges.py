@@ -70,12 +70,14 @@ def _with_applicable_step(verdict: Verdict, trace: Trace) -> Verdict:
 
 
 def _judge_both_calls(seen: SingleCalls, judge: Callable[[SingleCalls], Verdict]) -> Verdict:
-    """The verdict on the first call, unless that passed and the second call fails."""
+    """The verdict on the first call, unless that passed and the second call fails, or cannot be judged."""
     first, *later = seen.first_and_later
     verdict = judge(first)
     for each in later if verdict.passed else ():
         second = judge(each)
-        if not second.passed and not isinstance(second, Undecided):  # if undecided, the first call counts
+        if isinstance(second, Undecided):
+            return second
+        if not second.passed:
             return replace(second, observed=f"the second call: {second.observed}")
     return verdict
 

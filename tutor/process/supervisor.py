@@ -201,6 +201,7 @@ class Supervisor:
 
     def _start(self, argv: list[bytes], environment: dict[bytes, bytes], cwd: bytes) -> bool:
         failure, report = os.pipe()  # both ends are close-on-exec, so a successful exec closes them
+        reported, release = os.pipe()  # a forked program could kill us before we have reported its start
         self._started_at = time.monotonic()
         epoch = time.time()
         supervisor = os.getpid()
@@ -210,9 +211,12 @@ class Supervisor:
             self._report(f"failed cannot start a process: {error.strerror}")
             return False
         if self._main_pid == 0:
+            os.close(release)
             self._become(argv, environment, cwd, supervisor, report)
+            os.read(reported, 1)
             return False
         os.close(report)
+        os.close(reported)
         null = os.open(os.devnull, os.O_RDWR)
         for output in (1, 2):  # from here on, only the learner's processes hold the pipes open
             os.dup2(null, output)
@@ -226,6 +230,7 @@ class Supervisor:
             self._report(f"failed {why.decode('utf-8', 'replace')}")
             return False
         self._report(f"started {self._main_pid} {epoch!r}")
+        os.close(release)
         return True
 
     def _become(

@@ -1,0 +1,48 @@
+import signal
+import sys
+import time
+
+import rclpy
+from example_interfaces.srv import AddTwoInts
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.node import Node
+
+
+class SlowAdder(Node):
+    def __init__(self):
+        super().__init__('slow_adder')
+        group = ReentrantCallbackGroup()
+        self.ticks = 0
+        self.create_service(AddTwoInts, '/slow_add', self.add, callback_group=group)
+        self.create_timer(0.1, self.tick, callback_group=group)
+
+    def add(self, request, response):
+        time.sleep(3)
+        response.sum = request.a + request.b
+        return response
+
+    def tick(self):
+        self.ticks += 1
+        if self.ticks % 10 == 0:
+            self.get_logger().info(f'tick {self.ticks}')
+
+
+def stop(number, _frame):
+    print('stopping', flush=True)
+    rclpy.try_shutdown()
+    sys.exit(number)
+
+
+def main():
+    rclpy.init()
+    signal.signal(signal.SIGINT, stop)
+    executor = MultiThreadedExecutor(num_threads=6)
+    executor.add_node(SlowAdder())
+    try:
+        executor.spin()
+    except ExternalShutdownException:
+        pass
+
+
+main()
