@@ -40,6 +40,7 @@ from tutor.judge.trace import Trace
 from tutor.judge.waiting import (
     IDLE_S,
     MESSAGE_GAP_S,
+    RESENT_S,
     TRIES,
     are_undisturbed,
     too_few_by_cpu_wait,
@@ -162,14 +163,17 @@ async def probe_names(bench: Bench) -> NameProbes:
             repeats = logs_the_same_on_each_message(run.trace().sources)
             since, waited_s = run.now(), run.our_cpu_wait_s()
 
-            def has_published(messages: int) -> bool:
-                """Whether it has published so many messages, and all that it had logged by then must be here."""
-                samples, delay_s = run.samples_on(TOPIC), LOG_DELAY_S + run.our_cpu_wait_s() - waited_s
+            def has_published(messages: int, *, for_s: float = LOG_DELAY_S) -> bool:
+                """Whether it has published so many messages, the last of them so long ago that its log is here, too."""
+                samples, delay_s = run.samples_on(TOPIC), for_s + run.our_cpu_wait_s() - waited_s
                 return len(samples) >= messages and run.now() >= samples[messages - 1].received_at + delay_s
 
             def is_decided() -> bool:
                 """Whether the name is logged, or never will be."""
-                return bool(logged()) or (repeats and bool(run.logs) and has_published(2))
+                if logged():
+                    return True
+                # Without any log message, it may be that the first ones were lost, and are resent later.
+                return repeats and (has_published(2) if run.logs else has_published(2, for_s=RESENT_S))
 
             await wait_until_seen(run, lambda: is_decided() or has_published(3), promised=lambda: True, idle_s=IDLE_S)
             declared = await bench.facts(parameters)

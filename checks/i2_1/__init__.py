@@ -14,7 +14,12 @@ CHECK = Check(
             (scenarios.plain_start,),
             early=((scenarios.plain_start, judges.judge_defaults_so_far),),
         ),
-        Criterion("launch-params", judges.judge_launch, (scenarios.start_with_parameters,)),
+        Criterion(
+            "launch-params",
+            judges.judge_launch,
+            (scenarios.start_with_parameters,),
+            early=((scenarios.start_with_parameters, judges.judge_launch_so_far),),
+        ),
         Criterion(
             "runtime-params",
             runtime.judge_runtime,

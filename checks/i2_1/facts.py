@@ -64,25 +64,43 @@ class PlainStart:
 
 
 @dataclass(frozen=True)
-class ParameterStarts:
-    """Three starts with parameters: with a prefix and a rate, with a slower rate (`slow`), and with `enabled` false.
+class RatedStart:
+    """A start with a rate, and perhaps a prefix: the rate measured, and the number of messages it is based on."""
 
-    `disabled`, `disabled_answer`, `disabled_for_s`: the trace of the third start, the `enabled` that it reports, and
-    how long its silence was observed. `first_after_enable`: its first message once `enabled` is true; tried only if it
-    began without a publisher.
-    """
-
-    prefix: str
     trace: Trace
     rate: Rate | None
     messages: int
-    slow: Trace
-    slow_rate: Rate | None
-    slow_messages: int
-    disabled: Trace
-    disabled_answer: Parameter | None
-    disabled_for_s: float
+
+
+@dataclass(frozen=True)
+class DisabledStart:
+    """A start with `enabled` false: the parameter that the node reports, and how long its silence was observed.
+
+    `first_after_enable`: its first message once `enabled` is true; tried only if it began without a publisher.
+    """
+
+    trace: Trace
+    enabled: Parameter | None
+    quiet_s: float
     first_after_enable: Sample | None = None
+
+
+@dataclass(frozen=True)
+class ParameterStarts:
+    """Three starts with parameters: with `prefix` and a fast rate, with a slow rate, and with `enabled` false.
+
+    None for each that has not ended yet.
+    """
+
+    prefix: str
+    fast: RatedStart | None = None
+    slow: RatedStart | None = None
+    disabled: DisabledStart | None = None
+
+    @property
+    def trace(self) -> Trace | None:
+        """The trace of a start that has ended."""
+        return next((each.trace for each in (self.fast, self.slow, self.disabled) if each is not None), None)
 
 
 @dataclass(frozen=True)
@@ -167,6 +185,11 @@ class AtomicRequests:
     messages: int = 0
     stuck: tuple[Frame, ...] = ()
     answering: bool = False
+
+
+def find_without_prefix(samples: Sequence[Sample], prefix: str) -> list[Sample]:
+    """Those of the last two messages that lack the prefix: an earlier one may have been sent before it was read."""
+    return [sample for sample in samples[-2:] if prefix not in text_of(sample)]
 
 
 def find_parameter(parameters: Sequence[Parameter], name: str) -> Parameter | None:

@@ -18,6 +18,8 @@ from checks.i2_1.facts import (
     TYPE,
     ParameterStarts,
     PlainStart,
+    RatedStart,
+    find_without_prefix,
     messages_naming_rate,
     text_of,
 )
@@ -76,63 +78,110 @@ def _diagnose_default(name: str, parameter: Parameter | None, step: str) -> Caus
 
 @with_steps
 def judge_launch(seen: ParameterStarts) -> Verdict:
-    expected = f"--ros-args -p sets {PREFIX}, {RATE} and {ENABLED}, and each takes effect"
-    samples = seen.trace.samples_on(TOPIC)
-    given = f"{PREFIX}:={seen.prefix} {RATE}:={LAUNCH_HZ}"
-    if not samples:
-        cause = causes.diagnose_no_messages(seen.trace, TOPIC, TYPE, answers=True, step=steps.add_publisher(seen.trace))
-        return failed(expected, f"with {given}: no message on {TOPIC}", cause, causes.output_tail(seen.trace))
-    without = [text_of(sample) for sample in samples[-2:] if seen.prefix not in text_of(sample)]
-    if without:
-        ignored = [RATE] if seen.rate is None or not seen.rate.agrees_with(LAUNCH_HZ) else []
-        ignored += [ENABLED] if seen.disabled.samples_on(TOPIC) else []
-        return failed(
-            expected,
-            f'with {given}: "{without[-1]}"',
-            _diagnose_ignored(PREFIX, seen.trace, *ignored),
-            [text_of(s) for s in samples[:6]],
-        )
-    if seen.rate is None or not seen.rate.agrees_with(LAUNCH_HZ):
-        observed = f"with {given}: {describe(seen.rate, seen.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
-        return failed(expected, observed, causes.diagnose_same_name(seen.trace) or _diagnose_launch_rate(seen))
-    if seen.slow_rate is None or not seen.slow_rate.agrees_with(SLOW_LAUNCH_HZ):
-        slow = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(seen.slow_rate, seen.slow_messages)}"
-        cause = (
-            causes.diagnose_process(seen.slow)
-            or diagnose_rounded_rate(seen.slow_rate, SLOW_LAUNCH_HZ, steps.use_parameter(seen.slow, RATE))
-            or _diagnose_other_rate(seen.slow)
-        )
-        return failed(expected, f"with {slow}, not {SLOW_LAUNCH_HZ} Hz ±{TOLERANCE:.0%}", cause)
-    off = f"with {ENABLED}:=false {RATE}:={LAUNCH_HZ}"
-    loud = seen.disabled.samples_on(TOPIC)
-    if loud:
-        return failed(
-            expected,
-            f"{off}: {counted(len(loud), 'message')}",
-            _diagnose_ignored(ENABLED, seen.disabled),
-            [text_of(s) for s in loud[:3]],
-        )
-    broken = causes.diagnose_process(seen.disabled)
-    held = seen.disabled_answer.value if seen.disabled_answer else None
-    offered = any(p.topic == TOPIC for p in seen.disabled.graph.publishers)
-    # A silent node with a publisher is disabled even if it answers no parameter call; one without a publisher must also
-    # send messages once it is enabled.
-    silent_on_purpose = held in (False, None) if offered else held is False and seen.first_after_enable is not None
-    if broken or not silent_on_purpose:
-        return failed(
-            expected,
-            f"{off}: silence, but not because {ENABLED} is false",
-            broken or _diagnose_ignored(ENABLED, seen.disabled),
-            causes.output_tail(seen.disabled),
-        )
+    """Judge `launch-params`."""
+    failure = _judge_fast(seen) or _judge_slow(seen) or _judge_disabled(seen)
+    if failure is not None:
+        return failure
+    assert seen.fast is not None
+    assert seen.disabled is not None
     return passed(
-        expected,
-        f'with {given}: "{text_of(samples[-1])}" at {seen.rate}; {off}: silence for {seen.disabled_for_s:.1f} s',
+        _EXPECTED_AT_LAUNCH,
+        f'with {_given_fast(seen)}: "{text_of(seen.fast.trace.samples_on(TOPIC)[-1])}" at {seen.fast.rate}; '
+        f"{_GIVEN_DISABLED}: silence for {seen.disabled.quiet_s:.1f} s",
     )
 
 
-def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
-    rate, trace = seen.rate, seen.trace
+def judge_launch_so_far(seen: ParameterStarts) -> Verdict | None:
+    """Judge `launch-params` by the fast start alone.
+
+    If that ignores a parameter for no known reason, the others may be ignored, too: the next step is for all of them.
+    """
+    failure = _judge_fast(seen)
+    is_last = failure is None or not failure.cause.startswith(_IGNORED)
+    return judge_launch(seen) if failure is not None and is_last else None
+
+
+_EXPECTED_AT_LAUNCH = f"--ros-args -p sets {PREFIX}, {RATE} and {ENABLED}, and each takes effect"
+_GIVEN_DISABLED = f"with {ENABLED}:=false {RATE}:={LAUNCH_HZ}"
+_IGNORED = "parameter ignored"
+
+
+def _given_fast(seen: ParameterStarts) -> str:
+    return f"{PREFIX}:={seen.prefix} {RATE}:={LAUNCH_HZ}"
+
+
+def _judge_fast(seen: ParameterStarts) -> Verdict | None:
+    """Return the failure that the start with a prefix and a fast rate shows."""
+    if (start := seen.fast) is None:
+        return None
+    given, samples = _given_fast(seen), start.trace.samples_on(TOPIC)
+    if not samples:
+        step = steps.add_publisher(start.trace)
+        cause = causes.diagnose_no_messages(start.trace, TOPIC, TYPE, answers=True, step=step)
+        observed = f"with {given}: no message on {TOPIC}"
+        return failed(_EXPECTED_AT_LAUNCH, observed, cause, causes.output_tail(start.trace))
+    has_rate = start.rate is not None and start.rate.agrees_with(LAUNCH_HZ)
+    without = find_without_prefix(samples, seen.prefix)
+    if without:
+        ignored = [] if has_rate else [RATE]
+        ignored += [ENABLED] if seen.disabled is not None and seen.disabled.trace.samples_on(TOPIC) else []
+        return failed(
+            _EXPECTED_AT_LAUNCH,
+            f'with {given}: "{text_of(without[-1])}"',
+            _diagnose_ignored(PREFIX, start.trace, *ignored),
+            [text_of(s) for s in samples[:6]],
+        )
+    if has_rate:
+        return None
+    observed = f"with {given}: {describe(start.rate, start.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
+    cause = causes.diagnose_same_name(start.trace) or _diagnose_fast_rate(start, seen.slow)
+    return failed(_EXPECTED_AT_LAUNCH, observed, cause)
+
+
+def _judge_slow(seen: ParameterStarts) -> Verdict | None:
+    """Return the failure that the start with a slow rate shows."""
+    start = seen.slow
+    if start is None or (start.rate is not None and start.rate.agrees_with(SLOW_LAUNCH_HZ)):
+        return None
+    given = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(start.rate, start.messages)}"
+    cause = (
+        causes.diagnose_process(start.trace)
+        or diagnose_rounded_rate(start.rate, SLOW_LAUNCH_HZ, steps.use_parameter(start.trace, RATE))
+        or _diagnose_other_rate(start.trace)
+    )
+    return failed(_EXPECTED_AT_LAUNCH, f"with {given}, not {SLOW_LAUNCH_HZ} Hz ±{TOLERANCE:.0%}", cause)
+
+
+def _judge_disabled(seen: ParameterStarts) -> Verdict | None:
+    """Return the failure that the start with `enabled` false shows."""
+    if (start := seen.disabled) is None:
+        return None
+    trace, loud = start.trace, start.trace.samples_on(TOPIC)
+    if loud:
+        return failed(
+            _EXPECTED_AT_LAUNCH,
+            f"{_GIVEN_DISABLED}: {counted(len(loud), 'message')}",
+            _diagnose_ignored(ENABLED, trace),
+            [text_of(s) for s in loud[:3]],
+        )
+    broken = causes.diagnose_process(trace)
+    held = start.enabled.value if start.enabled else None
+    offered = any(p.topic == TOPIC for p in trace.graph.publishers)
+    # A silent node with a publisher is disabled even if it answers no parameter call; one without a publisher must also
+    # send messages once it is enabled.
+    silent_on_purpose = held in (False, None) if offered else held is False and start.first_after_enable is not None
+    if not broken and silent_on_purpose:
+        return None
+    return failed(
+        _EXPECTED_AT_LAUNCH,
+        f"{_GIVEN_DISABLED}: silence, but not because {ENABLED} is false",
+        broken or _diagnose_ignored(ENABLED, trace),
+        causes.output_tail(trace),
+    )
+
+
+def _diagnose_fast_rate(start: RatedStart, slow: RatedStart | None) -> Cause:
+    rate, trace = start.rate, start.trace
     period_slip = find_in_files(
         trace, slips.diagnose_xor, period_slips.diagnose_second_timer, period_slips.diagnose_integer_period
     )
@@ -143,7 +192,7 @@ def _diagnose_launch_rate(seen: ParameterStarts) -> Cause:
     if (waits := find_in_files(trace, spinning.diagnose_untimed_spin_once)) is not None:
         return waits
     read = started_node(trace)
-    if rate is not None and (rate.agrees_with(DEFAULT_HZ) or are_alike(rate, seen.slow_rate)):
+    if rate is not None and (rate.agrees_with(DEFAULT_HZ) or (slow is not None and are_alike(rate, slow.rate))):
         # A sleep that takes at least half of the period explains it; a shorter one does not.
         asleep = period_slips.diagnose_sleep(read, 0.2 * rate.hz) if read.timers else None
         return asleep or _diagnose_ignored(RATE, trace)
@@ -168,7 +217,7 @@ def _diagnose_ignored(name: str, trace: Trace, *others: str) -> Cause:
         find_in_files(trace, parameter_slips.diagnose_dropped_arguments)
         or steps.diagnose_override(trace, name)
         or Cause(
-            "parameter ignored",
+            _IGNORED,
             f"{name} given at start-up has no effect",
             steps.use_parameter(trace, name, *others),
         )

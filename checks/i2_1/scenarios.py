@@ -20,17 +20,19 @@ from checks.i2_1.facts import (
     SLOW_LAUNCH_HZ,
     TOPIC,
     TYPE,
+    DisabledStart,
     ParameterStarts,
     PlainStart,
+    RatedStart,
     find_parameter,
+    find_without_prefix,
     messages_naming_rate,
 )
 from tutor.judge.bench import Bench
 from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.rates import Rate
-from tutor.judge.trace import Sample, Trace
-from tutor.judge.waiting import IDLE_S, measure_steady_rate, wait_for_message, wait_until_seen
-from tutor.ros_model import Parameter
+from tutor.judge.rates import measure
+from tutor.judge.trace import Trace
+from tutor.judge.waiting import IDLE_S, measure_steady_rate, wait_for_message, wait_until_seen, window_s
 
 
 @repeat_if_doubtful
@@ -53,45 +55,52 @@ async def start_with_parameters(bench: Bench) -> ParameterStarts:
     """Start with each of the parameters given on the command line."""
     prefix = "Ahoy7"
 
-    async def loud(hz: float, more: Mapping[str, Any]) -> tuple[Trace, Rate | None, int]:
-        parameters = {**more, RATE: hz}
-        async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=5 / hz) as run:
-            bench.report_progress(0.2, " ".join(f"{name}:={value}" for name, value in parameters.items()))
-            # Longer than LAUNCH_HZ seconds, the period of a node that takes the rate for a period.
-            if not await wait_for_message(run, TOPIC, TYPE, message_gap_s=LAUNCH_HZ + 1):
-                return run.trace(), None, 0
-            rate, messages = await measure_steady_rate(run, TOPIC, hz, since=run.samples_on(TOPIC)[0].source_time)
-            return run.trace(), rate, messages
+    async def start_fast() -> RatedStart:
+        fast = await _start_at_rate(bench, {PREFIX: prefix, RATE: LAUNCH_HZ})
+        bench.report_facts(ParameterStarts(prefix, fast))
+        return fast
 
-    async def silent() -> tuple[Trace, Parameter | None, float, Sample | None]:
-        parameters = {ENABLED: False, RATE: LAUNCH_HZ}
-        async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=2.5) as run:
-            bench.report_progress(0.3, f"{ENABLED}:=false, listening for silence")
-            node = await find_node(run)
-            declared = await run.parameters(ANSWER_S) if node else None
-            await wait_until_seen(run, lambda: has_publisher(run))
-            since = run.now()
-            # Two periods of the default rate, in case the rate given here has no effect.
-            await run.until(
-                lambda: bool(run.samples_on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0, idle_s=IDLE_S
-            )
-            trace, quiet_s, first_after_enable = run.trace(), run.now() - since, None
-            if node and not trace.samples_on(TOPIC) and not has_publisher(run):
-                # The node may create its publisher only once it is enabled.
-                bench.report_progress(0.7, f"setting {ENABLED} to true")
-                await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
-                await wait_for_message(run, TOPIC, TYPE, message_gap_s=MESSAGE_GAP_S)
-                first_after_enable = next(iter(run.samples_on(TOPIC)), None)
-            return trace, find_parameter(declared or (), ENABLED), quiet_s, first_after_enable
+    slow = _start_at_rate(bench, {RATE: SLOW_LAUNCH_HZ})
+    return ParameterStarts(prefix, *await asyncio.gather(start_fast(), slow, _start_disabled(bench)))
 
-    (
-        (trace, rate, messages),
-        (slow, slow_rate, slow_messages),
-        (disabled, answer, quiet_s, first_after_enable),
-    ) = await asyncio.gather(loud(LAUNCH_HZ, {PREFIX: prefix}), loud(SLOW_LAUNCH_HZ, {}), silent())
-    return ParameterStarts(
-        prefix, trace, rate, messages, slow, slow_rate, slow_messages, disabled, answer, quiet_s, first_after_enable
-    )
+
+async def _start_at_rate(bench: Bench, parameters: Mapping[str, Any]) -> RatedStart:
+    hz: float = parameters[RATE]
+    async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=5 / hz) as run:
+        bench.report_progress(0.2, " ".join(f"{name}:={value}" for name, value in parameters.items()))
+        # Longer than LAUNCH_HZ seconds, the period of a node that takes the rate for a period.
+        if not await wait_for_message(run, TOPIC, TYPE, message_gap_s=LAUNCH_HZ + 1):
+            return RatedStart(run.trace(), None, 0)
+        since = run.samples_on(TOPIC)[0].source_time
+        if PREFIX in parameters:
+            await run.until(lambda: run.now() >= since + window_s(hz), window_s(hz) + 1.0, idle_s=IDLE_S)
+            samples = run.samples_on(TOPIC)
+            if find_without_prefix(samples, parameters[PREFIX]):  # it has failed, so a rough rate will do
+                return RatedStart(run.trace(), measure(samples), len(samples))
+        rate, messages = await measure_steady_rate(run, TOPIC, hz, since=since)
+        return RatedStart(run.trace(), rate, messages)
+
+
+async def _start_disabled(bench: Bench) -> DisabledStart:
+    parameters = {ENABLED: False, RATE: LAUNCH_HZ}
+    async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=2.5) as run:
+        bench.report_progress(0.3, f"{ENABLED}:=false, listening for silence")
+        node = await find_node(run)
+        declared = await run.parameters(ANSWER_S) if node else None
+        await wait_until_seen(run, lambda: has_publisher(run))
+        since = run.now()
+        # Two periods of the default rate, in case the rate given here has no effect.
+        await run.until(
+            lambda: bool(run.samples_on(TOPIC)) or run.now() - since >= 2.2 / DEFAULT_HZ, 4.0, idle_s=IDLE_S
+        )
+        trace, quiet_s, first_after_enable = run.trace(), run.now() - since, None
+        if node and not trace.samples_on(TOPIC) and not has_publisher(run):
+            # The node may create its publisher only once it is enabled.
+            bench.report_progress(0.7, f"setting {ENABLED} to true")
+            await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
+            await wait_for_message(run, TOPIC, TYPE, message_gap_s=MESSAGE_GAP_S)
+            first_after_enable = next(iter(run.samples_on(TOPIC)), None)
+        return DisabledStart(trace, find_parameter(declared or (), ENABLED), quiet_s, first_after_enable)
 
 
 async def launch_with_bad_rates(bench: Bench) -> tuple[Trace, ...]:

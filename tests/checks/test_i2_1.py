@@ -23,13 +23,15 @@ from checks.i2_1.facts import (
     VALIDATION_HZ,
     AtomicRequests,
     BadRates,
+    DisabledStart,
     ParameterStarts,
     PlainStart,
     RateChanges,
+    RatedStart,
     RuntimeChanges,
     messages_naming_rate,
 )
-from checks.i2_1.judges import judge_bad_launch, judge_defaults, judge_launch, judge_shutdown
+from checks.i2_1.judges import judge_bad_launch, judge_defaults, judge_launch, judge_launch_so_far, judge_shutdown
 from checks.i2_1.runtime import judge_changes, judge_runtime, judge_timer
 from checks.i2_1.validation import judge_atomic, judge_validation, judge_validation_so_far
 from tests.checks.builders import (
@@ -124,7 +126,10 @@ def parameter_starts(
     enabled = None if reported is None else parameter(ENABLED, "boolean", reported)
     slow_rate = rate(slow_hz) if slow_hz else None
     return ParameterStarts(
-        "Ahoy7", seen, rate(hz) if hz else None, 10, slow, slow_rate, 4, disabled, enabled, 2.2, first_after_enable
+        "Ahoy7",
+        RatedStart(seen, rate(hz) if hz else None, 10),
+        RatedStart(slow, slow_rate, 4),
+        DisabledStart(disabled, enabled, 2.2, first_after_enable),
     )
 
 
@@ -192,6 +197,35 @@ def test_launch_passes(found: ParameterStarts) -> None:
 )
 def test_launch_fails(found: ParameterStarts, cause: str, word: str) -> None:
     assert_failed(judge_launch(found), cause, word)
+
+
+@pytest.mark.parametrize(
+    ("fast", "cause"),
+    [
+        (RatedStart(CRASHED, None, 0), "unhandled exception"),
+        (RatedStart(SILENT, None, 0), "no messages"),
+        (RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(10.0), 10), "wrong rate"),
+        (RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(0.2), 10), "rate used as a period"),
+    ],
+)
+def test_a_fast_start_alone_fails_launch(fast: RatedStart, cause: str) -> None:
+    verdict = judge_launch_so_far(ParameterStarts("Ahoy7", fast))
+    assert verdict is not None
+    assert_failed(verdict, cause)
+
+
+@pytest.mark.parametrize(
+    "found",
+    [
+        ParameterStarts("Ahoy7", slow=RatedStart(CRASHED, None, 0)),  # the fast start may fail for a clearer cause
+        ParameterStarts("Ahoy7", RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(LAUNCH_HZ), 10)),
+        # Whether `enabled` is ignored, too, belongs in the same step.
+        ParameterStarts("Ahoy7", RatedStart(RUNNING, rate(LAUNCH_HZ), 10)),
+        ParameterStarts("Ahoy7", RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(1.0), 10)),
+    ],
+)
+def test_launch_is_left_open_until_all_starts_have_ended(found: ParameterStarts) -> None:
+    assert judge_launch_so_far(found) is None
 
 
 # --- while it runs -----------------------------------------------------------

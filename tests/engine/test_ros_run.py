@@ -303,6 +303,16 @@ node.create_service(AddTwoInts, "late", late)
 """
 
 
+async def test_messages_in_transit_are_waited_for_once_after_the_node_has_ended(scene: Scene) -> None:
+    async with scene.bench("pass").start(FILE) as run:
+        await run.until(lambda: run.exit is not None, STARTUP_S)
+        assert not await run.until(lambda: False, 5.0)
+        since = run.now()
+        for _ in range(10):
+            assert not await run.until(lambda: False, 5.0)
+        assert run.now() - since < 0.4
+
+
 async def test_waiting_for_a_response_ends_when_the_node_blocks_forever(scene: Scene) -> None:
     async with scene.bench(node(WAITS_IN_CALLBACK)).start(FILE) as run:
         await wait_for_service(run, "/never")

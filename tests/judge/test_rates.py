@@ -177,6 +177,15 @@ async def test_a_hiccup_in_the_first_window_does_not_count() -> None:
     assert rate.hz == pytest.approx(10.0, rel=0.01)
 
 
+@pytest.mark.parametrize(("cpu_wait_share", "windows"), [(0.0, 1), (0.1, 2)])
+async def test_the_messages_of_a_second_timer_are_too_many_for_a_hiccup(cpu_wait_share: float, windows: int) -> None:
+    run = FakeRun(sorted([*_ticks(0.75), *_ticks(1.0, from_s=0.4)]), cpu_wait_share)
+    rate, _ = await measure_steady_rate(run, "/t", 0.75, since=0.0)  # type: ignore[arg-type]
+    assert rate is not None
+    assert rate.hz > 1.2
+    assert run.now() == pytest.approx(3.33 + (windows - 1) * REMEASURE_S, abs=0.4)
+
+
 async def test_a_flood_is_measured_no_longer_than_it_takes_to_see_it() -> None:
     run = FakeRun(_ticks(500.0), cpu_wait_share=0.5)
     rate, messages = await measure_steady_rate(run, "/t", 5.0, since=0.0)  # type: ignore[arg-type]

@@ -42,6 +42,11 @@ class Waits:
         self._meter = CpuMeter(process.pid)
         self._cpu_time: tuple[float, CpuTime] = (0.0, CpuTime())
         self._pending_requests = 0
+        self._ended_at: float | None = None
+        """When a wait first saw that the process had ended, by the loop's clock.
+
+        Messages in transit are waited for once, not again in each later wait.
+        """
 
     @property
     def awaits_response(self) -> bool:
@@ -110,7 +115,6 @@ class Waits:
         began, extended_by_s = loop.time(), 0.0
         deadline = began + limit_s
         ran_before_s, waited_before_s = self.cpu_time().ran_s, waited_s()
-        ended_at: float | None = None
         while True:
             self._changed.clear()
             if self._observer.fault is not None:
@@ -118,9 +122,9 @@ class Waits:
             if seen():
                 return True
             now = loop.time()
-            if self._process.exit is not None and ended_at is None:
-                ended_at = now
-            if ended_at is not None and now - ended_at >= MAX_LATENCY_S:
+            if self._process.exit is not None and self._ended_at is None:
+                self._ended_at = now
+            if self._ended_at is not None and now - self._ended_at >= MAX_LATENCY_S:
                 return False
             if idle is not None and all_sent() and idle.is_idle_until(time.time() + deadline - now):
                 return False
