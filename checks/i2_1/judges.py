@@ -92,13 +92,17 @@ def judge_launch(seen: ParameterStarts) -> Verdict:
 
 
 def judge_launch_so_far(seen: ParameterStarts) -> Verdict | None:
-    """Judge `launch-params` by the fast start alone.
+    """Judge `launch-params` by the fast start alone, if the others can change neither the verdict nor its cause.
 
-    If that ignores a parameter for no known reason, the others may be ignored, too: the next step is for all of them.
+    If that start ignores a parameter for no known reason, the others may be ignored, too: the next step is for all of
+    them. Whether it ignores the rate, shows only in comparison with the slow start.
     """
-    failure = _judge_fast(seen)
-    is_last = failure is None or not failure.cause.startswith(_IGNORED)
-    return judge_launch(seen) if failure is not None and is_last else None
+    failure, start = _judge_fast(seen), seen.fast
+    if failure is None or start is None or failure.cause.startswith(_IGNORED):
+        return None
+    samples = start.trace.samples_on(TOPIC)
+    is_rate_wrong = bool(samples) and not find_without_prefix(samples, seen.prefix)
+    return None if is_rate_wrong and _diagnose_fast_rate_alone(start) is None else judge_launch(seen)
 
 
 _EXPECTED_AT_LAUNCH = f"--ros-args -p sets {PREFIX}, {RATE} and {ENABLED}, and each takes effect"
@@ -134,7 +138,7 @@ def _judge_fast(seen: ParameterStarts) -> Verdict | None:
     if has_rate:
         return None
     observed = f"with {given}: {describe(start.rate, start.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
-    cause = causes.diagnose_same_name(start.trace) or _diagnose_fast_rate(start, seen.slow)
+    cause = _diagnose_fast_rate_alone(start) or _diagnose_fast_rate(start, seen.slow)
     return failed(_EXPECTED_AT_LAUNCH, observed, cause)
 
 
@@ -180,19 +184,24 @@ def _judge_disabled(seen: ParameterStarts) -> Verdict | None:
     )
 
 
-def _diagnose_fast_rate(start: RatedStart, slow: RatedStart | None) -> Cause:
-    rate, trace = start.rate, start.trace
+def _diagnose_fast_rate_alone(start: RatedStart) -> Cause | None:
+    """Diagnose a wrong rate by what does not depend on the rate of another start."""
+    if (cause := causes.diagnose_same_name(start.trace)) is not None:
+        return cause
     period_slip = find_in_files(
-        trace, slips.diagnose_xor, period_slips.diagnose_second_timer, period_slips.diagnose_integer_period
+        start.trace, slips.diagnose_xor, period_slips.diagnose_second_timer, period_slips.diagnose_integer_period
     )
     if period_slip is not None:
         return period_slip
-    if rate is not None and rate.in_bursts:
-        return causes.diagnose_bursts(trace, steps.send_once_per_tick(trace))
-    if (waits := find_in_files(trace, spinning.diagnose_untimed_spin_once)) is not None:
-        return waits
+    if start.rate is not None and start.rate.in_bursts:
+        return causes.diagnose_bursts(start.trace, steps.send_once_per_tick(start.trace))
+    return find_in_files(start.trace, spinning.diagnose_untimed_spin_once)
+
+
+def _diagnose_fast_rate(start: RatedStart, slow: RatedStart | None) -> Cause:
+    rate, trace = start.rate, start.trace
     read = started_node(trace)
-    if rate is not None and (rate.agrees_with(DEFAULT_HZ) or (slow is not None and are_alike(rate, slow.rate))):
+    if rate is not None and (rate.agrees_with(DEFAULT_HZ) or (slow and are_alike(rate, slow.rate))):
         # A sleep that takes at least half of the period explains it; a shorter one does not.
         asleep = period_slips.diagnose_sleep(read, 0.2 * rate.hz) if read.timers else None
         return asleep or _diagnose_ignored(RATE, trace)

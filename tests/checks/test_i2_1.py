@@ -204,8 +204,8 @@ def test_launch_fails(found: ParameterStarts, cause: str, word: str) -> None:
     [
         (RatedStart(CRASHED, None, 0), "unhandled exception"),
         (RatedStart(SILENT, None, 0), "no messages"),
-        (RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(10.0), 10), "wrong rate"),
-        (RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(0.2), 10), "rate used as a period"),
+        (RatedStart(trace(*PREFIXED, graph=graph(("/node",) * 2)), rate(10.0), 10), "second node of the same name"),
+        (RatedStart(trace(*PREFIXED, graph=PUBLISHING), Rate(10.0, 20, 1.9, 0.01), 20), "messages in bursts"),
     ],
 )
 def test_a_fast_start_alone_fails_launch(fast: RatedStart, cause: str) -> None:
@@ -222,6 +222,8 @@ def test_a_fast_start_alone_fails_launch(fast: RatedStart, cause: str) -> None:
         # Whether `enabled` is ignored, too, belongs in the same step.
         ParameterStarts("Ahoy7", RatedStart(RUNNING, rate(LAUNCH_HZ), 10)),
         ParameterStarts("Ahoy7", RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(1.0), 10)),
+        # With 2 Hz in the slow start, too, it is the rate that is ignored.
+        ParameterStarts("Ahoy7", RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(2.0), 10)),
     ],
 )
 def test_launch_is_left_open_until_all_starts_have_ended(found: ParameterStarts) -> None:
