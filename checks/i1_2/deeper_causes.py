@@ -10,6 +10,7 @@ from functools import wraps
 from checks.i1_2 import backlog, slowness
 from checks.i1_2.facts import TOPIC, TYPE, Trial
 from tutor.judge import causes, edits, source
+from tutor.judge.causes.repeated_setup import diagnose_repeated_setup
 from tutor.judge.rewriting.node import argument
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Status, Verdict
@@ -65,6 +66,8 @@ def _diagnose_double_count(trials: Sequence[Trial]) -> Cause | None:
         ours = [each for each in trial.trace.graph.subscriptions if (each.topic, each.type) == (TOPIC, TYPE)]
         if len(ours) < 2 or not _has_doubled_count(trial):
             continue
+        if (repeated := diagnose_repeated_setup(trial.trace, "create_subscription")) is not None:
+            return repeated
         calls = source.calls(trial.trace, "create_subscription")
         line_numbers = [call.lineno for call in calls]
         where = f": lines {' and '.join(map(str, line_numbers))}" if len(line_numbers) > 1 else ""

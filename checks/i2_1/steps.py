@@ -15,7 +15,7 @@ from tutor.judge import causes
 from tutor.judge.causes import parameter_slips
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting import parameter_callbacks, parameters, publishing, whole
-from tutor.judge.rewriting.node import NodeFile, started_node
+from tutor.judge.rewriting.node import NodeFile, find_in_files, started_node
 from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
@@ -165,8 +165,11 @@ def check_at_start(trace: Trace) -> str:
 
 def diagnose_override(trace: Trace, name: str) -> Cause | None:
     """Diagnose code that overrides the value given to a parameter at start-up."""
-    read = started_node(trace)
-    return parameter_slips.diagnose_override(read, name, whole_program(read))
+    started = started_node(trace)
+    return find_in_files(
+        trace,
+        lambda file: parameter_slips.diagnose_override(file, name, whole_program(file) if file is started else []),
+    )
 
 
 def whole_program_step(trace: Trace) -> str:

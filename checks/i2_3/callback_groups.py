@@ -36,6 +36,17 @@ def timers_in_its_group(file: NodeFile) -> list[ast.Call]:
     return [each for each in file.timers if group_of(each) == own]
 
 
+def replace_looked_up_group(file: NodeFile) -> list[Edit]:
+    """Give the timer a group of its own if its group is looked up, as in a table: that may give the service's group."""
+    made = timer(file)
+    given = _given_group(made) if made is not None else None
+    looked_up = isinstance(given, ast.Subscript) or (isinstance(given, ast.Call) and called_name(given) not in _GROUPS)
+    if made is None or not looked_up:
+        return []
+    name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
+    return [*imported, set_group(file, made, f"{name}()")]
+
+
 def set_group(file: NodeFile, call: ast.Call, group: str) -> Edit:
     """Create the timer or service of this call in another callback group."""
     given = _given_group(call)

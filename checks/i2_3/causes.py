@@ -217,7 +217,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
         return Cause(
             names.BLOCKED_EXECUTOR,
             "the timer stops during a call",
-            steps.use_threads(started_node(seen.trace))
+            _use_threads(seen.trace)
             or "use a MultiThreadedExecutor, and put the timer and the service into different callback groups",
         )
     if _in_worker(seen.stuck):
@@ -235,9 +235,14 @@ def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
     return Cause(
         names.BLOCKED_EXECUTOR,
         f"one thread runs all callbacks, and while the service works{where}, the timer waits",
-        steps.use_threads(started_node(seen.trace))
+        _use_threads(seen.trace)
         or "use executor = MultiThreadedExecutor(num_threads=4), executor.add_node(node), executor.spin()",
     )
+
+
+def _use_threads(trace: Trace) -> str | None:
+    """The step that lets several threads run the callbacks: in the file that spins the node, or else in its own."""
+    return steps.use_threads(file_calling(trace, "spin")) or steps.use_threads(started_node(trace))
 
 
 def diagnose_lost_calls(trace: Trace, batch: CallBatch, answered: Sequence[CallAnswer]) -> Cause:

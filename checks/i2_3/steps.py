@@ -9,7 +9,14 @@ from __future__ import annotations
 import ast
 
 from checks.i2_3 import rewriting
-from checks.i2_3.callback_groups import group_edits, group_of, is_reentrant, set_group, timers_in_its_group
+from checks.i2_3.callback_groups import (
+    group_edits,
+    group_of,
+    is_reentrant,
+    replace_looked_up_group,
+    set_group,
+    timers_in_its_group,
+)
 from checks.i2_3.facts import SERVICE, WORK_S
 from checks.i2_3.rewriting import combine_edits, service, service_callback, timer
 from tutor.judge.causes.topics import use_default_service_qos
@@ -145,7 +152,12 @@ def _with_group_edits(file: NodeFile, edits: list[Edit]) -> list[Edit]:
 def separate_groups(file: NodeFile) -> str | None:
     """The step where the timer waits for the service although several threads run the callbacks."""
     return (
-        file.step(_add_threads(file), group_edits(file), rewriting.rewrite_service_callback(file))
+        file.step(
+            _add_threads(file),
+            group_edits(file),
+            replace_looked_up_group(file),
+            rewriting.rewrite_service_callback(file),
+        )
         or file.step(
             combine_edits(file, rewriting.rewrite_service_callback(file), rewriting.rewrite_timer_callback(file))
         )

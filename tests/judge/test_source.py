@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from pathlib import Path
 
 import pytest
@@ -102,3 +103,21 @@ def test_a_parameter_refers_to_the_function_that_all_callers_pass(calls: str, fo
     file = source.SourceFile(text)
     function = file.function(file.calls("create_service")[0].args[2])
     assert (function.name if function else None) == found
+
+
+def test_annotated_assignments_in_functions_are_read_as_plain_ones() -> None:
+    text = """
+@dataclass
+class Settings:
+    rate: float = 1.0
+
+    def __init__(self):
+        self.timer: Timer = self.create_timer(1.0, self.tick)
+        self.late: Timer
+"""
+    file = source.SourceFile(text)
+    assert source.values_of("self.timer", file.tree)
+    assert file.assigned_to(file.calls("create_timer")[0]) == "self.timer"
+    kept = [ast.unparse(each) for each in file.nodes if isinstance(each, ast.AnnAssign)]
+    assert kept == ["rate: float = 1.0", "self.late: Timer"]
+    assert file.calls("create_timer")[0].lineno == 7

@@ -25,7 +25,10 @@ class SourceFile:
 
     @cached_property
     def tree(self) -> ast.Module:
-        """The file's syntax tree, shared by equal texts; empty if Python cannot parse the file."""
+        """The file's syntax tree, shared by equal texts; empty if Python cannot parse the file.
+
+        In functions, assignments have no annotations.
+        """
         return _parsed(self.text)
 
     @cached_property
@@ -278,9 +281,35 @@ def compile_quietly(text: str) -> None:
         compile(text, "<learner>", "exec", dont_inherit=True)
 
 
+class _WithoutAnnotations(ast.NodeTransformer):
+    """Turns each annotated assignment in a function into a plain one, which is all that it is when it runs."""
+
+    def __init__(self) -> None:
+        self._in_function = False
+
+    def visit_FunctionDef(self, node: Function) -> ast.AST:
+        outside, self._in_function = self._in_function, True
+        self.generic_visit(node)
+        self._in_function = outside
+        return node
+
+    visit_AsyncFunctionDef = visit_FunctionDef
+
+    def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:  # its annotations may mean something, as in a dataclass
+        outside, self._in_function = self._in_function, False
+        self.generic_visit(node)
+        self._in_function = outside
+        return node
+
+    def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST:
+        if not self._in_function or node.value is None:
+            return node
+        return ast.copy_location(ast.Assign([node.target], node.value), node)
+
+
 @lru_cache(maxsize=32)
 def _parsed(text: str) -> ast.Module:
     try:
-        return parse(text)
+        return _WithoutAnnotations().visit(parse(text))  # type: ignore[no-any-return]
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return ast.Module([], [])

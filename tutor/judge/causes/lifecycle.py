@@ -6,7 +6,7 @@ import ast
 
 from tutor.judge.edits import Edit, append_to_function, insert_above, insert_after, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, started_node
-from tutor.judge.source import Function, called_name
+from tutor.judge.source import Function, called_name, mentions
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
 
@@ -24,7 +24,7 @@ def diagnose_lifecycle(trace: Trace) -> Cause | None:
         isinstance(each, ast.Call) and called_name(each) == "on_activate" for each in ast.walk(own)
     )
     call_super = _call_super(own) if lacks_super and own is not None else []
-    if file.calls("trigger_activate"):
+    if mentions(trace, "trigger_activate"):
         if not lacks_super:
             return None
         step = file.step(call_super) or "end on_activate with: return super().on_activate(state)"

@@ -17,6 +17,7 @@ from tutor.judge.source import called_name, values_of, where
 from tutor.judge.verdict import Cause
 
 _OVERWRITTEN = "value overwritten by the node"
+_DECLARE = ("declare_parameter", "declare_parameters")
 _CONVERSIONS = frozenset({"float", "int", "str", "round"})
 
 
@@ -56,13 +57,24 @@ def _diagnose_value_message(file: NodeFile, name: str) -> Cause | None:
     return Cause("parameter value not read", text, step)
 
 
+def _texts_in(file: NodeFile, given: ast.expr) -> set[str]:
+    """The texts in an expression, or in what the variable is assigned that it consists of."""
+    assigned = values_of(given.id, file.function_around(given) or file.tree) if isinstance(given, ast.Name) else []
+    nodes = (node for each in (given, *assigned) for node in ast.walk(each))
+    return {each.value for each in nodes if isinstance(each, ast.Constant) and isinstance(each.value, str)}
+
+
 def _diagnose_parameter_overrides(file: NodeFile, name: str, *whole: list[Edit]) -> Cause | None:
     for call in file.calls("create_node", "Node", "__init__", *file.node_classes):
         given = {each.arg: each.value for each in call.keywords}
-        if "parameter_overrides" not in given or name not in file.text:
+        if "parameter_overrides" not in given:
+            continue
+        overridden, declarations = _texts_in(file, given["parameter_overrides"]), file.calls(*_DECLARE)
+        if overridden and name not in overridden:  # without any text, the names come from a table
             continue
         removed = [remove_keyword(file.text, call, "parameter_overrides")]
-        declared = name in {each.value for each in _constants(file.calls("declare_parameter", "declare_parameters"))}
+        declared_names = [set(filter(None, _texts_in(file, each))) for each in declarations]
+        declared = any(name in names or not names for names in declared_names)
         step = file.step(*([removed] if declared else []), *whole)
         text = f"line {call.lineno}: parameter_overrides takes precedence over the value given at start-up"
         return Cause(_OVERWRITTEN, text, step) if step else None

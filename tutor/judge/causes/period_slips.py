@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise, takewhile
 
+from tutor.judge.causes.repeated_setup import diagnose_repeated_setup
 from tutor.judge.edits import insert_after, remove_statement, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument, find_in_files
 from tutor.judge.source import calls_in, last_name, values_of, where
@@ -147,10 +148,14 @@ def diagnose_twin_timers(file: NodeFile) -> Cause | None:
 
 def diagnose_bursts(trace: Trace, step: str) -> Cause:
     """Several messages are sent at once: by timers that a loop makes or that are left over, or by a loop (`step`)."""
-    return find_in_files(trace, diagnose_timer_loop, diagnose_second_timer) or Cause(
-        "messages in bursts",
-        "several messages are sent at once, then none for a while: that is not a rate",
-        step,
+    return (
+        find_in_files(trace, diagnose_timer_loop, diagnose_second_timer)
+        or diagnose_repeated_setup(trace, "create_timer")
+        or Cause(
+            "messages in bursts",
+            "several messages are sent at once, then none for a while: that is not a rate",
+            step,
+        )
     )
 
 
