@@ -10,7 +10,7 @@ from functools import wraps
 from checks.i1_2 import backlog, slowness
 from checks.i1_2.facts import TOPIC, TYPE, Trial
 from tutor.judge import causes, edits, source
-from tutor.judge.causes.repeated_setup import diagnose_repeated_setup
+from tutor.judge.causes.inheritance import diagnose_repeated_setup
 from tutor.judge.rewriting.node import argument
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, Status, Verdict

@@ -37,6 +37,7 @@ from tutor.judge.causes import (
     slips,
     spinning,
 )
+from tutor.judge.causes.inheritance import diagnose_timer_of_base_class
 from tutor.judge.rates import TOLERANCE, Rate, describe
 from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.trace import Trace
@@ -234,7 +235,8 @@ def _diagnose_timer(seen: RateChanges, asked: float, rate: Rate | None) -> Cause
     if (rounded := diagnose_rounded_rate(rate, asked, steps.follow_changes(trace))) is not None:
         return rounded
     if rate is not None and rate.hz > asked:
-        return period_slip or causes.diagnose_old_timer(rate.hz, asked, steps.cancel_old_timer(trace))
+        left = period_slip or diagnose_timer_of_base_class(trace)
+        return left or causes.diagnose_old_timer(rate.hz, asked, steps.cancel_old_timer(trace))
     if rate is None and (loop := callback_slips.diagnose_loop_in_callback(read, whole_program(read))) is not None:
         return loop
     if rate is None or rate.agrees_with(1 / asked):

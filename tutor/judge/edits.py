@@ -238,21 +238,22 @@ def _indent(lines: Sequence[str], edit: Edit) -> list[str]:
     return textwrap.indent(edit.code, margin).splitlines()
 
 
-def describe_edits(text: str, *edits: Edit | Sequence[Edit], file: str = "") -> str | None:
+def describe_edits(text: str, *edits: Edit | Sequence[Edit], file: str = "", defined: Iterable[str] = ()) -> str | None:
     """The edits in words, as a next step; None if they would break the file or change nothing.
 
-    The file is broken if Python can no longer parse it, or if the new code uses an undefined name.
+    The file is broken if Python can no longer parse it, or if the new code uses an undefined name. `defined`: names
+    that are defined elsewhere, such as "self.timer" in a base class.
     """
     flat = [edit for each in edits for edit in ([each] if isinstance(each, Edit) else each)]
     edited = apply(text, flat)
-    if not differs_in_words(text, edited) or not is_sound_change(text, edited):
+    if not differs_in_words(text, edited) or not is_sound_change(text, edited, defined):
         return None
     return (f"in {file}, " if file else "") + "\n".join(_describe_edit(text, edit) for edit in flat)
 
 
-def describe_edits_of(file: SourceFile, *edits: Edit | Sequence[Edit]) -> str | None:
+def describe_edits_of(file: SourceFile, *edits: Edit | Sequence[Edit], defined: Iterable[str] = ()) -> str | None:
     """`describe_edits` for a source file, under its own name."""
-    return describe_edits(file.text, *edits, file=file.file)
+    return describe_edits(file.text, *edits, file=file.file, defined=defined)
 
 
 def is_already_there(text: str, edit: Edit) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from pyflakes import checker, messages
 
@@ -49,9 +49,28 @@ def differs_in_words(before: str, after: str) -> bool:
     return words(before) != words(after)
 
 
-def is_sound_change(before: str, after: str) -> bool:
-    """Whether the changed file still parses and uses no name that is undefined only since the change."""
-    return parses(after) and not set(_undefined_names(after)) - set(_undefined_names(before))
+def is_sound_change(before: str, after: str, defined: Iterable[str] = ()) -> bool:
+    """Whether the changed file still parses and uses no name that is undefined only since the change.
+
+    `defined`: names that another file defines.
+    """
+    return parses(after) and not set(_undefined_names(after)).difference(_undefined_names(before), defined)
+
+
+def attributes_of_classes(texts: Iterable[str]) -> set[str]:
+    """The attributes of `self` that the classes in these files set, as a derived class writes them ("self.timer")."""
+    found = set[str]()
+    for text in filter(parses, texts):
+        for owner in (each for each in ast.walk(parse(text)) if isinstance(each, ast.ClassDef)):
+            own = (each for each in ast.walk(owner) if isinstance(each, ast.Attribute))
+            kept = (each.attr for each in own if isinstance(each.ctx, ast.Store) and ast.unparse(each.value) == "self")
+            found |= {f"self.{mangled(name, owner.name)}" for name in kept}
+    return found
+
+
+def mangled(attribute: str, owner: str) -> str:
+    """An attribute's name outside of its class `owner`: one that begins with two underscores is private to it."""
+    return f"_{owner.lstrip('_')}{attribute}" if attribute.startswith("__") else attribute
 
 
 def _undefined_names(text: str) -> Iterator[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from tutor.judge.source_changes import differs_in_words, is_sound_change
+from tutor.judge.source_changes import attributes_of_classes, differs_in_words, is_sound_change
 
 _EDIT_FORMS = (
     ("become", re.compile(r"lines? (?P<first>\d+)(?: (?:to|and) (?P<last>\d+))?(?: becomes?)?:(?P<code>.*)")),
@@ -46,7 +46,8 @@ def is_applicable(step: str, files: Mapping[str, str]) -> bool:
     except NotAnEdit:
         return False
     changed = [(text, after[name]) for name, text in files.items() if differs_in_words(text, after[name])]
-    return bool(changed) and all(is_sound_change(text, edited) for text, edited in changed)
+    defined = attributes_of_classes(files.values()) if len(files) > 1 else ()
+    return bool(changed) and all(is_sound_change(text, edited, defined) for text, edited in changed)
 
 
 def _parts(step: str) -> list[str]:

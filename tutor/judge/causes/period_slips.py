@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise, takewhile
 
-from tutor.judge.causes.repeated_setup import diagnose_repeated_setup
+from tutor.judge.causes.inheritance import diagnose_repeated_setup
 from tutor.judge.edits import insert_after, remove_statement, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, argument, find_in_files
 from tutor.judge.source import calls_in, last_name, values_of, where
