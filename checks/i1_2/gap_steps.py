@@ -119,9 +119,11 @@ def _find_missing_update(function: Function, last: str, right: str) -> tuple[str
             "after a gap"
         )
         return text, at_end
-    end = next((each for each in inside if isinstance(each, ast.Return) and each.lineno < always[-1].lineno), None)
-    if end is None:
+    handled = [node for each in inside if isinstance(each, ast.ExceptHandler) for node in ast.walk(each)]
+    ends = [each for each in inside if isinstance(each, ast.Return) and each.lineno < always[-1].lineno]
+    if not ends:
         return None
+    end = next((each for each in ends if each not in handled), ends[0])  # messages without a number are rare
     text = f"line {end.lineno}: return leaves {function.name} before {where(always[-1])}"
     return text, [edits.insert_above(end.lineno, ast.unparse(always[-1]))]
 

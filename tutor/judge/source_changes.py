@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from pyflakes import checker, messages
 
-from tutor.judge.source import Function, SourceFile, compile_quietly, parse
+from tutor.judge.source import Function, SourceFile, compile_quietly, last_name, parse
 
 _NODE_ATTRIBUTES = {
     "add_on_set_parameters_callback",
@@ -87,6 +87,19 @@ def _undefined_names(text: str) -> Iterator[str]:
         elif isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store):
             defined.add(each.id)  # it may be a class attribute
     yield from (f"self.{each.attr}" for each in own if each.attr not in defined)
+    classes = [each for each in ast.walk(tree) if isinstance(each, ast.ClassDef)]
+    bases = {last_name(base) for each in classes for base in each.bases}
+    for owner in (each for each in classes if not each.bases and each.name not in bases):  # no node, nor part of one
+        used = {each.attr for each in ast.walk(owner) if each in own} & _NODE_ATTRIBUTES
+        yield from (f"self.{name} in {owner.name}" for name in used if not _sets(owner, name))
+
+
+def _sets(owner: ast.ClassDef, name: str) -> bool:
+    """Whether a class defines this method or attribute."""
+    nodes = list(ast.walk(owner))
+    stored = (each for each in nodes if isinstance(each, ast.Attribute | ast.Name) and isinstance(each.ctx, ast.Store))
+    names = {each.attr if isinstance(each, ast.Attribute) else each.id for each in stored}
+    return name in names | {each.name for each in nodes if isinstance(each, Function)}
 
 
 def parses(text: str) -> bool:
