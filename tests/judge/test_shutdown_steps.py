@@ -107,6 +107,16 @@ def test_a_subclass_of_thread_becomes_a_daemon() -> None:
     assert "super().__init__(name='w', daemon=True)" in shutdown_steps.allow_interrupt(kept)
 
 
+def test_a_thread_of_another_file_becomes_a_daemon_if_the_program_catches_ctrl_c() -> None:
+    watch = "class Watch(Thread):\n    def __init__(self):\n        super().__init__(name='w')\n"
+    program = node(MAIN)
+    kept = replace(program, sources={**program.sources, "watch.py": watch})
+    step = shutdown_steps.allow_interrupt(kept)
+    assert step == "in watch.py, line 3 becomes: super().__init__(name='w', daemon=True)"
+    deaf = replace(kept, sources={program.file: "while True:\n    pass\n", "watch.py": watch})
+    assert "watch.py" not in shutdown_steps.allow_interrupt(deaf)
+
+
 def test_a_correct_program_is_not_rewritten() -> None:
     assert shutdown_steps.allow_interrupt(node(MAIN)).startswith("let KeyboardInterrupt end the program")
     assert shutdown_steps.exit_with_zero(node("def broken(")).startswith("return normally")

@@ -19,10 +19,10 @@ from tutor.judge.edits import (
     replace_statement,
 )
 from tutor.judge.rewriting.callbacks import outermost
-from tutor.judge.rewriting.node import NodeFile, find_in_files
-from tutor.judge.rewriting.program import clean_ending, code_of, first_sound_step, guard_spin
+from tutor.judge.rewriting.node import NodeFile, find_in_files, node_files
+from tutor.judge.rewriting.program import clean_ending, code_of, first_sound_step, guard_spin, make_daemons
 from tutor.judge.rewriting.program_scope import SPINS
-from tutor.judge.source import calls_in
+from tutor.judge.source import calls_in, mentions
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 
@@ -49,8 +49,13 @@ def catch_interrupt(trace: Trace, frames: Sequence[Frame] = ()) -> str:
 
 def allow_interrupt(trace: Trace) -> str:
     """How to let Ctrl+C end the program."""
-    return first_sound_step(trace, clean_ending) or (
-        "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()"
+    # A program that catches Ctrl+C may wait for a thread that another file of it makes.
+    elsewhere = [each for each in node_files(trace) if each.file not in ("", trace.file)]
+    daemons = (each.step(make_daemons(each)) for each in elsewhere if mentions(trace, "KeyboardInterrupt"))
+    return (
+        next(filter(None, daemons), None)
+        or first_sound_step(trace, clean_ending)
+        or ("let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()")
     )
 
 

@@ -114,15 +114,18 @@ def _call_once(file: NodeFile, scope: Scope) -> list[Edit]:
 
 def _remove_obstacles(file: NodeFile) -> list[Edit]:
     """Let the process end: turn threads into daemons, and leave Ctrl+C and the exit to rclpy."""
-    found = []
-    for each in [*file.calls("Thread"), *_thread_subclasses(file)]:
-        if not any(given.arg == "daemon" for given in each.keywords):
-            found.append(make_daemon(file, each))
+    found = make_daemons(file)
     for each in file.calls("signal", "register"):
         statement = file.statement(each)
         if isinstance(statement, ast.Expr) and ast.unparse(each.func) in ("signal.signal", "atexit.register"):
             found.append(replace_statement(statement, "pass"))
     return found
+
+
+def make_daemons(file: NodeFile) -> list[Edit]:
+    """Turn all threads that the file makes into daemons, except for those that say what they are."""
+    made = [*file.calls("Thread"), *_thread_subclasses(file)]
+    return [make_daemon(file, each) for each in made if not any(given.arg == "daemon" for given in each.keywords)]
 
 
 def _thread_subclasses(file: NodeFile) -> list[ast.Call]:
