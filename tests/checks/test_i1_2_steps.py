@@ -127,6 +127,18 @@ def test_a_number_compared_with_the_count(test: str) -> None:
             "line 13: return leaves listen before line 14",
             "write above line 13, with the same indentation: self.last_number = number",
         ),
+        (  # messages without a number may be left out
+            [
+                (
+                    "        number = int(msg.data.split(':')[1])",
+                    "        try:\n            number = int(msg.data.split(':')[1])\n        except ValueError:\n"
+                    "            return",
+                ),
+                ("missing')\n", "missing')\n            return\n"),
+            ],
+            "line 16: return leaves listen before line 17",
+            "write above line 16, with the same indentation: self.last_number = number",
+        ),
         (
             [("        self.last_number = number\n", "")],
             "self.last_number is never set",
