@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from checks.i1_3.code import Code, learner_files
 from checks.i1_3.facts import OPERATOR_SIGNS
-from tutor.judge import edits, source
+from tutor.judge import edits, source, syntax_tree
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.node import argument, with_body
 from tutor.judge.source import Function, last_name
@@ -192,7 +192,7 @@ def _replace_callback(change: Changes, offer: Offer, service: str) -> None:
         self_name = code.self_name(call)
         lines = _common_callback(self_name)
         if any(
-            ast.unparse(each) == ast.unparse(source.parse("\n".join(lines)))
+            ast.unparse(each) == ast.unparse(syntax_tree.parse("\n".join(lines)))
             for each in code.functions_named("calculate")
         ):
             return  # the file has it already, so the fault must be elsewhere

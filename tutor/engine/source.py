@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
-from tutor.judge.source import parse
+from tutor.judge.syntax_tree import parse
 from tutor.judge.tracebacks import Frame
 from tutor.workspace.regular import read_regular
 

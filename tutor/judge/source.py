@@ -6,11 +6,11 @@ It only shapes the wording of a diagnosis, never a verdict. A file that Python c
 from __future__ import annotations
 
 import ast
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
+from tutor.judge.syntax_tree import parsed
 from tutor.judge.trace import Trace
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
@@ -25,11 +25,8 @@ class SourceFile:
 
     @cached_property
     def tree(self) -> ast.Module:
-        """The file's syntax tree, shared by equal texts; empty if Python cannot parse the file.
-
-        In functions, assignments have no annotations.
-        """
-        return _parsed(self.text)
+        """The file's syntax tree (see `syntax_tree.parsed`)."""
+        return parsed(self.text)
 
     @cached_property
     def nodes(self) -> list[ast.AST]:
@@ -176,12 +173,12 @@ def file_holding(trace: Trace, node: ast.AST) -> SourceFile:
 def all_nodes(trace: Trace) -> Iterator[ast.AST]:
     """All nodes of the syntax trees of the learner's files."""
     for text in trace.sources.values():
-        yield from ast.walk(_parsed(text))
+        yield from ast.walk(parsed(text))
 
 
 def syntax_nodes(text: str) -> list[ast.AST]:
     """All nodes of the syntax tree of one file's text; equal texts share their nodes."""
-    return list(ast.walk(_parsed(text)))
+    return list(ast.walk(parsed(text)))
 
 
 def mentions(trace: Trace, *names: str) -> bool:
@@ -267,49 +264,3 @@ def last_name(expression: ast.AST | None) -> str:
         case ast.Attribute(attr=name) | ast.Name(id=name):
             return name
     return ""
-
-
-def parse(text: str) -> ast.Module:
-    """Parse Python code as `ast.parse` does, but without Python's warnings: the code is the learner's."""
-    with warnings.catch_warnings(action="ignore", category=SyntaxWarning):
-        return ast.parse(text)
-
-
-def compile_quietly(text: str) -> None:
-    """Compile Python code, to see whether that raises SyntaxError, without Python's warnings."""
-    with warnings.catch_warnings(action="ignore", category=SyntaxWarning):
-        compile(text, "<learner>", "exec", dont_inherit=True)
-
-
-class _WithoutAnnotations(ast.NodeTransformer):
-    """Turns each annotated assignment in a function into a plain one, which is all that it is when it runs."""
-
-    def __init__(self) -> None:
-        self._in_function = False
-
-    def visit_FunctionDef(self, node: Function) -> ast.AST:
-        outside, self._in_function = self._in_function, True
-        self.generic_visit(node)
-        self._in_function = outside
-        return node
-
-    visit_AsyncFunctionDef = visit_FunctionDef
-
-    def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:  # its annotations may mean something, as in a dataclass
-        outside, self._in_function = self._in_function, False
-        self.generic_visit(node)
-        self._in_function = outside
-        return node
-
-    def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST:
-        if not self._in_function or node.value is None:
-            return node
-        return ast.copy_location(ast.Assign([node.target], node.value), node)
-
-
-@lru_cache(maxsize=32)
-def _parsed(text: str) -> ast.Module:
-    try:
-        return _WithoutAnnotations().visit(parse(text))  # type: ignore[no-any-return]
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return ast.Module([], [])

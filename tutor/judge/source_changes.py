@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator
 
 from pyflakes import checker, messages
 
-from tutor.judge.source import Function, SourceFile, compile_quietly, last_name, parse
+from tutor.judge.source import Function, SourceFile, last_name
+from tutor.judge.syntax_tree import compile_quietly, parse
 
 _NODE_ATTRIBUTES = {
     "add_on_set_parameters_callback",

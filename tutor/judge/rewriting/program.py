@@ -10,7 +10,8 @@ from itertools import takewhile
 from tutor.judge.edits import Edit, add_import, insert_after, insert_below, replace_node, replace_statement
 from tutor.judge.rewriting.node import NodeFile, first_line, node_file
 from tutor.judge.rewriting.program_scope import Scope, find_scope, setup_statements
-from tutor.judge.source import Function, SourceFile, called_name, calls_in, last_name, parse
+from tutor.judge.source import Function, SourceFile, called_name, calls_in, last_name
+from tutor.judge.syntax_tree import parse
 from tutor.judge.trace import Trace
 
 _THREADS = 8

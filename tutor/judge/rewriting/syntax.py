@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from tutor.judge.edits import Edit, describe_edits, replace_lines
-from tutor.judge.source import compile_quietly
+from tutor.judge.syntax_tree import compile_quietly
 
 _LINES_ABOVE = 6
 """How many lines above the one at which Python stops are searched for the mistake."""
