@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from tests.engine.helpers import Scene, criterion, statuses
 from tutor.errors import MachineTooBusy
 from tutor.judge.bench import Bench, Scenario
-from tutor.judge.verdict import Cause, Verdict, failed, passed, undecided
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
 
 CAUSE = Cause("no", "it does not", "do it")
 
@@ -66,6 +66,20 @@ async def test_a_failure_on_a_slowed_machine_is_judged_again_with_new_facts(scen
         criterion("once", calm, judge=passes_from(2)),
     )
     assert statuses(result) == {"again": "passed", "once": "failed"}
+    assert machine.runs == {"slowed": 2, "calm": 1}
+
+
+async def test_what_a_judge_skips_on_a_slowed_machine_is_judged_again_with_new_facts(scene: Scene) -> None:
+    def skips_until(run: int) -> Callable[..., Verdict]:
+        return lambda facts: passed("", "") if facts.run >= run else skipped("another criterion did not pass")
+
+    machine = Machine()
+    slowed, calm = machine.scenario("slowed", slowed_until=1), machine.scenario("calm")
+    result = await scene.judge(
+        criterion("again", slowed, judge=skips_until(2)),
+        criterion("once", calm, judge=skips_until(2)),
+    )
+    assert statuses(result) == {"again": "passed", "once": "skipped"}
     assert machine.runs == {"slowed": 2, "calm": 1}
 
 

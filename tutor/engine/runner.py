@@ -226,7 +226,7 @@ class Runner:
             await _cancel([full])
 
     async def _judge_fully(self, criterion: Criterion) -> Verdict:
-        """Judge a criterion, and repeat its scenarios if the machine may be the reason why it is not met."""
+        """Judge a criterion, and repeat its scenarios if the machine may be the reason why it is not met, or skipped."""
         while True:
             runs = [self._task_of(scenario) for scenario in criterion.facts]
             facts = [await asyncio.shield(run) for run in runs]
@@ -237,7 +237,7 @@ class Runner:
             repeated = [
                 self._repeat(scenario, run, alone=undecided)
                 for scenario, run, seen in zip(criterion.facts, runs, facts, strict=True)
-                if undecided or (verdict.status is Status.FAILED and was_slowed(seen))
+                if undecided or (verdict.status in (Status.FAILED, Status.SKIPPED) and was_slowed(seen))
             ]
             if not any(repeated):
                 return verdict
