@@ -50,12 +50,12 @@ def catch_interrupt(trace: Trace, frames: Sequence[Frame] = ()) -> str:
 def allow_interrupt(trace: Trace) -> str:
     """How to let Ctrl+C end the program."""
     # A program that catches Ctrl+C may wait for a thread that another file of it makes.
-    elsewhere = [each for each in node_files(trace) if each.file not in ("", trace.file)]
-    daemons = (each.step(make_daemons(each)) for each in elsewhere if mentions(trace, "KeyboardInterrupt"))
+    catches = mentions(trace, "KeyboardInterrupt")
+    elsewhere = [each for each in node_files(trace) if catches and each.file not in ("", trace.file)]
     return (
-        next(filter(None, daemons), None)
+        next(filter(None, (each.step(make_daemons(each)) for each in elsewhere)), None)
         or first_sound_step(trace, clean_ending)
-        or ("let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()")
+        or "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()"
     )
 
 

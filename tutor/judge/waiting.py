@@ -166,7 +166,7 @@ async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: f
         return run.node_cpu_wait_s() - waited_s < HARDLY_WAITED_SHARE * (run.now() - start)
 
     def is_clear() -> bool:
-        return are_undisturbed(all_samples(), cpu_wait_s=run.node_cpu_wait_s() - waited_s, elapsed_s=run.now() - start)
+        return hardly_waited() and are_even(all_samples())
 
     def is_flooded() -> bool:
         return len(all_samples()) >= FLOOD_MESSAGES + FLOOD_FACTOR * asked_hz * (run.now() - start)
