@@ -1,18 +1,20 @@
 """How soon a learner gets feedback: the first failed criterion and the whole verdict, over the test submissions.
 
-    uv run python -m tests.benchmarks.verdicts [EXERCISE[/KIND[/NAME]] ...] [--sample] [--jobs 2] [--times 1]
+    uv run python -m tests.benchmarks.verdicts [EXERCISE[/KIND[/NAME]] ...] [--sample] [--ready] [--jobs 2] [--times 1]
 
 For each exercise: its solution, alone, then its wrong and its right submissions (KIND is one of these two), each timed
-from the start of its process. "told" is when the first final failed criterion comes, "whole" when the check has ended;
-half of the checks stay within p50, nine of ten within p90. "times sol." is the median of the submissions relative to
-the solution's time; "within" is the share of them that end within twice the solution's time plus 4 s. CPU is in seconds
-per check: of the engine, and of its children.
+from the start of its process; with `--ready`, as in the app after the first check: from the moment at which an engine
+that has prepared itself is given its arguments. "told" is when the first final failed criterion comes, "whole" when the
+check has ended; half of the checks stay within p50, nine of ten within p90. "times sol." is the median of the
+submissions relative to the solution's time; "within" is the share of them that end within twice the solution's time
+plus 4 s. CPU is in seconds per check: of the engine, and of its children.
 """
 
 from __future__ import annotations
 
 import argparse
 import asyncio
+import contextlib
 import csv
 import json
 import os
@@ -29,8 +31,10 @@ from tutor.content import load_course
 from tutor.content.submissions import RIGHT, WRONG
 from tutor.judge.events import CriterionJudged, ExerciseJudged, decode
 from tutor.judge.verdict import Status
+from tutor.process.supervisor import descendants
 
 LIMIT_S = 180.0
+QUIET_S = 0.3
 
 # Only the engine's own process can tell its CPU time from that of its children, so it prints both.
 PROGRAM = """
@@ -57,18 +61,24 @@ class Timing:
     started_s: float
 
 
-async def time_check(name: str, exercise: str, kind: str, folder: Path) -> Timing:
+async def time_check(name: str, exercise: str, kind: str, folder: Path, *, ready: bool) -> Timing:
     """Check the files in a folder. Raises SystemExit if there is no verdict."""
+    arguments = [exercise, str(folder)]
     began = time.perf_counter()
     process = await asyncio.create_subprocess_exec(
-        *(sys.executable, "-c", PROGRAM, exercise, str(folder)),
-        stdin=asyncio.subprocess.DEVNULL,
+        *(sys.executable, "-c", PROGRAM, *(["--standby"] if ready else arguments)),
+        stdin=asyncio.subprocess.PIPE,
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.PIPE,
         limit=2**24,
     )
+    assert process.stdin is not None
     assert process.stdout is not None
     assert process.stderr is not None
+    if ready:
+        await _wait_until_prepared(process.pid)
+        began = time.perf_counter()
+        process.stdin.write(json.dumps(arguments).encode() + b"\n")
     stderr = asyncio.ensure_future(process.stderr.read())
     told_s, verdict = None, ""
     try:
@@ -92,13 +102,25 @@ async def time_check(name: str, exercise: str, kind: str, folder: Path) -> Timin
     return Timing(name, exercise, kind, verdict, told_s, whole_s, ours_s, started_s)
 
 
-async def time_all(wanted: Sequence[tuple[str, str, str, Path]], jobs: int) -> list[Timing]:
+async def _wait_until_prepared(engine: int) -> None:
+    """Wait until an engine and its fork server have used no CPU time for `QUIET_S`."""
+    used, since = -1, time.monotonic()
+    while time.monotonic() < since + QUIET_S:
+        await asyncio.sleep(0.02)
+        pids = [engine, *(each.pid for each in descendants(engine))]
+        with contextlib.suppress(OSError):  # one of them has just ended
+            fields = [Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split() for pid in pids]
+            if len(pids) < 2 or used != (used := sum(int(field[11]) + int(field[12]) for field in fields)):
+                since = time.monotonic()
+
+
+async def time_all(wanted: Sequence[tuple[str, str, str, Path]], jobs: int, *, ready: bool) -> list[Timing]:
     """Check all, `jobs` at a time; report each on stderr."""
     slots, timings = asyncio.Semaphore(jobs), []
 
     async def check_one(name: str, exercise: str, kind: str, folder: Path) -> None:
         async with slots:
-            each = await time_check(name, exercise, kind, folder)
+            each = await time_check(name, exercise, kind, folder, ready=ready)
         timings.append(each)
         told = f"{each.told_s:6.2f}" if each.told_s is not None else "      "
         print(f"{len(timings):>5}/{len(wanted)} {told} {each.whole_s:6.2f} s  {name}", file=sys.stderr, flush=True)
@@ -133,6 +155,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
     parser.add_argument("--sample", action="store_true", help="only the submissions that the tests judge")
+    parser.add_argument("--ready", action="store_true", help="by engines that have prepared themselves, as in the app")
     parser.add_argument("--jobs", type=int, default=2, help="submissions checked in parallel")
     parser.add_argument("--times", type=int, default=1, help="check each submission this many times")
     parser.add_argument("--solution-times", type=int, default=3, help="check each solution this many times, alone")
@@ -152,7 +175,7 @@ def main() -> int:
     for lesson in lessons:
         folder = lesson.folder / "solution"
         own = [(f"{lesson.id} solution", lesson.id, "solution", folder)] * arguments.solution_times
-        solutions = asyncio.run(time_all(own, 1))
+        solutions = asyncio.run(time_all(own, 1, ready=arguments.ready))
         solution_s[lesson.id] = statistics.median(each.whole_s for each in solutions)
         print(format_row(f"{lesson.id} solution", solutions, None), flush=True)
         timings += solutions
@@ -161,7 +184,7 @@ def main() -> int:
             mine = [case for case in cases if case.exercise == lesson.id and case.kind == kind]
             if mine:
                 wanted = [(str(case), lesson.id, kind, case.folder) for case in mine] * arguments.times
-                found = asyncio.run(time_all(wanted, arguments.jobs))
+                found = asyncio.run(time_all(wanted, arguments.jobs, ready=arguments.ready))
                 print(format_row(f"{lesson.id} {kind}", found, solution_s[lesson.id]), flush=True)
                 timings += found
         if found := [each for each in timings if each.kind == kind]:

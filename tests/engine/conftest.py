@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from tests.engine.helpers import Scene
-from tutor.engine.check import NODE_MODULES
 from tutor.engine.forking import start_fork_server
+from tutor.engine.preparation import NODE_MODULES
 from tutor.process.fork_link import ForkServerLink
 from tutor.ros import process_setup
 from tutor.ros.environment import RosEnvironment, detect

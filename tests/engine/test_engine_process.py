@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 import uuid
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -33,11 +33,19 @@ class Engine:
         self._process = subprocess.Popen(
             [sys.executable, "-m", "tutor.engine", *map(str, arguments)],
             env={**os.environ, "TEST_TOKEN": self._mark.partition("=")[2]},
-            stdin=subprocess.DEVNULL,
+            stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
         )
+
+    def give_arguments(self, *arguments: str | Path) -> None:
+        """Give an engine on standby its arguments; none: just close its stdin, as the end of the app does."""
+        assert self._process.stdin is not None
+        with self._process.stdin as stdin:
+            if arguments:
+                stdin.write(json.dumps([str(each) for each in arguments]) + "\n")
+        self._process.stdin = None
 
     def running(self) -> list[int]:
         """Return the pids of the engine and its descendants that are still alive."""
@@ -51,6 +59,13 @@ class Engine:
             if process.alive and (mine or pid in self._known_pids):
                 pids.append(pid)
         return pids
+
+    def wait_until(self, enough: Callable[[int], bool]) -> None:
+        """Wait until the number of its living processes is as wanted."""
+        deadline = time.monotonic() + 20
+        while not enough(len(self.running())):
+            assert time.monotonic() < deadline
+            time.sleep(0.01)
 
     def read_until(self, kind: type[Event]) -> Event:
         """Read up to the next event of this kind, and return it."""
@@ -71,8 +86,7 @@ class Engine:
     def wait(self) -> tuple[int, list[Event], str]:
         """Wait for the exit; return the exit code, the events not yet read, and stderr."""
         assert self._process.stdout is not None
-        out = "" if self._process.stdout.closed else self._process.stdout.read()
-        _, err = self._process.communicate(timeout=LIMIT_S) if out else ("", "")
+        out, err = ("", "") if self._process.stdout.closed else self._process.communicate(timeout=LIMIT_S)
         code = self._process.wait(LIMIT_S)
         return code, [decode(line) for line in out.splitlines()], err
 
@@ -80,9 +94,9 @@ class Engine:
         for pid in self.running():
             os.kill(pid, signal.SIGKILL)
         self._process.wait()
-        for stream in (self._process.stdout, self._process.stderr):
-            assert stream is not None
-            stream.close()
+        for stream in (self._process.stdin, self._process.stdout, self._process.stderr):
+            if stream is not None:
+                stream.close()
 
 
 @contextmanager
@@ -90,10 +104,7 @@ def engine(*arguments: str | Path) -> Iterator[Engine]:
     started = Engine(*arguments)
     try:
         yield started
-        deadline = time.monotonic() + 20
-        while pids := started.running():
-            assert time.monotonic() < deadline, pids
-            time.sleep(0.01)
+        started.wait_until(lambda running: running == 0)
     finally:
         started.kill()
 
@@ -121,6 +132,31 @@ def test_stdout_has_only_events() -> None:
     assert exercise.result.criteria == (judged.result,)
 
 
+def test_an_engine_on_standby_has_imported_everything_and_checks_once_it_has_its_arguments() -> None:
+    with engine("--standby") as started:
+        started.wait_until(lambda running: running >= 2)  # itself and the fork server
+        started.give_arguments("i1.1", SOLUTION, "--criterion", "publishes")
+        code, events, err = started.wait()
+    assert (code, err) == (0, "")
+    assert events[0] == CheckStarted("i1.1", ("publishes",))
+    assert isinstance(events[-1], CheckFinished)
+    assert events[-1].report.verdict is Status.PASSED
+
+
+def test_an_engine_on_standby_exits_quietly_when_the_app_ends_or_interrupts_it(tmp_path: Path) -> None:
+    with engine("--standby") as unused, engine("--standby") as interrupted, engine("--standby") as misused:
+        unused.give_arguments()
+        assert unused.wait() == (0, [], "")
+        interrupted.wait_until(lambda running: running >= 2)
+        interrupted.send_signal(signal.SIGINT)
+        interrupted.wait_until(lambda running: running == 0)
+        assert interrupted.wait() == (130, [], "")
+        misused.give_arguments("i1.1", tmp_path)
+        code, events, err = misused.wait()
+        assert (code, events) == (2, [])
+        assert "temperature_publisher.py" in err
+
+
 def test_a_failed_check_exits_with_0_reports_what_is_missing_and_with_first_ends_at_the_first_failure() -> None:
     with engine(
         "i1.1", SOLUTION.with_name("skeleton"), "--first", "--criterion", "publishes", "--criterion", "rate"
@@ -143,10 +179,7 @@ def test_an_interrupted_engine_cleans_up(tmp_path: Path, number: int) -> None:
     (tmp_path / "temperature_publisher.py").write_text(WAITS)
     with engine("i1.1", tmp_path, "--criterion", "publishes") as started:
         started.read_until(CheckStarted)
-        deadline = time.monotonic() + 20
-        while len(started.running()) < 3:  # itself, a supervisor and a learner
-            assert time.monotonic() < deadline
-            time.sleep(0.01)
+        started.wait_until(lambda running: running >= 3)  # itself, a supervisor and a learner
         started.send_signal(number)
         code, events, err = started.wait()
         assert (code, err) == (130, "")
@@ -158,10 +191,7 @@ def test_a_killed_engine_leaves_no_process(tmp_path: Path, monkeypatch: pytest.M
     (tmp_path / "temperature_publisher.py").write_text(WAITS)
     with engine("i1.1", tmp_path, "--criterion", "publishes") as started:
         started.read_until(CheckStarted)
-        deadline = time.monotonic() + 20
-        while len(started.running()) < 3:
-            assert time.monotonic() < deadline
-            time.sleep(0.01)
+        started.wait_until(lambda running: running >= 3)
         started.send_signal(signal.SIGKILL)
 
 

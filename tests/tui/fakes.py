@@ -109,12 +109,16 @@ class FakeSession(Session):
         folder.mkdir(parents=True, exist_ok=True)
         super().__init__(lessons or course(folder / "course"), Workspace(folder / "ws"))
         self.engine = FakeEngine(folder)
+        self.may_keep_engine = False
         self.first = False
         if started:
             self.start(self.lessons[0])
 
-    def check_command(self, lesson: Lesson, *, first: bool = False) -> Sequence[str]:
+    def check_arguments(self, lesson: Lesson, *, first: bool = False) -> Sequence[str]:
         self.first = first
+        return super().check_arguments(lesson, first=first)
+
+    def engine_command(self, *arguments: str) -> Sequence[str]:
         return self.engine.command
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -11,6 +12,8 @@ from textual.widgets.text_area import Selection
 
 from tests.tui.conftest import Learner, open_app
 from tutor.content import load_course
+from tutor.process.orphans import command_line
+from tutor.process.supervisor import descendants
 from tutor.session import Session
 from tutor.tui.live.request_form import FieldRow
 from tutor.workspace import AppState, Workspace
@@ -33,6 +36,12 @@ async def solving(session: Session, exercise: str, size: tuple[int, int] = (120,
         yield me
 
 
+def ready_engines() -> list[int]:
+    """The pids of the engines that wait for a check."""
+    children = [each.pid for each in descendants(os.getpid()) if each.parent == os.getpid()]
+    return [pid for pid in children if "tutor.engine --standby" in command_line(pid)]
+
+
 async def test_a_failure_is_fixed_and_the_pass_is_evidence_in_the_checklist(session: Session) -> None:
     async with solving(session, "i1.3") as me:
         correct = me.file.read_text()
@@ -41,6 +50,8 @@ async def test_a_failure_is_fixed_and_the_pass_is_evidence_in_the_checklist(sess
         await me.until(lambda: "✗ operations  " in me.screen(), "a failure", limit_s=CHECK_S)
         await me.sees("Expected   /subtract: ", "Observed   -", "wrong result: the operands are the", "3 of 4 passed")
 
+        await me.until(lambda: len(ready_engines()) == 1, "an engine ready for the next check")
+        (engine,) = ready_engines()
         await me.press("w")
         await me.sees("a save checks")
         editor = await me.focus_editor()
@@ -50,6 +61,7 @@ async def test_a_failure_is_fixed_and_the_pass_is_evidence_in_the_checklist(sess
         editor.selection = Selection((line, column), (line, column + len(wrong)))
         me.paste("request.a - request.b")
         await me.press("ctrl+s")
+        await me.until(lambda: len(descendants(engine)) > 1, "a node beside the fork server", limit_s=CHECK_S)
         await me.until(lambda: "I1.3 Calculator Service passed" in me.screen(), "a pass", limit_s=CHECK_S)
         assert me.file.read_text() == correct
         await me.sees("Next: press Esc, then n for", "4 of 4 passed")

@@ -1,18 +1,23 @@
 """The engine as a separate process: `python -m tutor.engine EXERCISE PATH` prints events as JSON lines.
 
-The terminal app runs checks this way, so that it never shares a process with ROS.
+The terminal app runs checks this way, so that it never shares a process with ROS. With `--standby`, the engine prepares
+itself, and then waits for its arguments: one line on stdin, a JSON list. It exits if none come within `STANDBY_S`.
 """
 
 from __future__ import annotations
 
 import argparse
+import asyncio
 import contextlib
+import json
 import signal
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from tutor.content import load_course
 from tutor.engine import run_check
+from tutor.engine.preparation import Prepared, prepare
 from tutor.errors import ContentError, EngineError, SubmissionError, UnknownExercise
 from tutor.interpreter import reduce_gc_frequency
 from tutor.judge.events import Event, encode
@@ -20,46 +25,78 @@ from tutor.process.prctl import die_with_parent
 from tutor.stop_signals import Stopped, run_until_stopped
 from tutor.workspace import find_submission
 
+STANDBY_S = 300.0
+"""How long an engine waits for its arguments."""
+
 
 def main() -> int:
     """Run one check.
 
-    Exit code 0: judged, whatever the verdict; 2: wrong usage; 3: a fault; 130: interrupted. 2 and 3 are explained on
-    stderr.
+    Exit code 0: judged, whatever the verdict, or no arguments on stdin; 2: wrong usage; 3: a fault; 130: interrupted.
+    2 and 3 are explained on stderr.
     """
     reduce_gc_frequency()
-    parser = argparse.ArgumentParser(prog="python -m tutor.engine")
-    parser.add_argument("exercise")
-    parser.add_argument("path", type=Path)
-    parser.add_argument("--criterion", action="append")
-    parser.add_argument("--first", action="store_true")
-    parser.add_argument("--lessons", type=Path)
-    arguments = parser.parse_args()
+    arguments = _parse(sys.argv[1:])
+    die_with_parent(signal.SIGINT)  # a killed app takes its check with it; SIGINT ends the check cleanly
     try:
-        course = load_course(arguments.lessons)
-        submission = find_submission(course.find(arguments.exercise), arguments.path, None)
+        run_until_stopped(lambda: _stand_by() if arguments.standby else _check(arguments))
     except (ContentError, SubmissionError, UnknownExercise) as error:
         print(error, file=sys.stderr)
         return 2
-    only = frozenset(arguments.criterion) if arguments.criterion else None
-    die_with_parent(signal.SIGINT)  # a killed app takes its check with it; SIGINT ends the check cleanly
-
-    def print_event(event: Event) -> None:
-        try:
-            print(encode(event), flush=True)
-        except BrokenPipeError:  # the reader is gone: only cleanup is left to do
-            signal.raise_signal(signal.SIGINT)
-
-    try:
-        run_until_stopped(
-            lambda: run_check([submission], course, only=only, on_event=print_event, first=arguments.first)
-        )
     except EngineError as error:
         print(f"{error}. {error.hint}", file=sys.stderr)
         return 3
     except Stopped:
         return 130
     return 0
+
+
+def _parse(words: Sequence[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m tutor.engine")
+    parser.add_argument("exercise", nargs="?")
+    parser.add_argument("path", type=Path, nargs="?")
+    parser.add_argument("--criterion", action="append")
+    parser.add_argument("--first", action="store_true")
+    parser.add_argument("--lessons", type=Path)
+    parser.add_argument("--standby", action="store_true")
+    arguments = parser.parse_args(words)
+    if not arguments.standby and arguments.path is None:
+        parser.error("EXERCISE and PATH are missing")
+    return arguments
+
+
+async def _stand_by() -> None:
+    async with prepare(forks=True) as prepared:
+        if line := await _read_line():
+            await _check(_parse(json.loads(line)), prepared)
+
+
+async def _read_line() -> str:
+    """Return a line of stdin, or "" if it has ended or nothing arrives in time."""
+    readable = asyncio.Event()
+    loop = asyncio.get_running_loop()
+    loop.add_reader(sys.stdin.fileno(), readable.set)
+    try:
+        await asyncio.wait_for(readable.wait(), STANDBY_S)
+    except TimeoutError:
+        return ""
+    finally:
+        loop.remove_reader(sys.stdin.fileno())
+    return sys.stdin.readline()
+
+
+async def _check(arguments: argparse.Namespace, prepared: Prepared | None = None) -> None:
+    course = load_course(arguments.lessons)
+    submission = find_submission(course.find(arguments.exercise), arguments.path, None)
+    only = frozenset(arguments.criterion) if arguments.criterion else None
+    await run_check([submission], course, only=only, on_event=_print_event, first=arguments.first, prepared=prepared)
+
+
+def _print_event(event: Event) -> None:
+    try:
+        print(encode(event), flush=True)
+    except BrokenPipeError:  # the reader is gone: only cleanup is left to do
+        signal.raise_signal(signal.SIGINT)
 
 
 if __name__ == "__main__":

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 from tutor.judge.events import CheckFinished, Event
 from tutor.session.engine_child import EngineChild
@@ -25,13 +24,19 @@ class CheckEnded:
 
 
 class CheckProcess:
-    """A running check. `tell` is called with every event, and finally with a `CheckEnded`."""
+    """A running check, by the engine that `start` starts.
+
+    `tell` is called with every event, and finally with a `CheckEnded`.
+    """
 
     def __init__(
-        self, exercise: str, command: Sequence[str], cwd: Path, tell: Callable[[Event | CheckEnded], object]
+        self,
+        exercise: str,
+        start: Callable[[], Coroutine[None, None, EngineChild]],
+        tell: Callable[[Event | CheckEnded], object],
     ) -> None:
         self.exercise = exercise
-        self._command, self._cwd, self._tell = command, cwd, tell
+        self._start, self._tell = start, tell
         self._child: EngineChild | None = None
         self._cancelled = asyncio.Event()
 
@@ -59,7 +64,7 @@ class CheckProcess:
             self._tell(ended)
 
     async def _run(self) -> CheckEnded:
-        self._child = child = await EngineChild.start(self._command, self._cwd)
+        self._child = child = await self._start()
         reading = asyncio.create_task(self._read(child))
         stopping = asyncio.create_task(self._cancelled.wait())
         try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import signal
 from collections.abc import AsyncIterator, Sequence
 from pathlib import Path
@@ -19,11 +20,21 @@ class EngineChild(LineChild):
     """One run of the engine, which prints one event per line."""
 
     @classmethod
-    async def start(cls, argv: Sequence[str], cwd: Path) -> EngineChild:
-        """Start the engine. Raises OSError."""
+    async def start(cls, argv: Sequence[str], cwd: Path, *, standby: bool = False) -> EngineChild:
+        """Start the engine; `standby`: it reads its arguments from stdin (see `give_arguments`). Raises OSError."""
         prctl.guard()
         prctl.adopt_orphans(True)
-        return await cls._start(argv, cwd)
+        return await cls._start(argv, cwd, stdin=asyncio.subprocess.PIPE if standby else asyncio.subprocess.DEVNULL)
+
+    @property
+    def running(self) -> bool:
+        """Whether it has not exited yet, as far as is known."""
+        return self._process.returncode is None
+
+    def give_arguments(self, arguments: Sequence[str]) -> None:
+        """Give an engine on standby its arguments. If it has just exited, they are lost."""
+        assert self._process.stdin is not None
+        self._process.stdin.write(json.dumps(arguments).encode() + b"\n")
 
     async def events(self) -> AsyncIterator[Event]:
         """Yield events as they arrive, until the child closes its output.

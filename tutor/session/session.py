@@ -48,6 +48,8 @@ class Session:
         self.course = course
         self.workspace = workspace
         self.extra = extra
+        self.may_keep_engine = True
+        """Whether the app may keep an engine ready for the next check."""
         self._domain: tuple[Path, int] | None = None
         self._tools: Path | None = None
         self.notify: Notify = lambda text: None
@@ -158,14 +160,18 @@ class Session:
         write_atomically(path, render_checklist(assess(self.course, self.progress()), format, at=now()))
         return True
 
-    def check_command(self, lesson: Lesson, *, first: bool = False) -> Sequence[str]:
-        """Return the command that checks the workspace's own files and prints events, to be run in the workspace.
+    def check_arguments(self, lesson: Lesson, *, first: bool = False) -> Sequence[str]:
+        """Return the arguments with which the engine checks the workspace's own files.
 
         `first`: end at the first failure.
         """
         more = () if self.extra is None else ("--lessons", str(self.extra))
         more = ("--first", *more) if first else more
-        return interpreter.module_command("tutor.engine", lesson.id, str(self.workspace.root), *more)
+        return (lesson.id, str(self.workspace.root), *more)
+
+    def engine_command(self, *arguments: str) -> Sequence[str]:
+        """Return the command that runs the engine in the workspace; it prints events."""
+        return interpreter.module_command("tutor.engine", *arguments)
 
     def node_command(self, file: LessonFile, options: RunOptions) -> NodeCommand:
         """Return how to run one file in the learner's own ROS domain.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from tutor import invocation
@@ -11,6 +12,7 @@ from tutor.content import Lesson
 from tutor.judge.events import Event, ExerciseJudged
 from tutor.judge.verdict import Status
 from tutor.session.check_process import CheckEnded, CheckProcess
+from tutor.session.engine_starter import EngineStarter
 from tutor.session.findings import Findings
 from tutor.tui import commands, messages
 from tutor.tui.control.files import Files
@@ -37,10 +39,12 @@ class Checks:
     ) -> None:
         self._host, self._files, self._records, self._preferences, self._show = host, files, records, preferences, show
         self.running: CheckProcess | None = None
+        self._engines = EngineStarter(host.model.session.engine_command)
         self._checked_texts: dict[str, dict[Path, str]] = {}
         """The text of each exercise's files when they were last checked, by exercise id."""
         self._recheck: Lesson | None = None
         """The lesson to check once the running check, being cancelled, has ended."""
+        self._closing = False
         host.register(commands.CHECK, self.check, lambda: self.running is None)
         host.register(commands.CANCEL, self.cancel, lambda: self.running is not None)
         host.register(commands.WATCH, self.watch)
@@ -75,6 +79,7 @@ class Checks:
         """Handle a saved file: check again, if checking on save is on."""
         model = self._host.model
         if not model.state.check_on_save or message.path not in model.paths or model.session.missing(model.lesson):
+            self._keep_engine_ready()
             return
         if self.running is None:
             self._begin(model.lesson)
@@ -84,6 +89,7 @@ class Checks:
 
     def edited(self) -> None:
         """Handle an edit: mark the verdicts as outdated while the files differ from what was checked."""
+        self._keep_engine_ready()
         model = self._host.model
         found = model.findings[model.lesson.id]
         checked, current = self._checked_texts.get(model.lesson.id, {}), self._files.texts(model.lesson)
@@ -93,8 +99,9 @@ class Checks:
 
     def _begin(self, lesson: Lesson) -> None:
         model = self._host.model
-        command = model.session.check_command(lesson, first=model.state.first_failure)
-        self.running = CheckProcess(lesson.id, command, model.session.workspace.root, self._post_event)
+        arguments = model.session.check_arguments(lesson, first=model.state.first_failure)
+        start = partial(self._engines.start, arguments, model.session.workspace.root)
+        self.running = CheckProcess(lesson.id, start, self._post_event)
         self._update(model.findings[lesson.id].with_check_started())
         self._host.refresh_bindings()
         self._host.start_worker(self._run, lesson, self.running, group="check")
@@ -139,15 +146,26 @@ class Checks:
         if self._recheck is not None:
             lesson, self._recheck = self._recheck, None
             self._begin(lesson)
-        elif ended.exercise != model.lesson.id and found.result is not None:
+            return
+        self._keep_engine_ready()
+        if ended.exercise != model.lesson.id and found.result is not None:
             word = "passed" if found.result.verdict is Status.PASSED else "is checked: not all criteria are met yet"
             self._host.say(f"{ended.exercise.upper()} {word}.")
 
     def shut_down(self) -> None:
         """Cancel the running check, and start none after it."""
+        self._closing = True
         self._recheck = None
+        self._engines.release()
         if self.running is not None:
             self.running.cancel()
+
+    def _keep_engine_ready(self) -> None:
+        """Prepare for the next check, which is near. A server of many apps has no memory to spare for that."""
+        host, session = self._host, self._host.model.session
+        unneeded = self._engines.keeps_one or self.running is not None or self._closing
+        if session.may_keep_engine and not unneeded and not host.app.is_web:
+            host.start_worker(self._engines.keep_ready, session.workspace.root, group="check")
 
     def _update(self, found: Findings) -> None:
         self._host.model.findings[found.exercise] = found
