@@ -78,7 +78,7 @@ def _fixes_of(cause: Cause, seen: ClientRun, own: tracebacks.Frame | None) -> Se
         return _STEPS.get(cause.name, [])
     fixes: Sequence[_Step] = []
     if own is not None and "sleep(" in own.code:
-        fixes = [partial(_remove_calls, names=("sleep",))]
+        fixes = [lambda code, *_: client_requests.spin_while_polling(code), partial(_remove_calls, names=("sleep",))]
         if not missing_services(seen):
             function = own.function
             fixes = [lambda code, *_: steps.make_thread_daemon(code, function), *fixes]

@@ -98,12 +98,16 @@ def negate_waits(code: Code) -> str | None:
 
 
 def spin_while_polling(code: Code) -> str | None:
-    """Step: spin in each loop that waits for a future to be done, instead of sleeping, if nothing in the file spins."""
+    """Step: spin in each loop that polls a future, instead of sleeping, if nothing in the file spins."""
     if code.calls("spin", "spin_once", "spin_until_future_complete"):
         return None
     swaps = []
-    for loop in code.nodes:
-        if isinstance(loop, ast.While) and source.calls_in(loop.test, "done"):
+    loops = [
+        next((each for each in code.ancestors(call) if isinstance(each, ast.While | ast.For)), None)
+        for call in code.calls("done")
+    ]
+    for loop in dict.fromkeys(loops):
+        if loop is not None:
             spin = f"{code.local_name('rclpy')}.spin_once({code.node_name(loop)}, timeout_sec=0.1)"
             sleeps = [each for each in source.calls_in(loop, "sleep") if isinstance(code.statement(each), ast.Expr)]
             swaps += [(each, spin) for each in sleeps[:1]]

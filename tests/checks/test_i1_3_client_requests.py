@@ -296,6 +296,30 @@ def test_a_loop_that_polls_a_future_spins_instead_of_sleeping() -> None:
     assert follow_step(polled, client_requests.spin_while_polling) is None
 
 
+STATES = """\
+import time
+
+import rclpy
+from example_interfaces.srv import AddTwoInts
+
+rclpy.init()
+node = rclpy.create_node("calculator_client")
+add = node.create_client(AddTwoInts, "add")
+future, state = None, "send"
+while state != "done":
+    if state == "send":
+        future, state = add.call_async(AddTwoInts.Request(a=1, b=2)), "wait"
+    elif future.done():
+        state = "done"
+    {}
+"""
+
+
+def test_a_state_machine_that_polls_a_future_spins_instead_of_sleeping() -> None:
+    spins = STATES.format("rclpy.spin_once(node, timeout_sec=0.1)")
+    assert follow_step(STATES.format("time.sleep(0.02)"), client_requests.spin_while_polling) == spins
+
+
 def test_a_thread_that_outlives_the_client_becomes_a_daemon() -> None:
     def step(code: Code) -> str | None:
         return steps.make_thread_daemon(code, "beat")

@@ -322,6 +322,43 @@ def test_a_value_that_the_node_overwrites(file: NodeFile, right: str) -> None:
     assert parameter_slips.diagnose_override(corrected, RATE) is None
     other_set = changed((COUNT, f"{COUNT}        self.set_parameters([Parameter('publish_rate', value=1.0)])\n"))
     assert parameter_slips.diagnose_override(other_set, PREFIX) is None
+    fallback = changed(
+        (COUNT, f"        if self.rate <= 0:\n            self.set_parameters([A('publish_rate')])\n{COUNT}")
+    )
+    assert parameter_slips.diagnose_override(fallback, RATE) is None
+
+
+OVERRIDES = """\
+OPTIONS = {'automatically_declare_parameters_from_overrides': True,
+           'parameter_overrides': [
+               Parameter('message_prefix', Parameter.Type.STRING, 'Hello'),
+               Parameter('publish_rate', value=1.0),
+           ],
+           'start_parameter_services': True}
+
+
+class Talker(Node):
+    def __init__(self):
+        super().__init__('talker', **OPTIONS)
+        self.rate = self.get_parameter('publish_rate').value
+"""
+
+
+def test_overrides_among_the_options_of_a_node() -> None:
+    found = parameter_slips.diagnose_override(NodeFile(OVERRIDES), RATE)
+    assert found is not None
+    assert found.name == "value overwritten by the node"
+    assert found.hint == (
+        "write below line 11, with the same indentation:\n"
+        "    self.declare_parameter('message_prefix', 'Hello')\n"
+        "    self.declare_parameter('publish_rate', 1.0)\n"
+        "lines 1 to 6 become: OPTIONS = {'start_parameter_services': True}"
+    )
+    assert parameter_slips.diagnose_override(NodeFile(OVERRIDES), ENABLED) is None
+    declared = OVERRIDES + "        self.declare_parameter('message_prefix', 'Hello')\n"
+    found = parameter_slips.diagnose_override(NodeFile(declared), PREFIX)
+    assert found is not None
+    assert found.hint == "lines 1 to 6 become: OPTIONS = {'start_parameter_services': True}"
 
 
 def test_the_message_of_a_parameters_value_is_not_the_value() -> None:

@@ -10,7 +10,15 @@ import ast
 import re
 from collections.abc import Iterator, Sequence
 
-from tutor.judge.edits import Edit, remove_keyword, remove_statement, replace_node, replace_nodes, replace_statement
+from tutor.judge.edits import (
+    Edit,
+    insert_after,
+    remove_keyword,
+    remove_statement,
+    replace_node,
+    replace_nodes,
+    replace_statement,
+)
 from tutor.judge.rewriting import parameters
 from tutor.judge.rewriting.node import NodeFile, argument
 from tutor.judge.source import called_name, values_of, where
@@ -18,6 +26,7 @@ from tutor.judge.verdict import Cause
 
 _OVERWRITTEN = "value overwritten by the node"
 _DECLARE = ("declare_parameter", "declare_parameters")
+_OVERRIDE_ARGUMENTS = "parameter_overrides", "automatically_declare_parameters_from_overrides"
 _CONVERSIONS = frozenset({"float", "int", "str", "round"})
 
 
@@ -32,6 +41,7 @@ def diagnose_override(file: NodeFile, name: str, *whole: list[Edit]) -> Cause | 
         or _diagnose_ignored_overrides(file, name)
         or _diagnose_own_arguments(file, name)
         or _diagnose_parameter_overrides(file, name, *whole)
+        or _diagnose_overrides_in_options(file, name)
         or _diagnose_reassignment(file, name)
     )
 
@@ -81,6 +91,28 @@ def _diagnose_parameter_overrides(file: NodeFile, name: str, *whole: list[Edit])
     return None
 
 
+def _diagnose_overrides_in_options(file: NodeFile, name: str) -> Cause | None:
+    """Whether parameter_overrides is in a dict of keyword arguments."""
+    begin = next((call for call in file.calls("__init__") if ast.unparse(call.func) == "super().__init__"), None)
+    declared = _declarations(file)
+    for options in file.nodes:
+        if begin is None or not isinstance(options, ast.Dict):
+            continue
+        kept = [
+            f"{ast.unparse(key)}: {ast.unparse(value)}" if key else f"**{ast.unparse(value)}"
+            for key, value in zip(options.keys, options.values, strict=True)
+            if not (isinstance(key, ast.Constant) and key.value in _OVERRIDE_ARGUMENTS)
+        ]
+        if len(kept) == len(options.keys) or not any(repr(name) in each for each in declared):
+            continue
+        removed = replace_node(file.text, options, f"{{{', '.join(kept)}}}")
+        added = [] if file.calls(*_DECLARE) else [insert_after(file.statement(begin), "\n".join(declared))]
+        if (step := file.step([removed, *added])) is not None:
+            text = f"line {options.lineno}: parameter_overrides takes precedence over the value given at start-up"
+            return Cause(_OVERWRITTEN, text, step)
+    return None
+
+
 def _constants(calls: Sequence[ast.Call]) -> Iterator[ast.Constant]:
     for call in calls:
         yield from (each for each in ast.walk(call) if isinstance(each, ast.Constant))
@@ -93,6 +125,8 @@ def _diagnose_own_set(file: NodeFile, name: str) -> Cause | None:
         made = [each.id for given in call.args for each in ast.walk(given) if isinstance(each, ast.Name)]
         code = " ".join([code, *(ast.unparse(value) for each in made for value in values_of(each, file.tree))])
         statement = file.statement(call)
+        if function is file.setup and any(isinstance(each, ast.If) for each in file.ancestors(call)):
+            continue  # a fallback for a bad value
         declared = [] if file.calls("declare_parameter", "declare_parameters") else _declarations(file)
         if any(repr(name) in each for each in declared):
             step = file.step([replace_statement(statement, "\n".join(declared))])
@@ -117,12 +151,13 @@ def _diagnose_own_set(file: NodeFile, name: str) -> Cause | None:
 
 def _declarations(file: NodeFile) -> list[str]:
     """The code that declares each parameter of which the file makes a Parameter object with a value."""
-    found = []
+    found: dict[str, str] = {}
     for call in file.calls("Parameter"):
         name, value = argument(call, 0, "name"), argument(call, 2, "value")
         if isinstance(name, ast.Constant) and value is not None:
-            found.append(f"{file.name}.declare_parameter({ast.unparse(name)}, {ast.unparse(value)})")
-    return found
+            code = f"{file.name}.declare_parameter({ast.unparse(name)}, {ast.unparse(value)})"
+            found.setdefault(ast.unparse(name), code)
+    return list(found.values())
 
 
 def _diagnose_own_arguments(file: NodeFile, name: str) -> Cause | None:
