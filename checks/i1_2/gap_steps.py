@@ -95,13 +95,15 @@ def _diagnose_stale_number(trace: Trace, functions: Sequence[Function]) -> Cause
     for function in functions:
         for number, last, is_last, _ in _comparisons(function):
             right = f"{last} = {number if is_last else f'{number} + 1'}"
-            if (why := _find_missing_update(function, last, right)) is not None:
+            if (why := _find_missing_update(trace, function, last, right)) is not None:
                 text, change = why
                 return Cause("false alarm", text, _describe_edits(trace, function, change))
     return None
 
 
-def _find_missing_update(function: Function, last: str, right: str) -> tuple[str, list[edits.Edit]] | None:
+def _find_missing_update(
+    trace: Trace, function: Function, last: str, right: str
+) -> tuple[str, list[edits.Edit]] | None:
     """Why `last` is not set for each message, and the edits that set it, by the statement `right`."""
     inside = list(ast.walk(function))
     at_end = [edits.append_to_function(function, right)]
@@ -120,7 +122,13 @@ def _find_missing_update(function: Function, last: str, right: str) -> tuple[str
         )
         return text, at_end
     handled = [node for each in inside if isinstance(each, ast.ExceptHandler) for node in ast.walk(each)]
-    ends = [each for each in inside if isinstance(each, ast.Return) and each.lineno < always[-1].lineno]
+    ends = [
+        each
+        for each in inside
+        if isinstance(each, ast.Return)
+        and each.lineno < always[-1].lineno
+        and not any(one in assignments for one in source.file_holding(trace, each).block_of(each))
+    ]
     if not ends:
         return None
     end = next((each for each in ends if each not in handled), ends[0])  # messages without a number are rare
@@ -187,12 +195,16 @@ def _find_numbers(function: Function) -> set[str]:
     """The local variables and attributes that hold the number of the current message."""
     found = {each.arg for each in function.args.args if each.arg in ("n", "num", "number", "seq", "index", "counter")}
     for node in ast.walk(function):
-        if isinstance(node, ast.Assign) and any(
-            isinstance(each, ast.Call) and isinstance(each.func, ast.Name) and each.func.id == "int"
-            for each in ast.walk(node.value)
-        ):
+        if isinstance(node, ast.Assign) and _is_made_by_int(node.value):
             found |= {ast.unparse(target) for target in node.targets}
     return found
+
+
+def _is_made_by_int(value: ast.AST) -> bool:
+    """Whether an expression is the result of int(), or is computed from it without another call."""
+    if isinstance(value, ast.Call):
+        return isinstance(value.func, ast.Name) and value.func.id == "int"
+    return any(map(_is_made_by_int, ast.iter_child_nodes(value)))
 
 
 def _operand_pairs(function: Function) -> Iterator[tuple[ast.expr, ast.expr, ast.expr]]:
@@ -219,7 +231,7 @@ def _comparisons(function: Function) -> Iterator[tuple[str, str, bool, ast.expr]
             continue
         shift = isinstance(other, ast.BinOp) or isinstance(node, ast.BinOp)
         base = other.left if isinstance(other, ast.BinOp) else other
-        if isinstance(base, ast.Attribute):
+        if isinstance(base, ast.Attribute) and not base.attr.isupper():  # that would be a constant
             yield ast.unparse(number), ast.unparse(base), shift, node
 
 

@@ -141,7 +141,7 @@ def use_default_qos(code: Code) -> str | None:
 
 
 def return_response(trace: Trace, service: str) -> str | None:
-    """Step: return the response on every path through the callback, a decorator of it, or a helper it returns.
+    """Step: return the response on every path through a decorator of the callback, itself, or a helper it returns.
 
     If it is the callback that does not return it, the other services' callbacks in its file return theirs, too.
     """
@@ -152,7 +152,7 @@ def return_response(trace: Trace, service: str) -> str | None:
     if found is None:
         return compute_results(trace, [service], whole=True)
     code, function = found
-    for each in (function, *_wrappers(code, function), *_helpers(code, function)):
+    for each in (*_wrappers(code, function), function, *_helpers(code, function)):
         changes = list(_fix_returns(code, each, argument_names(code, function)[1]))
         if changes and each is function:
             changes = _fix_all_returns(trace, code)

@@ -99,6 +99,48 @@ def test_number_parsing_is_traced_through_variables_and_helpers() -> None:
     assert cause.hint == "line 13 becomes: number = int(data.rpartition(':')[2])"
 
 
+SEPARATE_CLASS = """\
+class Order:
+    GAP, RESTART = range(2)
+
+    def __init__(self):
+        self.expected, self.highest = 0, -1
+
+    def feed(self, number):
+        if number < self.highest:
+            self.highest = number
+            self.expected = number + 1
+            return self.RESTART
+        self.highest = number
+        verdict = None if number == self.expected else self.GAP
+        self.expected += 1
+        return verdict
+
+
+class Stats(Node):
+    def __init__(self):
+        super().__init__('message_stats')
+        self.order = Order()
+        self.create_subscription(String, 'chatter', self.on_message, 10)
+
+    def on_message(self, msg):
+        verdict = self.order.feed(int(msg.data.split(':')[1]))
+        if verdict == Order.GAP:
+            self.get_logger().warning(f'a gap before {msg.data}')
+        elif verdict == Order.RESTART:
+            self.get_logger().info('restarted')
+"""
+
+
+def test_an_expected_number_that_only_counts_on() -> None:
+    cause = gap_steps.diagnose_alarm(started(code=SEPARATE_CLASS))
+    assert cause is not None
+    assert cause.text == "line 14: self.expected += 1 keeps counting from before the gap, and never catches up"
+    assert cause.hint == "line 14 becomes: self.expected = number + 1"
+    right = SEPARATE_CLASS.replace("self.expected += 1", "self.expected = number + 1")
+    assert gap_steps.diagnose_alarm(started(code=right)) is None
+
+
 COMPARES = "self.last_number is not None and number > self.last_number + 1"
 
 

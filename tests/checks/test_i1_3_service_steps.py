@@ -98,6 +98,29 @@ def test_the_wrapper_of_a_decorated_callback_returns_the_response() -> None:
     assert after == WRAPPED.replace("response)\n\n    return", "response)\n        return response\n\n    return")
 
 
+SAFE = """\
+def safe(compute):
+    def wrapper(self, request, response):
+        try:
+            response.sum = compute(self, request.a, request.b)
+            return response
+        except ZeroDivisionError:
+            self.get_logger().error("division by zero")
+
+    return wrapper
+
+
+""" + body("return a // b").replace(
+    "    def on_divide(self, request, response", "    @safe\n    def on_divide(self, a, b"
+)
+
+
+def test_a_decorator_that_answers_the_request_itself_returns_the_response_after_an_error_too() -> None:
+    assert "@safe" in SAFE
+    after = follow_step(SAFE, lambda run: service_steps.return_response(run, "/divide"))
+    assert after == SAFE.replace('zero")\n\n    return', 'zero")\n        return response\n\n    return')
+
+
 MODULE = """\
 node = rclpy.create_node('calculator')
 for name in NAMES:
