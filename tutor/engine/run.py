@@ -81,7 +81,7 @@ class RosRun:
         self._observer = observer
         self._facts = facts
         self._graph: tuple[float, Graph] = (0.0, Graph())
-        self._waits = Waits(process, observer, facts.changed)
+        self._waits = Waits(process, observer, facts.changed, self._is_known)
         self.interrupted_at: float | None = None
         """When Ctrl+C was pressed, in seconds since the epoch."""
 
@@ -113,6 +113,10 @@ class RosRun:
         if self.exit is not None or time.monotonic() - read_at < POLL_S:
             return seen
         return graph.read_graph(self._observer.node)
+
+    def _is_known(self) -> bool:
+        """Whether a node of the process has been discovered, or anything received from it."""
+        return bool(self._graph[1].nodes or self.graph.nodes or self.logs or any(self._observer.samples.values()))
 
     @property
     def exit(self) -> Exit | None:

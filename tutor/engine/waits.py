@@ -6,14 +6,17 @@ import asyncio
 import contextlib
 import time
 from collections.abc import Callable, Coroutine
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from tutor.engine.idle import IdleDetector
 from tutor.errors import EngineError, MachineTooBusy
+from tutor.judge.trace import Exit
 from tutor.judge.waiting import RESENT_S
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
 from tutor.process.cpu_wait import MAX_EXTENSION_FACTOR, estimate_unblocked_s
-from tutor.ros.observer import Observer
+
+if TYPE_CHECKING:
+    from tutor.ros.observer import Observer  # imports rclpy
 
 T = TypeVar("T")
 
@@ -31,19 +34,29 @@ ENOUGH_CPU_S = 2.0
 MAX_LATENCY_S = 0.5
 """Upper bound on the latency of a message that a process sent before it ended."""
 
+DISCOVERY_S = 0.1
+"""The same for a process that failed before anything of it was discovered, as with most exceptions at the start.
+
+Discovery takes some milliseconds on one machine. Our own waits for a CPU extend this, up to `MAX_LATENCY_S`.
+"""
+
 
 class Waits:
     """Waits for what a process does, on each change that is reported through `changed`."""
 
-    def __init__(self, process: LearnerProcess, observer: Observer, changed: asyncio.Event) -> None:
+    def __init__(
+        self, process: LearnerProcess, observer: Observer, changed: asyncio.Event, is_known: Callable[[], bool]
+    ) -> None:
+        """`is_known`: whether anything of the process has been discovered or received."""
+        self._is_known = is_known
         self._process = process
         self._observer = observer
         self._changed = changed
         self._meter = CpuMeter(process.pid)
         self._cpu_time: tuple[float, CpuTime] = (0.0, CpuTime())
         self._pending_requests = 0
-        self._ended_at: float | None = None
-        """When a wait first saw that the process had ended, by the loop's clock.
+        self._ended: tuple[float, float] | None = None
+        """When a wait first saw that the process had ended, by the loop's clock, and our CPU wait by then.
 
         Messages in transit are waited for once, not again in each later wait.
         """
@@ -96,6 +109,15 @@ class Waits:
             self._pending_requests -= 1
             task.cancel()
 
+    def _may_receive(self, ended: Exit, now: float) -> bool:
+        """Whether messages of the process, which has ended, may still be in transit."""
+        if self._ended is None:
+            self._ended = (now, own_cpu_time().waited_s)
+        ended_at, waited_s = self._ended
+        if not ended.code or self._is_known():
+            return now - ended_at < MAX_LATENCY_S
+        return now - ended_at < min(DISCOVERY_S + own_cpu_time().waited_s - waited_s, MAX_LATENCY_S)
+
     def _idle_detector(self, for_s: float) -> IdleDetector:
         return IdleDetector(self._process.next_wake, lambda: own_cpu_time().waited_s, for_s)
 
@@ -122,9 +144,7 @@ class Waits:
             if seen():
                 return True
             now = loop.time()
-            if self._process.exit is not None and self._ended_at is None:
-                self._ended_at = now
-            if self._ended_at is not None and now - self._ended_at >= MAX_LATENCY_S:
+            if (ended := self._process.exit) is not None and not self._may_receive(ended, now):
                 return False
             if idle is not None and all_sent() and idle.is_idle_until(time.time() + deadline - now):
                 return False

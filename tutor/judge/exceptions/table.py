@@ -1,4 +1,4 @@
-"""The table of known exceptions: TOML files, loaded and validated once."""
+"""The table of known exceptions: TOML files, loaded once."""
 
 from __future__ import annotations
 
@@ -45,21 +45,25 @@ _ORDER = ("launch", "parameters", "attributes", "calls", "messages", "process", 
 
 
 @cache
-def load_shipped() -> tuple[KnownException, ...]:
-    """The built-in table, in the order in which it is searched."""
-    return tuple(entry for name in _ORDER for entry in load(Path(__file__).parent / f"{name}.toml"))
+def load_shipped(*, validate: bool = False) -> tuple[KnownException, ...]:
+    """The built-in table, in the order in which it is searched. `validate`: see `parse`."""
+    folder = Path(__file__).parent
+    return tuple(entry for name in _ORDER for entry in load(folder / f"{name}.toml", validate=validate))
 
 
-def load(path: Path) -> tuple[KnownException, ...]:
-    """Load a table. Raises TableError if it cannot be read, or is not valid."""
+def load(path: Path, *, validate: bool = True) -> tuple[KnownException, ...]:
+    """Load a table. `validate`: see `parse`. Raises TableError if it cannot be read, or is not valid."""
     try:
-        return parse(path.read_text(encoding="utf-8"), path.name)
+        return parse(path.read_text(encoding="utf-8"), path.name, validate=validate)
     except (OSError, UnicodeError) as error:
         raise TableError(f"{path}: {error}") from error
 
 
-def parse(text: str, name: str = "exceptions.toml") -> tuple[KnownException, ...]:
-    """The entries of a table in TOML; `name` is the file's name in the message of a TableError."""
+def parse(text: str, name: str = "exceptions.toml", *, validate: bool = True) -> tuple[KnownException, ...]:
+    """The entries of a table in TOML; `name` is the file's name in the message of a TableError.
+
+    `validate`: compile all patterns, and look for unknown placeholders. A failed check has no time for that.
+    """
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -70,7 +74,12 @@ def parse(text: str, name: str = "exceptions.toml") -> tuple[KnownException, ...
     entries = data.get("known", [])
     if not isinstance(entries, list) or not isinstance(tables, dict):
         raise TableError(f"{name}: write [[known]] for each entry, and [words.NAME] for a table of words")
-    return tuple(_entry(each, tables, f"{name}, entry {number}") for number, each in enumerate(entries, 1))
+    numbered = [(each, f"{name}, entry {number}") for number, each in enumerate(entries, 1)]
+    made = tuple(_entry(each, tables, where) for each, where in numbered)
+    if validate:
+        for known, (_, where) in zip(made, numbered, strict=True):
+            _validate_patterns(known, where)
+    return made
 
 
 def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], where: str) -> KnownException:
@@ -88,7 +97,7 @@ def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], whe
     table = data.get("look_up", "")
     if table and table not in tables:
         raise TableError(f"{where}: there is no [words.{table}]")
-    known = KnownException(
+    return KnownException(
         **{key: data[key] for key in (*_PATTERNS, *_TEXTS) if key in data},
         exact=bool(data.get("exact", True)),
         of_source=bool(data.get("of_source", False)),
@@ -97,7 +106,15 @@ def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], whe
         examples=tuple(_example(each, where) for each in data.get("example", [])),
         words=dict(tables[table]) if table else {},
     )
-    groups = frozenset(group for key in _PATTERNS for group in _groups(data.get(key, ""), f"{where}, {key}"))
+
+
+def _validate_patterns(known: KnownException, where: str) -> None:
+    """Raise TableError if a pattern is no regular expression, or for a placeholder that is never filled in."""
+    groups = frozenset(group for key in _PATTERNS for group in _groups(getattr(known, key), f"{where}, {key}"))
+    replaced = [[known.replace.pattern, known.replace.by]] if known.replace else []
+    replaced += [list(edit["every"]) for edits in known.edits for edit in edits if "every" in edit]
+    for pattern, _ in replaced:
+        _groups(pattern, f"{where}, replace")
     used = known.placeholders | frozenset(
         WORD.findall(" ".join((known.source, known.without, *((known.replace.by,) if known.replace else ()))))
     )
@@ -105,7 +122,6 @@ def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], whe
     used |= {word for value in values for word in WORD.findall(value)}
     if unknown := used - groups - GIVEN:
         raise TableError(f"{where}: unknown placeholder {', '.join(sorted(unknown))}")
-    return known
 
 
 def _replace(data: object, where: str) -> Replace | None:
@@ -113,7 +129,6 @@ def _replace(data: object, where: str) -> Replace | None:
         return None
     if not isinstance(data, list) or len(data) != 2 or not all(isinstance(each, str) for each in data):
         raise TableError(f"{where}: replace must be ['pattern', 'text']")
-    _groups(data[0], f"{where}, replace")
     return Replace(*data)
 
 
