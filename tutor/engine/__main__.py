@@ -1,7 +1,7 @@
 """The engine as a separate process: `python -m tutor.engine EXERCISE PATH` prints events as JSON lines.
 
 The terminal app runs checks this way, so that it never shares a process with ROS. With `--standby`, the engine prepares
-itself, and then waits for its arguments: one line on stdin, a JSON list. It exits if none come within `STANDBY_S`.
+itself, and then waits for its arguments: one line on stdin, a JSON list. It exits at the end of stdin.
 """
 
 from __future__ import annotations
@@ -24,9 +24,6 @@ from tutor.judge.events import Event, encode
 from tutor.process.prctl import die_with_parent
 from tutor.stop_signals import Stopped, run_until_stopped
 from tutor.workspace import find_submission
-
-STANDBY_S = 300.0
-"""How long an engine waits for its arguments."""
 
 
 def main() -> int:
@@ -67,19 +64,20 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
 
 async def _stand_by() -> None:
     async with prepare(forks=True) as prepared:
+        from tutor.judge.exceptions import load_shipped  # a check that is not on standby imports it with its judges
+
+        load_shipped()
         if line := await _read_line():
             await _check(_parse(json.loads(line)), prepared)
 
 
 async def _read_line() -> str:
-    """Return a line of stdin, or "" if it has ended or nothing arrives in time."""
+    """Return a line of stdin, or "" at its end. Unlike a read in a thread, this can be cancelled."""
     readable = asyncio.Event()
     loop = asyncio.get_running_loop()
     loop.add_reader(sys.stdin.fileno(), readable.set)
     try:
-        await asyncio.wait_for(readable.wait(), STANDBY_S)
-    except TimeoutError:
-        return ""
+        await readable.wait()
     finally:
         loop.remove_reader(sys.stdin.fileno())
     return sys.stdin.readline()
