@@ -124,6 +124,15 @@ def test_causes_of_a_blocked_node(seen: Trace, stuck: tuple[Frame, ...], cause: 
     assert step in found.hint
 
 
+def test_a_callback_that_awaits_blocks_a_node_that_spins_even_if_it_has_answered_nothing_yet() -> None:
+    awaits = node("async def tick(self):", "  value = await self.sensor.read()")
+    found = diagnose_blocked(awaits, MAIN, spins=False)
+    assert found is not None
+    assert found.name == "deadlock by await"
+    assert diagnose_blocked(awaits, (own_frame(42, "loop.run_forever()", "main"),), spins=False) is None
+    assert diagnose_blocked(node("x = 1"), MAIN, spins=False) is None
+
+
 NODE = """\
 import rclpy
 from threading import Lock

@@ -39,7 +39,8 @@ def diagnose_blocked(trace: Trace, stuck: Sequence[Frame], *, spins: bool = Fals
     if is_in_blocking_call(stuck):
         return _diagnose_call(trace, tracebacks.own_frame(stuck, trace.folder))
     if not spins:
-        return None
+        is_spinning = any(frame.path.endswith("rclpy/executors.py") for frame in stuck)
+        return _diagnose_await(trace) if is_spinning else None
     return (
         _diagnose_nested_spin(trace)
         or _diagnose_await(trace)
