@@ -273,3 +273,34 @@ def test_a_demo_node_fails_if_its_arguments_cannot_be_parsed(bench: Bench) -> No
     ran = bench.ros2("run", "demo_nodes_py", "listener", "--ros-args", "-r", "__node:=no-name")
     assert ran.code != 0
     assert "Failed to parse global arguments" in ran.stderr
+
+
+# Stands for rclpy's signal handler, which may shut the context down while `try_shutdown` does.
+SHUT_DOWN_AT_THE_SAME_TIME = """
+import runpy, sys
+import rclpy
+from rclpy.node import Node
+
+def interrupted(node):
+    raise KeyboardInterrupt
+
+def already_shut_down():
+    raise RuntimeError("failed to shutdown: rcl_shutdown already called on the given context")
+
+rclpy.spin, rclpy.utilities.try_shutdown = interrupted, already_shut_down
+sys.argv[:] = [sys.argv[1], "demo_nodes_py", "talker"]
+runpy.run_path(sys.argv[0], run_name="__main__")
+"""
+
+
+def test_a_demo_node_ends_cleanly_if_ctrl_c_has_just_shut_its_context_down(bench: Bench) -> None:
+    nodes = Path(bundled_ros.__file__).with_name("demo") / "nodes.py"
+    answer = subprocess.run(
+        [sys.executable, "-c", SHUT_DOWN_AT_THE_SAME_TIME, str(nodes)],
+        env=bench.env,
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+    )
+    assert (answer.returncode, answer.stderr) == (0, "")

@@ -7,6 +7,7 @@ Run this file by its path with any Python that has rclpy; it imports none of our
 
 from __future__ import annotations
 
+import contextlib
 import sys
 
 import rclpy
@@ -62,7 +63,8 @@ def main() -> None:
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
-        try_shutdown()
+        with contextlib.suppress(RuntimeError):  # rclpy's own: Ctrl+C shut the context down just before we would
+            try_shutdown()
 
 
 def _spin(package: str, program: str) -> None:
