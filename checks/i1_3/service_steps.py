@@ -141,7 +141,7 @@ def use_default_qos(code: Code) -> str | None:
 
 
 def return_response(trace: Trace, service: str) -> str | None:
-    """Step: return the response on every path through a decorator of the callback, itself, or a helper it returns.
+    """Step: return the response on every path through a decorator of the callback, the callback, or a helper.
 
     If it is the callback that does not return it, the other services' callbacks in its file return theirs, too.
     """

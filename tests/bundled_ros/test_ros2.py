@@ -275,32 +275,15 @@ def test_a_demo_node_fails_if_its_arguments_cannot_be_parsed(bench: Bench) -> No
     assert "Failed to parse global arguments" in ran.stderr
 
 
-# Stands for rclpy's signal handler, which may shut the context down while `try_shutdown` does.
-SHUT_DOWN_AT_THE_SAME_TIME = """
-import runpy, sys
-import rclpy
-from rclpy.node import Node
-
-def interrupted(node):
-    raise KeyboardInterrupt
-
-def already_shut_down():
-    raise RuntimeError("failed to shutdown: rcl_shutdown already called on the given context")
-
-rclpy.spin, rclpy.utilities.try_shutdown = interrupted, already_shut_down
-sys.argv[:] = [sys.argv[1], "demo_nodes_py", "talker"]
-runpy.run_path(sys.argv[0], run_name="__main__")
-"""
-
-
 def test_a_demo_node_ends_cleanly_if_ctrl_c_has_just_shut_its_context_down(bench: Bench) -> None:
-    nodes = Path(bundled_ros.__file__).with_name("demo") / "nodes.py"
-    answer = subprocess.run(
-        [sys.executable, "-c", SHUT_DOWN_AT_THE_SAME_TIME, str(nodes)],
-        env=bench.env,
-        capture_output=True,
-        text=True,
-        timeout=LIMIT_S,
-        check=False,
+    nodes = Path(bundled_ros.__file__).parent / "demo/nodes.py"
+    program = (
+        "import runpy, sys, rclpy\n"
+        "def spin(node):\n    raise KeyboardInterrupt\n"
+        "def try_shutdown():\n    raise RuntimeError('rcl_shutdown already called on the given context')\n"
+        "rclpy.spin, rclpy.utilities.try_shutdown = spin, try_shutdown\n"
+        "sys.argv = ['', 'demo_nodes_py', 'talker']\n"
+        f"runpy.run_path({str(nodes)!r}, run_name='__main__')\n"
     )
-    assert (answer.returncode, answer.stderr) == (0, "")
+    ran = bench.python("-c", program)
+    assert (ran.code, ran.stderr) == (0, "")

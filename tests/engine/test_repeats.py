@@ -6,6 +6,8 @@ import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import pytest
+
 from tests.engine.helpers import Scene, criterion, statuses
 from tutor.errors import MachineTooBusy
 from tutor.judge.bench import Bench, Scenario
@@ -58,28 +60,18 @@ def passes_from(run: int) -> Callable[..., Verdict]:
     return lambda facts: passed("", "") if facts.run >= run else failed("this", f"run {facts.run}", CAUSE)
 
 
-async def test_a_failure_on_a_slowed_machine_is_judged_again_with_new_facts(scene: Scene) -> None:
+def skips_until(run: int) -> Callable[..., Verdict]:
+    return lambda facts: passed("", "") if facts.run >= run else skipped("another criterion did not pass")
+
+
+@pytest.mark.parametrize(("judge", "status"), [(passes_from(2), "failed"), (skips_until(2), "skipped")])
+async def test_what_fails_or_is_skipped_on_a_slowed_machine_is_judged_again_with_new_facts(
+    scene: Scene, judge: Callable[..., Verdict], status: str
+) -> None:
     machine = Machine()
     slowed, calm = machine.scenario("slowed", slowed_until=1), machine.scenario("calm")
-    result = await scene.judge(
-        criterion("again", slowed, judge=passes_from(2)),
-        criterion("once", calm, judge=passes_from(2)),
-    )
-    assert statuses(result) == {"again": "passed", "once": "failed"}
-    assert machine.runs == {"slowed": 2, "calm": 1}
-
-
-async def test_what_a_judge_skips_on_a_slowed_machine_is_judged_again_with_new_facts(scene: Scene) -> None:
-    def skips_until(run: int) -> Callable[..., Verdict]:
-        return lambda facts: passed("", "") if facts.run >= run else skipped("another criterion did not pass")
-
-    machine = Machine()
-    slowed, calm = machine.scenario("slowed", slowed_until=1), machine.scenario("calm")
-    result = await scene.judge(
-        criterion("again", slowed, judge=skips_until(2)),
-        criterion("once", calm, judge=skips_until(2)),
-    )
-    assert statuses(result) == {"again": "passed", "once": "skipped"}
+    result = await scene.judge(criterion("again", slowed, judge=judge), criterion("once", calm, judge=judge))
+    assert statuses(result) == {"again": "passed", "once": status}
     assert machine.runs == {"slowed": 2, "calm": 1}
 
 

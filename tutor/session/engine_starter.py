@@ -43,7 +43,8 @@ class EngineStarter:
         """
         if self.keeps_one:
             return
-        self._over, self._cwd = over, _ = asyncio.Event(), cwd
+        self._over = over = asyncio.Event()
+        self._cwd = cwd
         try:
             self._ready = await EngineChild.start(self._command("--standby"), cwd, standby=True)
             await asyncio.wait_for(over.wait(), KEEP_READY_S)
