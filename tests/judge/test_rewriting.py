@@ -355,6 +355,8 @@ def test_overrides_among_the_options_of_a_node() -> None:
         "lines 1 to 6 become: OPTIONS = {'start_parameter_services': True}"
     )
     assert parameter_slips.diagnose_override(NodeFile(OVERRIDES), ENABLED) is None
+    other = OVERRIDES.replace("'parameter_overrides'", "'defaults'")
+    assert parameter_slips.diagnose_override(NodeFile(other), RATE) is None
     declared = OVERRIDES + "        self.declare_parameter('message_prefix', 'Hello')\n"
     found = parameter_slips.diagnose_override(NodeFile(declared), PREFIX)
     assert found is not None

@@ -10,6 +10,7 @@ from functools import partial
 from tutor.judge import source, tracebacks
 from tutor.judge.causes import names
 from tutor.judge.causes.lock_waits import LOCK_LINE, diagnose_lock, step_at
+from tutor.judge.causes.spinning import is_spinning
 from tutor.judge.edits import Edit, remove_lines
 from tutor.judge.rewriting.callbacks import (
     WITH_CALLBACK_GROUP,
@@ -39,8 +40,7 @@ def diagnose_blocked(trace: Trace, stuck: Sequence[Frame], *, spins: bool = Fals
     if is_in_blocking_call(stuck):
         return _diagnose_call(trace, tracebacks.own_frame(stuck, trace.folder))
     if not spins:
-        is_spinning = any(frame.path.endswith("rclpy/executors.py") for frame in stuck)
-        return _diagnose_await(trace) if is_spinning else None
+        return _diagnose_await(trace) if is_spinning(stuck) else None
     return (
         _diagnose_nested_spin(trace)
         or _diagnose_await(trace)

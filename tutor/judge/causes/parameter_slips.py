@@ -98,12 +98,13 @@ def _diagnose_overrides_in_options(file: NodeFile, name: str) -> Cause | None:
     for options in file.nodes:
         if begin is None or not isinstance(options, ast.Dict):
             continue
+        keys = [each.value for each in options.keys if isinstance(each, ast.Constant)]
         kept = [
             f"{ast.unparse(key)}: {ast.unparse(value)}" if key else f"**{ast.unparse(value)}"
             for key, value in zip(options.keys, options.values, strict=True)
             if not (isinstance(key, ast.Constant) and key.value in _OVERRIDE_ARGUMENTS)
         ]
-        if len(kept) == len(options.keys) or not any(repr(name) in each for each in declared):
+        if "parameter_overrides" not in keys or not any(repr(name) in each for each in declared):
             continue
         removed = replace_node(file.text, options, f"{{{', '.join(kept)}}}")
         added = [] if file.calls(*_DECLARE) else [insert_after(file.statement(begin), "\n".join(declared))]

@@ -19,6 +19,11 @@ SPINS_ONCE = "spin_once", "spin_some"
 _CLEANUP = "destroy_node", "shutdown", "try_shutdown", "exit", "_exit"
 
 
+def is_spinning(stuck: Sequence[Frame]) -> bool:
+    """Whether a stack dump shows an rclpy executor at work."""
+    return any(frame.path.endswith("rclpy/executors.py") for frame in stuck)
+
+
 def diagnose_not_spinning(trace: Trace, stuck: Sequence[Frame], nodes: str) -> Cause | None:
     """Where the program is stuck instead of spinning; None if unknown, or if it does spin.
 
@@ -26,7 +31,7 @@ def diagnose_not_spinning(trace: Trace, stuck: Sequence[Frame], nodes: str) -> C
     """
     mains = [thread for thread in tracebacks.frames_by_thread(stuck) if thread[-1].function == "<module>"]
     at = tracebacks.own_frame(mains[0] if mains else stuck, trace.folder)
-    if at is None or "spin" in at.code or any(frame.path.endswith("rclpy/executors.py") for frame in stuck):
+    if at is None or "spin" in at.code or is_spinning(stuck):
         return None
     loop = outermost(file_of(trace, at), at.line)
     where = f"at {at}" + (

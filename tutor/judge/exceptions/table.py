@@ -74,12 +74,14 @@ def parse(text: str, name: str = "exceptions.toml", *, validate: bool = True) ->
     entries = data.get("known", [])
     if not isinstance(entries, list) or not isinstance(tables, dict):
         raise TableError(f"{name}: write [[known]] for each entry, and [words.NAME] for a table of words")
-    numbered = [(each, f"{name}, entry {number}") for number, each in enumerate(entries, 1)]
-    made = tuple(_entry(each, tables, where) for each, where in numbered)
-    if validate:
-        for known, (_, where) in zip(made, numbered, strict=True):
+    table = []
+    for number, each in enumerate(entries, 1):
+        where = f"{name}, entry {number}"
+        known = _entry(each, tables, where)
+        if validate:
             _validate_patterns(known, where)
-    return made
+        table.append(known)
+    return tuple(table)
 
 
 def _entry(data: Mapping[str, Any], tables: Mapping[str, Mapping[str, str]], where: str) -> KnownException:
