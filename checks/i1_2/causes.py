@@ -12,6 +12,7 @@ from checks.i1_2.summaries import Summary, is_in_time, last_due_count
 from checks.i1_2.totals import total_as_rate
 from tutor.judge import causes
 from tutor.judge.causes import slips
+from tutor.judge.causes.unawaited import diagnose_unawaited
 from tutor.judge.causes.unserved import diagnose_unserved
 from tutor.judge.edits import replace_node
 from tutor.judge.rewriting.node import NodeFile, find_in_files
@@ -189,7 +190,7 @@ def diagnose_no_summary(trial: Trial) -> Cause:
         return printed
     if not trial.lines:
         raised = find_in_files(trace, lambda file: slips.diagnose_raised_level(file, Level.FATAL))
-        if (silent := raised or diagnose_unserved(trace)) is not None:
+        if (silent := raised or diagnose_unawaited(trace) or diagnose_unserved(trace)) is not None:
             return silent
     return Cause(
         "no summary",

@@ -144,7 +144,8 @@ def _find_roles(
 ) -> Iterator[tuple[str, str]]:
     """The persistent variables, as (role, variable). Of two with the same role, the first one counts.
 
-    Variables of another class are out of scope; a variable that is also set elsewhere may have another purpose.
+    Variables of another class are out of scope; a variable that is also set elsewhere may have another purpose; an
+    object that is None at first cannot hold one.
     """
     called = [node.value for node in function.body if isinstance(node, ast.Expr)]
     always = {source.called_name(each) for each in called if isinstance(each, ast.Call)} if owner else set()
@@ -155,7 +156,8 @@ def _find_roles(
     for each in own:
         for target, value, with_each in _persistent_assignments(each):
             role = _role(value, each, with_each)
-            if role and target not in others and (role != START or not with_each):
+            late = any(isinstance(made, ast.Constant) for made in values_of(target.rpartition(".")[0], file.tree))
+            if role and target not in others and not late and (role != START or not with_each):
                 found.setdefault(role, target)
     yield from found.items()
 

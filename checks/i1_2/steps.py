@@ -72,7 +72,19 @@ def keep_first_message(trace: Trace) -> str | None:
 
 def go_on_after_restart(trace: Trace) -> str | None:
     """The step to keep counting after a restart of the publisher."""
-    return rewriting.rewrite_callback(trace)
+    return _count_current_publishers(trace) or rewriting.rewrite_callback(trace)
+
+
+def _count_current_publishers(trace: Trace) -> str | None:
+    """The step for a "matched" event whose `total_count`, which only rises, is taken for the number of publishers."""
+    for file in source.files(trace):
+        tests = [each for each in file.nodes if isinstance(each, ast.Compare) and isinstance(each.ops[0], ast.Eq)]
+        found = [each for each in tests if ast.unparse(each).endswith(".total_count == 1")]
+        for test in found if "matched" in file.text else ():
+            current = f"{ast.unparse(test.left).removesuffix('total_count')}current_count > 0"
+            if step := describe_edits_of(file, [replace_node(file.text, test, current)]):
+                return step
+    return None
 
 
 def announce_restart(trace: Trace) -> str | None:

@@ -14,6 +14,7 @@ from tutor.judge import causes, edits, source, tracebacks
 from tutor.judge.causes import period_slips
 from tutor.judge.causes.asyncio_threads import diagnose_other_threads_wake_up
 from tutor.judge.causes.spinning import diagnose_untimed_spins_in_turn
+from tutor.judge.causes.unawaited import unawaited_names
 from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.rewriting.program import call_main, first_sound_step
 from tutor.judge.trace import Trace
@@ -187,10 +188,9 @@ def _replace_spin(trace: Trace, own: tracebacks.Frame) -> str:
 
 def _diagnose_unawaited(trace: Trace) -> Cause | None:
     """Diagnose a coroutine that was created but never run, from Python's own warning."""
-    warnings = (re.search(r"coroutine '(?:[\w<>]+\.)*(\w+)' was never awaited", line.text) for line in trace.output)
-    name = next((found[1] for found in warnings if found), None)
-    if name is None:
+    if not (unawaited := unawaited_names(trace)):
         return None
+    name = unawaited[0]
     return Cause(
         "coroutine not awaited",
         f"{name} is an async def: calling it only makes a coroutine, and nothing in it runs",

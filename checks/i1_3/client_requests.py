@@ -133,6 +133,9 @@ def _wait_for_answer(code: Code, call: ast.Call, client: str, change: Changes) -
         return
     request = f"future = {client}.call_async({ast.unparse(call.args[0])})"
     wait = f"{_spin_function(code)}({code.node_name(call)}, future)"
+    if _spins_in_thread(code):
+        wait = f"while not future.done():\n    {code.local_name('time')}.sleep(0.01)"
+        change.more += [each for each in code.missing_imports("time") if each not in change.more]
     change.more.append(edits.insert_above(statement.lineno, f"{request}\n{wait}"))
     replaced: ast.expr = call
     if call.func.attr == "call_async" and isinstance(parent, ast.Attribute) and parent.attr == "result":
@@ -140,6 +143,18 @@ def _wait_for_answer(code: Code, call: ast.Call, client: str, change: Changes) -
         replaced = outer if isinstance(outer, ast.Call) else call
     is_future = isinstance(statement, ast.Return) and statement.value is call and _is_used_as_future(code, call)
     change.swaps.append((replaced, "future" if is_future else "future.result()"))
+
+
+def _spins_in_thread(code: Code) -> bool:
+    """Whether a thread spins: then the answer arrives by itself, and no other thread may spin the node."""
+    for call in code.calls("Thread"):
+        target = next((each.value for each in call.keywords if each.arg == "target"), None)
+        function = code.function(target)
+        reached = [each for one in (code.reachable_from(function) if function else []) for each in ast.walk(one)]
+        called = [source.called_name(each) for each in reached if isinstance(each, ast.Call)]
+        if "spin" in (source.last_name(target), *called):
+            return True
+    return False
 
 
 def _is_used_as_future(code: Code, call: ast.Call) -> bool:

@@ -18,6 +18,7 @@ _IMPORTS = {
     "AddTwoInts": "from example_interfaces.srv import AddTwoInts",
     "ReentrantCallbackGroup": "from rclpy.callback_groups import ReentrantCallbackGroup",
     "rclpy": "import rclpy",
+    "time": "import time",
 }
 
 

@@ -19,6 +19,7 @@ from checks.i1_3.facts import (
 from checks.i1_3.rewriting import with_applicable_steps
 from tutor.judge import causes, ending, tracebacks
 from tutor.judge.causes import names, spinning
+from tutor.judge.causes.unawaited import diagnose_unawaited, unawaited_names
 from tutor.judge.causes.uncalled import diagnose_awaited_service, diagnose_uncalled_setup
 from tutor.judge.rewriting.callbacks import only_waits, outermost
 from tutor.judge.rewriting.node import find_in_files, node_file, started_node
@@ -108,6 +109,8 @@ def _first_step(trace: Trace, step: Callable[[Code], str | None]) -> str | None:
 
 def with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[Frame] = ()) -> Cause:
     """Give a cause the step that lets a service answer."""
+    if (unawaited := diagnose_unawaited(trace)) is not None:
+        return with_applicable_step(unawaited, trace)
     found, at = tracebacks.last_traceback(trace), tracebacks.own_frame(stuck, trace.folder)
     if found is not None and found.frames[-1].function == "send_response":
         return replace(cause, hint=service_steps.return_response(trace, service) or cause.hint)
@@ -120,7 +123,7 @@ def with_answer_step(cause: Cause, trace: Trace, service: str, stuck: Sequence[F
             else _first_step(trace, lambda code: steps.remove_calls(code, "sleep"))
         )
         return replace(cause, hint=step or cause.hint)
-    if any("was never awaited" in line.text for line in trace.output):
+    if unawaited_names(trace):
         return replace(cause, hint=services.compute_results(trace, [service], whole=True) or cause.hint)
     if cause.name == names.INCOMPATIBLE_QOS:
         return with_applicable_step(cause, trace, lambda: _first_step(trace, service_steps.use_default_qos))

@@ -7,7 +7,7 @@ import ast
 from checks.i2_3.rewriting import service, timer
 from tutor.judge.edits import Edit, replace_node
 from tutor.judge.rewriting.node import NodeFile, argument
-from tutor.judge.source import Function, called_name, calls_in
+from tutor.judge.source import Function, called_name, calls_in, values_of
 from tutor.judge.verdict import Cause
 
 _GROUP = "callback_group"
@@ -19,7 +19,7 @@ def group_edits(file: NodeFile) -> list[Edit]:
     shared, service_call = timers_in_its_group(file), service(file)
     own = group_of(service_call) if service_call is not None else ""
     name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
-    others = [each for each in file.calls(*_GROUPS) if file.assigned_to(each) not in ("", own)]
+    others = [each for each in file.calls(*_GROUPS) if file.assigned_to(each) not in ("", *_names_of(file, own))]
     found: list[Edit] = []
     for timer_call in shared:
         kept = [file.assigned_to(each) for each in others if each.lineno < timer_call.lineno]
@@ -33,15 +33,25 @@ def timers_in_its_group(file: NodeFile) -> list[ast.Call]:
     service_call = service(file)
     if service_call is None or timer(file) is None or is_reentrant(file, own := group_of(service_call)):
         return []
-    return [each for each in file.timers if group_of(each) == own]
+    return [each for each in file.timers if group_of(each) in _names_of(file, own)]
+
+
+def _names_of(file: NodeFile, group: str) -> set[str]:
+    """All names of a group: `a = b = MutuallyExclusiveCallbackGroup()` makes one group with two names."""
+    assignments = [[ast.unparse(one) for one in each.targets] for each in file.nodes if isinstance(each, ast.Assign)]
+    return {group, *(name for targets in assignments if group in targets for name in targets)}
 
 
 def replace_looked_up_group(file: NodeFile) -> list[Edit]:
-    """Give the timer a group of its own if its group is looked up, as in a table: that may give the service's group."""
+    """Give the timer a group of its own if its group is looked up, as in a table, or is of the learner's own class.
+
+    It may be the service's group, or one that does not always let the timer run.
+    """
     made = timer(file)
     given = _given_group(made) if made is not None else None
-    looked_up = isinstance(given, ast.Subscript) or (isinstance(given, ast.Call) and called_name(given) not in _GROUPS)
-    if made is None or not looked_up:
+    values = [given, *(values_of(ast.unparse(given), file.tree) if given is not None else [])]
+    other = any(isinstance(each, ast.Call) and called_name(each) not in _GROUPS for each in values)
+    if made is None or not (other or isinstance(given, ast.Subscript)):
         return []
     name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
     return [*imported, set_group(file, made, f"{name}()")]

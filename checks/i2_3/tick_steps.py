@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from checks.i2_3 import rewriting, steps
+from checks.i2_3.callback_groups import replace_looked_up_group
 from checks.i2_3.rewriting import combine_edits, timer, timer_callback
 from checks.i2_3.ticks import HZ
 from tutor.judge.causes.printing import enable_rosout
@@ -27,7 +28,7 @@ def fix_period(file: NodeFile) -> str | None:
     right = f"{1 / HZ:g}"
     if given is not None and not _is_right(file, given):
         return file.step([replace_node(file.text, given, right)]) or rewrite_ticking(file)
-    return rewrite_ticking(file)
+    return file.step(replace_looked_up_group(file)) or rewrite_ticking(file)
 
 
 def _is_right(file: NodeFile, given: ast.expr) -> bool:

@@ -292,6 +292,19 @@ def test_the_rate_is_computed_where_the_summary_reads_it(pairs: list[tuple[str, 
     assert "        self.total_count += 1" in fixed
 
 
+def test_a_matched_event_looks_at_the_publishers_of_now() -> None:
+    event = "\n    def matched(self, info):\n        if info.total_count == 1:\n            self.go_on()\n"
+    assert steps.go_on_after_restart(started(code=NODE + event)) == "line 16 becomes: if info.current_count > 0:"
+    assert "total_count == 1" not in str(steps.go_on_after_restart(started()))
+
+
+def test_an_object_that_is_none_at_first_holds_no_count() -> None:
+    pairs = [("self.total_count = 0", "self.stats = None"), ("self.total_count += 1", "self.stats.total += 1")]
+    rewritten = follow_step(run := started(*pairs), str(steps.count_messages(run)))
+    assert "self.total_count += 1" in rewritten
+    assert "self.stats.total" not in rewritten
+
+
 def test_a_restart_is_announced_where_the_statistics_are_reset() -> None:
     run = started(code=NODE + "        if number < self.last_number:\n            self.total_count = 0\n")
     fixed = follow_step(run, steps.announce_restart(run) or "")

@@ -31,6 +31,27 @@ def wait_for_answers_step(code: Code) -> str | None:
     return client_requests.wait_for_answers(code, trace(sources={code.file: code.text}))
 
 
+SPINNING = """\
+def spin():
+    rclpy.spin(node)
+
+
+Thread(target=spin).start()
+print(client.call_async(request).result().sum)
+"""
+
+
+def test_an_answer_is_waited_for_without_a_spin_if_a_thread_spins() -> None:
+    print_answer = "print(client.call_async(request).result().sum)"
+    waits = "future = client.call_async(request)\nwhile not future.done():\n    time.sleep(0.01)\n"
+    assert follow_step(SPINNING, wait_for_answers_step) == (
+        f"import time\n{HEAD}{SPINNING.replace(print_answer, f'{waits}print(future.result().sum)')}"
+    )
+    assert "spin_until_future_complete(" in str(
+        follow_step(SPINNING.replace("target=spin", "target=log"), wait_for_answers_step)
+    )
+
+
 ASK = """\
 class Client(Node):
     def ask(self, client, request):

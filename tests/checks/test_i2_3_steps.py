@@ -130,6 +130,11 @@ def test_a_single_thread_is_replaced_by_several(file: NodeFile, step: str) -> No
             "both are in self.group",
             "line 13 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())",
         ),
+        (  # one group with two names
+            changed((GROUPS, "        self.group = self.other = MutuallyExclusiveCallbackGroup()\n")),
+            "both are in self.other",
+            "line 13 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())",
+        ),
         (  # another timer, faster, has a group of its own
             changed(
                 (", callback_group=self.group", ""),

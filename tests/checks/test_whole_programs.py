@@ -11,6 +11,9 @@ from checks.i2_1 import steps as parameter_steps
 from checks.i2_1.facts import ENABLED, PREFIX, RATE
 from tests.repairs import apply_step
 from tutor.judge import step_parsing
+from tutor.judge.edits import apply as apply_edits
+from tutor.judge.rewriting.node import started_node
+from tutor.judge.rewriting.program import whole_program
 from tutor.judge.rewriting.whole import with_applicable_steps
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause, failed
@@ -129,6 +132,15 @@ def started(code: str) -> Trace:
 
 def follow_step(step: str, trace: Trace) -> str:
     return apply_step(step, trace.sources)["node.py"]
+
+
+def test_a_whole_program_keeps_what_its_argument_parser_is_told() -> None:
+    told = "    parser.add_argument('--depth')\n    arguments = parser.parse_args()\n"
+    spun = "    while rclpy.ok():\n        rclpy.spin_once(node)\n    node.destroy_node()\n"
+    code = f"{HEAD}def main():\n    parser = ArgumentParser()\n{told}    rclpy.init()\n    node = Node('a')\n{spun}"
+    written = apply_edits(code, whole_program(started_node(started(code))))
+    assert told in written
+    assert "rclpy.spin(node)" in written
 
 
 @pytest.mark.parametrize("step", STEPS)

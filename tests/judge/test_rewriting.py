@@ -191,6 +191,7 @@ def test_bad_rates_are_refused_before_anything_else() -> None:
             1.0,
             "[{'name': 'publish_rate', 'default': 1.0}]",
         ),
+        (node_file("@dataclass\nclass A:\n    publish_rate: float = 2\n"), RATE, 1.0, "publish_rate: float = 1.0"),
         (node_file("DEFAULTS = dict(publish_rate=2)\n"), RATE, 1.0, "dict(publish_rate=1.0)"),
         (node_file(MODULE), ENABLED, True, "create_node('p')\nnode.declare_parameter('enabled', True)"),
     ],
@@ -280,6 +281,14 @@ def test_slips_in_a_period(file: NodeFile, cause: str, line: str) -> None:
 
 
 COUNT = "        self.count = 0\n"
+DECLARED = """\
+        self.declare_parameter('message_prefix', 'Hello')
+        self.declare_parameter('publish_rate', 1.0)
+"""
+DECLARED_IN_LOOP = """\
+        for name, default in (('message_prefix', 'Hello'), ('publish_rate', 1.0)):
+            self.declare_parameter(name, default, ignore_override=True)
+"""
 
 
 @pytest.mark.parametrize(
@@ -289,6 +298,10 @@ COUNT = "        self.count = 0\n"
         (
             changed(("'Hello')", "'Hello', ignore_override=True)")),
             NODE.replace("'Hello')", "'Hello', ignore_override=False)"),
+        ),
+        (
+            changed((DECLARED, DECLARED_IN_LOOP)),
+            NODE.replace(DECLARED, DECLARED_IN_LOOP.replace("True", "False")),
         ),
         (
             changed(

@@ -101,6 +101,22 @@ def test_a_thread_started_by_the_node_becomes_a_daemon() -> None:
     assert "line 8 becomes: Thread(target=self.watch, daemon=True).start()" in shutdown_steps.allow_interrupt(kept)
 
 
+@pytest.mark.parametrize(
+    ("started", "wait"),
+    [
+        ("loop.run_in_executor(None, executor.spin)", "await spinning"),
+        ("Thread(target=rclpy.spin, args=(node,))", "spinning.join()"),
+        ("pool.submit(rclpy.spin, node)", "spinning.result()"),
+    ],
+)
+def test_the_spin_is_ended_before_the_program_waits_for_it(started: str, wait: str) -> None:
+    main = f"async def main():\n    spinning = {started}\n    await stop.wait()\n    {wait}\n    rclpy.try_shutdown()\n"
+    step = shutdown_steps.allow_interrupt(node(main))
+    assert step == (
+        "remove line 5: rclpy.try_shutdown()\nwrite above line 4, with the same indentation: rclpy.try_shutdown()"
+    )
+
+
 def test_a_subclass_of_thread_becomes_a_daemon() -> None:
     watch = "class Watch(Thread):\n    def __init__(self):\n        super().__init__(name='w')\n\n\n"
     kept = changed(("def main", f"{watch}def main"))

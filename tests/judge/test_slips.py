@@ -156,6 +156,25 @@ def test_another_node_spun_is_named() -> None:
     assert diagnose_unserved_node(node_file(CLASS + MAIN.format("own"))) is None
 
 
+FOR_EACH = "def main():\n  for node in nodes:\n    ex = SingleThreadedExecutor()\n    ex.add_node(node)\n  ex.spin()\n"
+
+
+def test_an_executor_for_each_node_becomes_one_for_all() -> None:
+    found = diagnose_unserved_node(node_file(FOR_EACH))
+    assert found is not None
+    assert "line 5 spins only the last" in found.text
+    assert set(found.hint.splitlines()) == {
+        "write above line 2, with the same indentation: ex = SingleThreadedExecutor()",
+        "remove line 3: ex = SingleThreadedExecutor()",
+    }
+
+
+@pytest.mark.parametrize(("old", "new"), [("  ex.spin", "    ex.spin"), ("ex.spin", "other.spin"), ("ex.add", "a.add")])
+def test_executors_that_are_spun_each_or_have_no_node_of_the_loop_are_not_reported(old: str, new: str) -> None:
+    found = diagnose_unserved_node(node_file(FOR_EACH.replace(old, new)))
+    assert found is None or found.name == "second spin"
+
+
 OUTER = """\
 class Robot(Node):
     def __init__(self):

@@ -22,7 +22,7 @@ from tutor.judge.rewriting.callbacks import outermost
 from tutor.judge.rewriting.node import NodeFile, find_in_files, node_files
 from tutor.judge.rewriting.program import clean_ending, code_of, first_sound_step, guard_spin, make_daemons
 from tutor.judge.rewriting.program_scope import SPINS
-from tutor.judge.source import calls_in, mentions
+from tutor.judge.source import calls_in, mentions, values_of
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 
@@ -54,9 +54,33 @@ def allow_interrupt(trace: Trace) -> str:
     elsewhere = [each for each in node_files(trace) if catches and each.file not in ("", trace.file)]
     return (
         next(filter(None, (each.step(make_daemons(each)) for each in elsewhere)), None)
+        or find_in_files(trace, lambda file: file.step(_with_shutdown_before_wait(file)))
         or first_sound_step(trace, clean_ending)
         or "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()"
     )
+
+
+def _with_shutdown_before_wait(file: NodeFile) -> list[Edit]:
+    """Edits that end a spin before the program waits for what spins: a thread, a future or a task of asyncio."""
+    for later in map(file.statement, file.calls("shutdown", "try_shutdown")):
+        block = file.block_of(later)
+        wait = next((each for each in block if each.lineno < later.lineno and _waits_for_spin(file, each)), None)
+        if isinstance(later, ast.Expr) and wait is not None:
+            return [insert_above(wait.lineno, code_of(file, later)), remove_statement(file.text, later)]
+    return []
+
+
+def _waits_for_spin(file: NodeFile, statement: ast.stmt) -> bool:
+    match statement:
+        case ast.Expr(value=ast.Await(value=ast.Name(id=name))):
+            pass
+        case ast.Expr(value=ast.Call(func=ast.Attribute(value=ast.Name(id=name), attr="join" | "result"))):
+            pass
+        case _:
+            return False
+    calls = [each for each in values_of(name, file.tree) if isinstance(each, ast.Call)]
+    passed = [given for call in calls for given in (*call.args, *(each.value for each in call.keywords))]
+    return any(isinstance(each, ast.Attribute) and each.attr in SPINS for each in passed)
 
 
 def exit_with_zero(trace: Trace) -> str:

@@ -196,7 +196,9 @@ def _diagnose_ignored_overrides(file: NodeFile, name: str) -> Cause | None:
     for call in file.calls("declare_parameter", "declare_parameters"):
         given = argument(call, 3 if called_name(call) == "declare_parameter" else 2, "ignore_override")
         if given is not None and ast.unparse(given) == "True":
-            first = first or call if name in ast.unparse(call) else first
+            named = argument(call, 0, "name")  # a variable in a loop over all parameters
+            own = name in ast.unparse(call) or not isinstance(named, ast.Constant)
+            first = first or call if own else first
             found.append((given, "False"))
     step = file.step(replace_nodes(file.text, *found)) if first is not None else None
     if first is None or step is None:

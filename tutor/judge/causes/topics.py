@@ -13,6 +13,7 @@ from tutor.judge.causes.lifecycle import diagnose_lifecycle
 from tutor.judge.causes.logged_exceptions import diagnose_logged_exception
 from tutor.judge.causes.process import diagnose_no_answer, diagnose_process, node_names
 from tutor.judge.causes.spinning import diagnose_spin_in_constructor, diagnose_untimed_spin_once
+from tutor.judge.causes.unawaited import diagnose_unawaited
 from tutor.judge.causes.uncalled import diagnose_awaited_service, diagnose_uncalled_setup
 from tutor.judge.causes.unserved import diagnose_unserved
 from tutor.judge.edits import (
@@ -68,7 +69,9 @@ def diagnose_no_messages(
 
 def _diagnose_idle_publisher(trace: Trace, topic: str, step: str) -> Cause:
     """Why an existing publisher never sends anything."""
-    found = diagnose_logged_exception(trace) or diagnose_unused_publisher(trace, topic, step)
+    found = (
+        diagnose_unawaited(trace) or diagnose_logged_exception(trace) or diagnose_unused_publisher(trace, topic, step)
+    )
     return found or Cause("no messages", f"there is a publisher on {topic}, but it sent nothing", step or _PUBLISH)
 
 

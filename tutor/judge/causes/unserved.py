@@ -9,6 +9,7 @@ import textwrap
 from tutor.judge import edits, source
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting.node import NodeFile, find_in_files, node_files
+from tutor.judge.rewriting.program_scope import EXECUTORS
 from tutor.judge.source import last_name
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Cause
@@ -31,6 +32,7 @@ def diagnose_unserved_node(file: NodeFile) -> Cause | None:
         or _diagnose_node_taken(file)
         or _diagnose_second_spin(file)
         or _diagnose_spin_for_each(file)
+        or _diagnose_executor_for_each(file)
     )
 
 
@@ -182,6 +184,28 @@ def _diagnose_spin_for_each(file: NodeFile) -> Cause | None:
             "their turn"
         )
         return Cause("second spin", text, step) if step else None
+    return None
+
+
+def _diagnose_executor_for_each(file: NodeFile) -> Cause | None:
+    """Whether a `for` loop creates an executor for each node, of which only the last one is spun."""
+    for loop in (each for each in file.nodes if isinstance(each, ast.For)):
+        for made in source.calls_in(loop, *EXECUTORS):
+            executor, statement = file.assigned_to(made), file.statement(made)
+            added, spun = (
+                [each for each in file.calls(name) if ast.unparse(each.func) == f"{executor}.{name}"]
+                for name in ("add_node", "spin")
+            )
+            if statement not in loop.body or not any(file.statement(each) in loop.body for each in added):
+                continue
+            if not spun or any(spin in ast.walk(loop) for spin in spun):
+                continue
+            above = edits.insert_above(loop.lineno, ast.unparse(statement))
+            step = file.step([above, edits.remove_statement(file.text, statement)])
+            text = (
+                f"{source.where(made)} creates an executor for each node, and line {spun[0].lineno} spins only the last"
+            )
+            return Cause("another executor for each node", text, step) if step else None
     return None
 
 

@@ -105,7 +105,7 @@ def check_at_start(file: NodeFile, rate: str) -> list[Edit]:
 
 
 def _default_beside(node: ast.AST, name: str) -> ast.expr | None:
-    """The default next to a parameter's name in a tuple, a list, a dict or a call of dict()."""
+    """The default of a parameter in a tuple, a list, a dict, a call of dict(), or a dataclass."""
     match node:
         case ast.Tuple(elts=[first, second, *_]) | ast.List(elts=[first, second]) if is_text(first, name):
             return second
@@ -114,6 +114,8 @@ def _default_beside(node: ast.AST, name: str) -> ast.expr | None:
             named = any(is_text(key, "name") and is_text(value, name) for key, value in pairs)
             wanted = ("default", "value", "default_value") if named else (name,)
             return next((value for key, value in pairs if any(is_text(key, each) for each in wanted)), None)
+        case ast.AnnAssign(target=ast.Name(id=field), value=ast.Constant() as value) if field == name:
+            return value
         case ast.Call(func=ast.Name(id="dict"), keywords=given):
             return next((each.value for each in given if each.arg == name), None)
     return None

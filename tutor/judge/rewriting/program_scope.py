@@ -75,13 +75,13 @@ def setup_statements(file: NodeFile, body: Sequence[ast.stmt]) -> Iterator[ast.s
 
 
 def _has_no_setup(file: NodeFile, statement: ast.stmt) -> bool:
-    """Whether a statement only calls a function that creates nothing of a node, and discards the result."""
+    """Whether a statement only calls a function that sets nothing up, node or parser, and discards the result."""
     if not isinstance(statement, ast.Expr) or not isinstance(call := statement.value, ast.Call):
         return False
     callee = file.function(call.func)
     inside = [call, *(each for one in (file.reachable_from(callee) if callee else []) for each in ast.walk(one))]
     names = [called_name(each) for each in inside if isinstance(each, ast.Call)]
-    return not any(name.startswith(("create_", "declare_", "init", "add_on")) for name in names)
+    return not any(name.startswith(("create_", "declare_", "init", "add_on", "add_arg")) for name in names)
 
 
 def _is_replaced(call: ast.Call) -> bool:
