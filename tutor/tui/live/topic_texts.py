@@ -44,11 +44,7 @@ def topic_head(state: LiveState, chosen: str, view: TopicView | None, now: float
     if not update.count:
         topic = state.graph.topic(chosen) if state.graph else None
         no_publisher = topic is None or not topic.publishers
-        reason = (
-            "nobody publishes on it: run the node that does, or press M to publish"
-            if no_publisher
-            else "no message yet"
-        )
+        reason = "nobody publishes yet: press M, or run a node that does" if no_publisher else "no message yet"
         return Content.assemble(first, (f"\n◐ {reason}", "$warn" if no_publisher else "$quiet"))
     since = 0.0 if view.snapshot is not None else max(0.0, now - view.updated_at)
     numbers = wording.numbers(update, since)
