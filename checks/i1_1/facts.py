@@ -181,7 +181,7 @@ def find_agreeing_groups(probes: Iterable[RateProbe]) -> list[list[RateProbe]]:
 
 
 def are_inverted(group: Iterable[RateProbe], *, min_measured: int = 1) -> bool:
-    """Whether the rates that could be measured, at least so many, are all the reciprocals of the requested ones."""
+    """Whether at least this many rates could be measured, and all are the reciprocals of the requested ones."""
     measured = [probe for probe in group if probe.rate is not None]
     return len(measured) >= min_measured and len(find_inverted_probes(measured)) == len(measured)
 

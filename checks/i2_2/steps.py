@@ -105,7 +105,7 @@ def step_for_empty_description(launch_file: Launch) -> str | None:
 
 
 def replace_default(launch_file: Launch, wrong: str) -> str | None:
-    """The step that replaces a default that is no valid name by one that is, as `robot_news` for `robot-news`."""
+    """The step that replaces a default that is not a valid name with one that is: `robot-news` with `robot_news`."""
     right = re.sub(r"\W", "_", wrong, flags=re.ASCII).strip("_")
     right = f"topic_{right}" if not right or right[0].isdigit() else right
     defaults = [argument(call, 1, "default_value") for call in launch_file.calls("DeclareLaunchArgument")]
