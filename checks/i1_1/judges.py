@@ -26,6 +26,7 @@ from checks.i1_1.facts import (
     find_out_of_range,
     group_probes,
     has_known_unit,
+    parameter_and_unit,
 )
 from tutor.judge import causes, ending, randomness
 from tutor.judge.rates import TOLERANCE
@@ -171,9 +172,10 @@ def judge_rate(found: RateProbes) -> Verdict:
         return failed(expected, "no numeric parameter is declared", i1_1_causes.diagnose_undeclared_rate(None))
     declared = {parameter.name for parameter in found.declared or ()}
 
-    def likelihood(group: Sequence[RateProbe]) -> tuple[bool, int, int]:
-        name = group[0].name
-        return name in declared and has_known_unit(name), count_agreeing(group), len(find_inverted_probes(group))
+    def likelihood(group: Sequence[RateProbe]) -> tuple[bool, int, int, bool]:
+        name, unit = parameter_and_unit(group[0])
+        known = name in declared and has_known_unit(name)
+        return known, count_agreeing(group), len(find_inverted_probes(group)), unit == "ms" and name.endswith("ms")
 
     nearest = max(group_probes(found.probes), key=likelihood)
     wrong = next((probe for probe in nearest if not probe.agrees), None)

@@ -164,7 +164,7 @@ async def probe_names(bench: Bench) -> NameProbes:
             since, waited_s = run.now(), run.our_cpu_wait_s()
 
             def has_published(messages: int, *, for_s: float = LOG_DELAY_S) -> bool:
-                """Whether it has published this many messages, and what it logged with the last one must have arrived."""
+                """Whether it has published this many messages, and the log of the last one must have arrived."""
                 samples, delay_s = run.samples_on(TOPIC), for_s + run.our_cpu_wait_s() - waited_s
                 return len(samples) >= messages and run.now() >= samples[messages - 1].received_at + delay_s
 

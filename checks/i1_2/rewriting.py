@@ -152,7 +152,11 @@ def initialise_variables(listener: Listener, roles: Mapping[str, str]) -> Iterat
     missing = []
     for role, value in roles.items():
         name = listener.name(role)
-        places = [each for each in _outside_assignments(listener) if _assigns_to(each, name)]
+        places = [
+            each
+            for each in _outside_assignments(listener)
+            if _assigns_to(each, name) and (name.count(".") != 1 or _is_of_owner(listener, each))
+        ]
         if not places:
             missing.append(f"{name} = {value}")
         for each in places if role in (COUNT, NUMBER) else ():
@@ -184,6 +188,16 @@ def _outside_assignments(listener: Listener) -> Iterator[ast.Assign | ast.AnnAss
     for node in tree:
         if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None and node not in inside:
             yield node
+
+
+def _is_of_owner(listener: Listener, node: ast.AST) -> bool:
+    """Whether this is outside of all classes, in the listener's, or in one that it inherits from."""
+    classes = {each.name: each for each in listener.file.nodes if isinstance(each, ast.ClassDef)}
+    inherited = [listener.owner] if listener.owner is not None else []
+    for each in inherited:
+        inherited += [classes[name] for name in map(last_name, each.bases) if name in classes]
+    around = next((each for each in listener.file.ancestors(node) if isinstance(each, ast.ClassDef)), None)
+    return around is None or around in inherited
 
 
 def _assigns_to(node: ast.Assign | ast.AnnAssign, name: str) -> bool:

@@ -272,9 +272,18 @@ def _await_in_callbacks(code: Code, callbacks: set[str]) -> str | None:
         if id(code.function_around(call)) in asking and not isinstance(next(code.ancestors(call)), ast.Await):
             change.swaps.append((call, f"(await {ast.unparse(call)})"))
     for call in code.calls("create_client"):
-        if not any(each.arg == "callback_group" for each in call.keywords):
+        given = next((each.value for each in call.keywords if each.arg == "callback_group"), None)
+        if given is not None and not _is_reentrant(code, given):
+            change.swaps.append((given, "ReentrantCallbackGroup()"))
+        elif given is None:
             change.swaps.append((call, f"{ast.unparse(call)[:-1]}, callback_group=ReentrantCallbackGroup())"))
     return change.as_step()
+
+
+def _is_reentrant(code: Code, group: ast.expr) -> bool:
+    """Whether this expression is, or is assigned, a ReentrantCallbackGroup."""
+    values = [group, *source.values_of(ast.unparse(group), code.tree)]
+    return any(isinstance(each, ast.Call) and source.called_name(each) == "ReentrantCallbackGroup" for each in values)
 
 
 def _callers(code: Code, names: set[str]) -> Iterator[Function]:

@@ -22,10 +22,16 @@ def group_edits(file: NodeFile) -> list[Edit]:
     others = [each for each in file.calls(*_GROUPS) if file.assigned_to(each) not in ("", *_names_of(file, own))]
     found: list[Edit] = []
     for timer_call in shared:
-        kept = [file.assigned_to(each) for each in others if each.lineno < timer_call.lineno]
+        kept = [file.assigned_to(each) for each in others if each.lineno < timer_call.lineno and _is_set_up(file, each)]
         spare = next((each for each in kept if each.startswith("self.")), "")
         found += [*([] if spare else imported), set_group(file, timer_call, spare or f"{name}()")]
     return found
+
+
+def _is_set_up(file: NodeFile, group: ast.Call) -> bool:
+    """Whether a group is created for certain, and not by a property, which creates it when it is first read."""
+    function = file.function_around(group)
+    return function is None or not function.decorator_list
 
 
 def timers_in_its_group(file: NodeFile) -> list[ast.Call]:

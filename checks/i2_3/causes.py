@@ -10,6 +10,7 @@ from checks.i2_3 import steps, tick_steps
 from checks.i2_3.callback_groups import diagnose_late_group
 from checks.i2_3.facts import SERVICE, SHORTEST_S, TYPE, CallBatch, IdleRun, SingleCalls, right_sum
 from checks.i2_3.pace import Fault, TimerPace
+from checks.i2_3.rewriting import timer
 from checks.i2_3.ticks import HZ, Series
 from tutor.judge import causes, tracebacks
 from tutor.judge.causes import late_binding, names, slips, spinning
@@ -184,30 +185,35 @@ def diagnose_other_pace(idle: IdleRun, likely: Series | None) -> Cause:
     )
 
 
-def diagnose_disturbed_timer(seen: SingleCalls, timer: TimerPace) -> Cause:
+def _diagnose_self_cancelling(file: NodeFile) -> Cause | None:
+    ticking = timer(file)
+    return diagnose_self_cancelling(file, ticking) if ticking is not None else None
+
+
+def diagnose_disturbed_timer(seen: SingleCalls, pace: TimerPace) -> Cause:
     """Why the timer does not keep its pace during a call."""
     if (broken := causes.diagnose_process(seen.trace)) is not None:
         return broken
     source = _serving_file(seen.trace)
-    if timer.fault is not Fault.FAST and (cancelled := find_in_files(seen.trace, diagnose_self_cancelling)) is not None:
+    if pace.fault is not Fault.FAST and (cancelled := find_in_files(seen.trace, _diagnose_self_cancelling)) is not None:
         return cancelled
-    if timer.fault is Fault.FAST:
+    if pace.fault is Fault.FAST:
         return Cause(
             "ticks in a burst",
             "more ticks are logged around a call than the timer makes",
             steps.separate_groups(source) or "log ticks in the timer's callback only; do not make up for missed ones",
         )
-    if timer.fault is Fault.SLOW:
+    if pace.fault is Fault.SLOW:
         return Cause(
             "slowed timer",
             "the timer ticks during a call, but not as often",
             steps.separate_groups(source)
             or "give the timer a callback group of its own and the executor enough threads; let the service sleep",
         )
-    if timer.count > 1 and timer.longest_s < BLOCKED_SHARE * timer.for_s:
+    if pace.count > 1 and pace.longest_s < BLOCKED_SHARE * pace.for_s:
         return Cause(
             "timer pauses",
-            f"the timer goes on during a call, but pauses for {timer.longest_s:.1f} s of it",
+            f"the timer goes on during a call, but pauses for {pace.longest_s:.1f} s of it",
             steps.separate_groups(source)
             or "let the two callbacks share no lock, and neither of them wait for the other",
         )

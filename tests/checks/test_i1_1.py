@@ -250,6 +250,12 @@ def test_one_working_parameter_of_several_is_enough() -> None:
     assert_passed(judge_rate(rates(*wrong, *right)))
 
 
+def test_a_period_is_explained_in_the_unit_that_its_name_ends_with() -> None:
+    probes = [probe(UNITS[unit](hz), 50.0, "period_ms", unit) for unit in ("s", "ms") for hz in RATES_HZ]
+    declared = (parameter("period_ms", "integer", 1000),)
+    assert_failed(judge_rate(rates(*probes, declared=declared)), "parameter ignored", "period_ms:=500 asks for 2 Hz")
+
+
 BOTH = (parameter("period", "double", 1.0), RATE)
 
 

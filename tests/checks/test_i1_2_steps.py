@@ -298,6 +298,13 @@ def test_a_matched_event_looks_at_the_publishers_of_now() -> None:
     assert "total_count == 1" not in str(steps.go_on_after_restart(started()))
 
 
+def test_a_variable_of_another_class_is_not_the_listeners() -> None:
+    other = f"class Link:\n    def __init__(self):\n        self.total_count = 0\n\n\n{NODE}"
+    run = started(("self.listen, 10)\n        self.total_count = 0\n", "self.listen, 10)\n"), code=other)
+    rewritten = follow_step(run, str(steps.count_messages(run)))
+    assert rewritten.count("        self.total_count = 0\n") == 2
+
+
 def test_an_object_that_is_none_at_first_holds_no_count() -> None:
     pairs = [("self.total_count = 0", "self.stats = None"), ("self.total_count += 1", "self.stats.total += 1")]
     rewritten = follow_step(run := started(*pairs), str(steps.count_messages(run)))

@@ -146,6 +146,17 @@ class Client(Node):
 """
 
 
+@pytest.mark.parametrize("made", ["MutuallyExclusiveCallbackGroup()", "ReentrantCallbackGroup()"])
+def test_answers_that_are_awaited_need_a_reentrant_group(made: str) -> None:
+    own = f"        self.group = {made}\n        self.mine"
+    text = TIMER.replace("        self.mine", own).replace(
+        "AddTwoInts, n)", "AddTwoInts, n, callback_group=self.group)"
+    )
+    after = follow_step(text, wait_for_answers_step)
+    group = "ReentrantCallbackGroup()" if "Exclusive" in made else "self.group"
+    assert f"self.create_client(AddTwoInts, n, callback_group={group})" in str(after)
+
+
 def test_a_timer_awaits_its_answers() -> None:
     after = follow_step(TIMER, wait_for_answers_step)
     assert after is not None

@@ -135,6 +135,20 @@ def test_a_single_thread_is_replaced_by_several(file: NodeFile, step: str) -> No
             "both are in self.other",
             "line 13 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())",
         ),
+        (  # one group, which a property creates
+            changed(
+                (GROUPS, ""),
+                ("callback_group=self.group", "callback_group=self.own"),
+                ("callback_group=self.other", "callback_group=self.own"),
+                (
+                    "    def __init__",
+                    "    @property\n    def own(self):\n        self._own = MutuallyExclusiveCallbackGroup()\n"
+                    "        return self._own\n\n    def __init__",
+                ),
+            ),
+            "both are in self.own",
+            "line 17 becomes: self.timer = self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())",
+        ),
         (  # another timer, faster, has a group of its own
             changed(
                 (", callback_group=self.group", ""),

@@ -117,6 +117,14 @@ def test_the_spin_is_ended_before_the_program_waits_for_it(started: str, wait: s
     )
 
 
+def test_a_thread_that_a_mixin_starts_becomes_a_daemon() -> None:
+    made = "Thread(\n            target=self.watch, name='w'\n        )\n"
+    started = f"        self.thread = {made}        self.thread.start()\n"
+    mixin = f"class Watch:\n    def start(self):\n{started}\n\ndef main"
+    step = shutdown_steps.allow_interrupt(changed(("def main", mixin)))
+    assert "target=self.watch, name='w',\n    daemon=True)" in step
+
+
 def test_a_subclass_of_thread_becomes_a_daemon() -> None:
     watch = "class Watch(Thread):\n    def __init__(self):\n        super().__init__(name='w')\n\n\n"
     kept = changed(("def main", f"{watch}def main"))

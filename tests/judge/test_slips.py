@@ -682,6 +682,7 @@ def test_a_timer_that_its_own_callback_ends(body: str, step: str | None) -> None
     )
     found = period_slips.diagnose_self_cancelling(file)
     assert (found.hint if found else None) == step
+    assert period_slips.diagnose_self_cancelling(file, file.calls("log")[0]) is None
 
 
 UNCALLED = (

@@ -56,6 +56,7 @@ def allow_interrupt(trace: Trace) -> str:
         next(filter(None, (each.step(make_daemons(each)) for each in elsewhere)), None)
         or find_in_files(trace, lambda file: file.step(_with_shutdown_before_wait(file)))
         or first_sound_step(trace, clean_ending)
+        or first_sound_step(trace, make_daemons)
         or "let KeyboardInterrupt end the program: no bare `except:` around spin, no loop without rclpy.ok()"
     )
 

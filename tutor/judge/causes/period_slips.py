@@ -99,10 +99,13 @@ def diagnose_no_autostart(file: NodeFile) -> Cause | None:
     return None
 
 
-def diagnose_self_cancelling(file: NodeFile) -> Cause | None:
-    """Whether a timer is cancelled or destroyed by its own callback, as after a number of ticks."""
-    for timer in file.timers:
-        callback, name = file.function(argument(timer, 1, "callback")), file.assigned_to(timer)
+def diagnose_self_cancelling(file: NodeFile, timer: ast.Call | None = None) -> Cause | None:
+    """Whether a timer is cancelled or destroyed by its own callback, as after a number of ticks.
+
+    `timer`: the call that creates it (default: any of the file).
+    """
+    for made in [timer] if timer is not None else file.timers:
+        callback, name = file.function(argument(made, 1, "callback")), file.assigned_to(made)
         reached = file.reachable_from(callback) if callback is not None and name else []
         for call in file.calls("cancel", "destroy_timer"):
             if file.function_around(call) not in reached or name not in map(ast.unparse, (*call.args, *_owner(call))):

@@ -145,8 +145,12 @@ def make_daemon(file: SourceFile, call: ast.Call) -> Edit:
     end = (call.end_col_offset or 1) - 1
     row = (call.end_lineno or call.lineno) - 1
     line = lines[row].encode()
-    comma = "" if line[:end].rstrip().endswith((b",", b"(")) or not line[:end].strip() else ", "
-    lines[row] = line[:end].decode() + f"{comma}daemon=True" + line[end:].decode()
+    before = line[:end].decode()
+    if before.strip():
+        before += "" if before.rstrip().endswith((",", "(")) else ", "
+    elif not lines[row - 1].rstrip().endswith((",", "(")):
+        lines[row - 1] = f"{lines[row - 1].rstrip()},"
+    lines[row] = f"{before}daemon=True{line[end:].decode()}"
     return Edit(first, last, textwrap.dedent("\n".join(lines[first - 1 : last])), like=first)
 
 
