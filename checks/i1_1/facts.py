@@ -57,7 +57,7 @@ class PlainStart:
 
     `parameters`: None if the node answered no parameter call. `echo`: None if there was no message to wait for.
     `ending`: None if the process had already exited. `stuck`: the stack, innermost frame first, of a node that neither
-    published nor answered.
+    published nor answered. `stuck_for_ever`: by that stack, it will never publish.
     """
 
     trace: Trace
@@ -65,6 +65,7 @@ class PlainStart:
     echo: Echo | None
     ending: Ending | None
     stuck: tuple[Frame, ...] = ()
+    stuck_for_ever: bool = False
 
 
 @dataclass(frozen=True)

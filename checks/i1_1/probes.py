@@ -50,6 +50,9 @@ from tutor.judge.waiting import (
 )
 from tutor.ros_model import Parameter
 
+USUALLY_LOGGED_S = 3.0
+"""Most nodes have logged their name within this time."""
+
 LOG_DELAY_S = 0.5
 """Upper bound on the latency of a log message, apart from our own wait for a CPU."""
 
@@ -175,13 +178,33 @@ async def probe_names(bench: Bench) -> NameProbes:
                 # Without any log message, it may be that the first ones were lost, and are resent later.
                 return repeats and (has_published(2) if run.logs else has_published(2, for_s=RESENT_S))
 
-            await wait_until_seen(run, lambda: is_decided() or has_published(3), promised=lambda: True, idle_s=IDLE_S)
+            await wait_until_seen(
+                run,
+                lambda: is_decided() or has_published(3),
+                promised=lambda: True,
+                message_gap_s=USUALLY_LOGGED_S,
+                idle_s=IDLE_S,
+            )
             declared = await bench.facts(parameters)
             if not is_decided() and not await _ignores(run, name, declared):
                 # Many nodes log every tenth message, which takes 10 s at 1 Hz, however late the first one comes.
                 began = run.samples_on(TOPIC)[0].received_at if run.samples_on(TOPIC) else since
                 left_s = MESSAGE_GAP_S - (run.now() - began)
-                await wait_until_seen(run, is_decided, promised=lambda: True, message_gap_s=left_s, idle_s=IDLE_S)
+                plain = asyncio.ensure_future(bench.facts(plain_start))
+
+                def is_stuck() -> bool:
+                    return plain.done() and plain.exception() is None and plain.result().stuck_for_ever
+
+                try:
+                    await wait_until_seen(
+                        run,
+                        lambda: is_decided() or is_stuck(),
+                        promised=lambda: True,
+                        message_gap_s=left_s,
+                        idle_s=IDLE_S,
+                    )
+                finally:
+                    await cancel([plain])
             found, trace = logged(), run.trace()
             at_end = (await run.interrupt()).output if not found and run.exit is None else ()
             return NameProbe(name, value, found, trace, at_end)

@@ -100,16 +100,24 @@ def patience_s(present: Iterable[tuple[str, str]], name: str, type_name: str) ->
     return OTHER_NAME_S if others else SETTLE_S
 
 
-async def wait_for_message(run: Run, topic: str, type_name: str, *, message_gap_s: float = MESSAGE_GAP_S) -> bool:
-    """Wait for a message of this type on this (watched) topic."""
-    return await wait_until_seen(
+async def wait_for_message(
+    run: Run,
+    topic: str,
+    type_name: str,
+    *,
+    message_gap_s: float = MESSAGE_GAP_S,
+    given_up: Callable[[], bool] = lambda: False,
+) -> bool:
+    """Wait for a message of this type on this (watched) topic, but no longer once `given_up()`."""
+    await wait_until_seen(
         run,
-        lambda: bool(run.samples_on(topic)),
+        lambda: bool(run.samples_on(topic)) or given_up(),
         promised=lambda: any(p.topic == topic and p.type == type_name for p in run.graph.publishers),
         message_gap_s=message_gap_s,
         idle_s=IDLE_S,
         settle_s=lambda: _publisher_patience_s(run, topic, type_name),
     )
+    return bool(run.samples_on(topic))
 
 
 async def wait_for_publisher(run: Run, topic: str, type_name: str) -> bool:
