@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import random
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import inf
 
 from checks.i1_2.facts import (
     ABSENT_S,
@@ -33,12 +35,19 @@ from checks.i1_2.facts import (
 )
 from checks.i1_2.summaries import find_summaries, last_due_count
 from tutor.judge.bench import Bench, Publisher, Run
+from tutor.judge.causes.spinning import waits_for_ever
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import patience_s, wait_until_log_quiet, wait_until_seen
 
 SPIN_S = 2.0
 """Time limit for a subscribed, spinning node to answer a request; twice as long if it sleeps first."""
+
+SLOW_ANSWER_S = 0.5
+"""A spinning node answers within this time, unless the machine is busy."""
+
+STUCK_HZ = 50.0
+"""The rate of messages to a node that waits for ever."""
 
 LINE_GAP_S = 0.15
 """Maximum gap between two log messages of one summary."""
@@ -61,19 +70,19 @@ async def steady(bench: Bench) -> Trial:
     """
     async with bench.start(FILE, expected_s=STEADY_EXPECTED_S) as run, run.publisher(TOPIC, TYPE) as talker:
         bench.report_progress(0.05, "waiting for the subscription")
-        spins = await _wait_for_match(run, talker, QUIET_S)
+        match = await _wait_for_match(bench, run, talker, QUIET_S)
         if not talker.subscribers:
-            return Trial(run.trace(), spins=spins)
+            return Trial(run.trace(), spins=match.spins)
         waited_before_s = run.node_cpu_wait_s()
         sent: list[Sent] = []
-        await _send(bench, run, talker, sent, range(STEADY_MESSAGES), random.uniform(*STEADY_HZ))
-        trial = Trial(run.trace(), tuple(sent), cpu_wait_s=run.node_cpu_wait_s() - waited_before_s, spins=spins)
-        trial = await _collect_last_logs(run, trial)
+        await _send(bench, run, talker, sent, range(STEADY_MESSAGES), match.hz(random.uniform(*STEADY_HZ)))
+        trial = Trial(run.trace(), tuple(sent), cpu_wait_s=run.node_cpu_wait_s() - waited_before_s, spins=match.spins)
+        trial = await _collect_last_logs(run, trial, match)
         if find_summaries(trial):
             return trial
         trial = replace(trial, ending=await run.interrupt() if run.exit is None else None)
     if trial.sent and not trial.spins and trial.trace.exit is None:
-        return replace(trial, stuck=await _dump_stuck_node(bench))
+        return replace(trial, stuck=await bench.facts(_dump_stuck_node))
     return trial
 
 
@@ -95,15 +104,15 @@ async def jump_twice(bench: Bench) -> Trial:
 async def _jump(bench: Bench, jumps: Sequence[int]) -> Trial:
     number, left_out = await bench.facts(choose_numbers)
     async with bench.start(FILE, expected_s=JUMP_EXPECTED_S) as run, run.publisher(TOPIC, TYPE) as talker:
-        spins = await _wait_for_match(run, talker, MATCH_S)
+        match = await _wait_for_match(bench, run, talker, MATCH_S)
         if not talker.subscribers:
-            return Trial(run.trace(), spins=spins)
+            return Trial(run.trace(), spins=match.spins)
         waited_before_s = run.node_cpu_wait_s()
         sent: list[Sent] = []
         for begin, end in pairwise((0, *jumps, JUMP_MESSAGES)):
             if begin:
                 number += left_out if begin == JUMP_AFTER else 1
-            await _send(bench, run, talker, sent, range(number, number + end - begin), UNTIMED_HZ)
+            await _send(bench, run, talker, sent, range(number, number + end - begin), match.hz(UNTIMED_HZ))
             number += end - begin
         before_break, before_second_jump = (
             after if after in jumps and len(sent) > after else 0 for after in (JUMP_AFTER, SECOND_JUMP_AFTER)
@@ -114,25 +123,26 @@ async def _jump(bench: Bench, jumps: Sequence[int]) -> Trial:
             tuple(sent),
             before_break,
             cpu_wait_s=cpu_wait_s,
-            spins=spins,
+            spins=match.spins,
             before_second_jump=before_second_jump,
         )
-        return await _collect_last_logs(run, trial)
+        return await _collect_last_logs(run, trial, match)
 
 
 @repeat_if_doubtful
 async def fast(bench: Bench) -> Trial:
     """Send messages as fast as a typical sensor for a short while; then press Ctrl+C."""
     async with bench.start(FILE, expected_s=FAST_EXPECTED_S) as run, run.publisher(TOPIC, TYPE) as talker:
-        spins = await _wait_for_match(run, talker, MATCH_S)
+        match = await _wait_for_match(bench, run, talker, MATCH_S)
         if not talker.subscribers:
-            return Trial(run.trace(), spins=spins, ending=await run.interrupt() if run.exit is None else None)
+            return Trial(run.trace(), spins=match.spins, ending=await run.interrupt() if run.exit is None else None)
         waited_before_s = run.node_cpu_wait_s()
         sent: list[Sent] = []
         first = random.randint(0, 50)
-        await _send(bench, run, talker, sent, range(first, first + FAST_MESSAGES), FAST_HZ)
+        await _send(bench, run, talker, sent, range(first, first + FAST_MESSAGES), match.hz(FAST_HZ))
         cpu_wait_s = run.node_cpu_wait_s() - waited_before_s
-        trial = await _collect_last_logs(run, Trial(run.trace(), tuple(sent), cpu_wait_s=cpu_wait_s, spins=spins))
+        trial = Trial(run.trace(), tuple(sent), cpu_wait_s=cpu_wait_s, spins=match.spins)
+        trial = await _collect_last_logs(run, trial, match)
         bench.report_progress(0.95, "pressing Ctrl+C")
         return replace(trial, ending=await run.interrupt() if run.exit is None else None)
 
@@ -142,14 +152,14 @@ async def restart(bench: Bench) -> Trial:
     async with bench.start(FILE) as run:
         sent: list[Sent] = []
         async with run.publisher(TOPIC, TYPE) as talker:
-            spins = await _wait_for_match(run, talker, MATCH_S)
+            match = await _wait_for_match(bench, run, talker, MATCH_S)
             if not talker.subscribers:
-                return Trial(run.trace(), spins=spins)
+                return Trial(run.trace(), spins=match.spins)
             waited_before_s = run.node_cpu_wait_s()
             # Low enough that the second publisher repeats numbers of the first: a node that takes those for duplicates
             # fails.
             first = random.randint(3, 6)
-            await _send(bench, run, talker, sent, range(first, first + RESTART_AFTER), UNTIMED_HZ)
+            await _send(bench, run, talker, sent, range(first, first + RESTART_AFTER), match.hz(UNTIMED_HZ))
             await _pause(run, SOON_S / 2)
             left_at = run.now()  # taken before it leaves, since the node may log that immediately
         await _pause(run, ABSENT_S)
@@ -157,16 +167,30 @@ async def restart(bench: Bench) -> Trial:
             await run.until(lambda: talker.subscribers > 0, SPIN_S)
             if talker.subscribers:
                 await _pause(run, MATCH_S)
-                await _send(bench, run, talker, sent, range(RESTART_MESSAGES - RESTART_AFTER), RESTARTED_HZ)
+                await _send(bench, run, talker, sent, range(RESTART_MESSAGES - RESTART_AFTER), match.hz(RESTARTED_HZ))
             cpu_wait_s = run.node_cpu_wait_s() - waited_before_s
             before_break = RESTART_AFTER if len(sent) >= RESTART_AFTER else 0
-            return await _collect_last_logs(
-                run, Trial(run.trace(), tuple(sent), before_break, left_at, cpu_wait_s, spins)
-            )
+            trial = Trial(run.trace(), tuple(sent), before_break, left_at, cpu_wait_s, match.spins)
+            return await _collect_last_logs(run, trial, match)
 
 
-async def _wait_for_match(run: Run, talker: Publisher, settled_s: float) -> bool:
-    """Wait until our publisher and the subscription are matched; return whether the node answered a request."""
+@dataclass(frozen=True)
+class _Match:
+    """What is known of a node once our publisher and its subscription are matched.
+
+    `spins`: whether it answered a request. `is_stuck`: whether another start shows that it waits for ever.
+    """
+
+    spins: bool
+    is_stuck: bool = False
+
+    def hz(self, usual_hz: float) -> float:
+        """The rate at which to send messages: it makes no difference to a node that waits for ever."""
+        return STUCK_HZ if self.is_stuck else usual_hz
+
+
+async def _wait_for_match(bench: Bench, run: Run, talker: Publisher, settled_s: float) -> _Match:
+    """Wait until our publisher and the subscription are matched, and see whether the node answers a request."""
 
     def has_subscription() -> bool:
         return any((each.topic, each.type) == (TOPIC, TYPE) for each in run.graph.subscriptions)
@@ -180,11 +204,29 @@ async def _wait_for_match(run: Run, talker: Publisher, settled_s: float) -> bool
     )
     matched_at = run.now()
     if run.exit is not None:
-        return True
+        return _Match(spins=True)
     await run.until(lambda: bool(run.graph.parameter_nodes), 1.0)
-    answered = await run.parameters(SPIN_S) is not None or not run.graph.parameter_nodes
+    asked = asyncio.ensure_future(run.parameters(SPIN_S))
+    look: asyncio.Future[tuple[Frame, ...]] = asyncio.get_running_loop().create_future()
+
+    def is_stuck() -> bool:
+        if not look.done() or look.exception() is not None or len(run.command_lines()) > 1:
+            return False
+        return waits_for_ever(run.trace(), look.result())
+
+    try:
+        if not await run.until(asked.done, SLOW_ANSWER_S) and talker.subscribers:
+            look = asyncio.ensure_future(bench.facts(_dump_stuck_node))
+        await run.until(lambda: asked.done() or is_stuck(), inf)
+        if is_stuck():
+            return _Match(spins=False, is_stuck=True)
+        answered = await asked is not None or not run.graph.parameter_nodes
+    finally:
+        look.cancel()
+        asked.cancel()
+        await asyncio.gather(look, asked, return_exceptions=True)
     await _pause(run, matched_at + settled_s - run.now())
-    return answered
+    return _Match(answered)
 
 
 async def _send(bench: Bench, run: Run, talker: Publisher, sent: list[Sent], numbers: Iterable[int], hz: float) -> None:
@@ -209,8 +251,10 @@ async def _pause(run: Run, for_s: float) -> None:
         await run.until(lambda: run.now() >= until, for_s)
 
 
-async def _collect_last_logs(run: Run, trial: Trial) -> Trial:
+async def _collect_last_logs(run: Run, trial: Trial, match: _Match) -> Trial:
     """Wait for the last summary, and then until the log is quiet, each within a limit."""
+    if match.is_stuck:
+        return trial
 
     def current() -> Trial:
         return replace(trial, trace=run.trace())
