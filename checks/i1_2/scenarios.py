@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import asyncio
 import random
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import inf
 
 from checks.i1_2.facts import (
     ABSENT_S,
@@ -35,16 +33,13 @@ from checks.i1_2.facts import (
 )
 from checks.i1_2.summaries import find_summaries, last_due_count
 from tutor.judge.bench import Bench, Publisher, Run
-from tutor.judge.causes.spinning import waits_for_ever
 from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.stuck import ask_unless_stuck
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import patience_s, wait_until_log_quiet, wait_until_seen
 
 SPIN_S = 2.0
 """Time limit for a subscribed, spinning node to answer a request; twice as long if it sleeps first."""
-
-SLOW_ANSWER_S = 0.5
-"""A spinning node answers within this time, unless the machine is busy."""
 
 STUCK_HZ = 50.0
 """The rate of messages to a node that waits for ever."""
@@ -206,25 +201,13 @@ async def _wait_for_match(bench: Bench, run: Run, talker: Publisher, settled_s: 
     if run.exit is not None:
         return _Match(spins=True)
     await run.until(lambda: bool(run.graph.parameter_nodes), 1.0)
-    asked = asyncio.ensure_future(run.parameters(SPIN_S))
-    look: asyncio.Future[tuple[Frame, ...]] = asyncio.get_running_loop().create_future()
-
-    def is_stuck() -> bool:
-        if not look.done() or look.exception() is not None or len(run.command_lines()) > 1:
-            return False
-        return waits_for_ever(run.trace(), look.result())
-
-    try:
-        if not await run.until(asked.done, SLOW_ANSWER_S) and talker.subscribers:
-            look = asyncio.ensure_future(bench.facts(_dump_stuck_node))
-        await run.until(lambda: asked.done() or is_stuck(), inf)
-        if is_stuck():
+    if not run.graph.parameter_nodes:
+        answered = True
+    else:
+        answer, is_stuck = await ask_unless_stuck(run, SPIN_S, lambda: bench.facts(_dump_stuck_node))
+        if is_stuck:
             return _Match(spins=False, is_stuck=True)
-        answered = await asked is not None or not run.graph.parameter_nodes
-    finally:
-        look.cancel()
-        asked.cancel()
-        await asyncio.gather(look, asked, return_exceptions=True)
+        answered = answer is not None
     await _pause(run, matched_at + settled_s - run.now())
     return _Match(answered)
 

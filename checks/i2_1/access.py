@@ -7,6 +7,7 @@ from typing import Any
 
 from checks.i2_1.facts import ANSWER_S, DEFAULT_HZ, DEFAULTS, FILE, MESSAGE_GAP_S, RATE, TOPIC, TYPE, find_parameter
 from tutor.judge.bench import Bench, Run
+from tutor.judge.stuck import ask_unless_stuck
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import RESENT_S, START_S, find_stuck_frames, wait_for_message, wait_for_publisher
@@ -22,30 +23,30 @@ async def dump_if_stuck(bench: Bench, trace: Trace, answering: bool = False) -> 
     return await bench.facts(dump_silent_node) if trace.graph.nodes and trace.exit is None and not answering else ()
 
 
-async def find_node(run: Run) -> str | None:
+async def find_node(bench: Bench, run: Run) -> str | None:
     """Find the node to talk to: the one with most of the required parameters. None if no node answers."""
     if not await run.until(lambda: bool(run.graph.parameter_nodes), START_S, idle_s=RESENT_S):
         return None
-    declared = await run.parameters(ANSWER_S)
+    declared, _ = await ask_unless_stuck(run, ANSWER_S, lambda: bench.facts(dump_silent_node))
     if declared is None:
         return None
     holders = [parameter.node for parameter in declared if parameter.name in DEFAULTS]
     return max(holders or run.graph.parameter_nodes, key=holders.count, default=None)
 
 
-async def wait_until_publishing(run: Run) -> tuple[str | None, bool]:
+async def wait_until_publishing(bench: Bench, run: Run) -> tuple[str | None, bool]:
     """Return the node to talk to once it publishes (None if it does not), and whether it answers."""
-    node = await find_node(run)
+    node = await find_node(bench, run)
     publishes = node is not None and await wait_for_message(run, TOPIC, TYPE, message_gap_s=MESSAGE_GAP_S)
     return (node if publishes else None), node is not None
 
 
-async def wait_until_ready(run: Run, *, at_once: bool) -> str | None:
+async def wait_until_ready(bench: Bench, run: Run, *, at_once: bool) -> str | None:
     """Return the node to talk to once it publishes, or with `at_once`, as soon as it has its publisher.
 
     None if no node answers.
     """
-    node = await find_node(run)
+    node = await find_node(bench, run)
     if node is not None and not at_once:
         await wait_for_message(run, TOPIC, TYPE, message_gap_s=MESSAGE_GAP_S)
     elif node is not None:

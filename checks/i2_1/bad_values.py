@@ -33,7 +33,7 @@ async def ask_for_bad_rates(bench: Bench) -> BadRates:
 async def _try_bad_rates(bench: Bench, from_hz: float | None) -> BadRates:
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=4.2) as run:
         bench.report_progress(0.05, "waiting for it to publish")
-        node, answering = await wait_until_publishing(run)
+        node, answering = await wait_until_publishing(bench, run)
         if node is None:
             return BadRates(
                 trace := run.trace(), stuck=await dump_if_stuck(bench, trace, answering), answering=answering
@@ -88,7 +88,7 @@ async def _set_bad_rates(bench: Bench, run: Run, node: str, base_hz: float) -> B
 async def set_atomically(bench: Bench) -> AtomicRequests:
     """Set a good prefix and a bad rate in one atomic request, once in either order."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=5.0) as run:
-        node, answering = await wait_until_publishing(run)
+        node, answering = await wait_until_publishing(bench, run)
         if node is None:
             return AtomicRequests(
                 trace := run.trace(), stuck=await dump_if_stuck(bench, trace, answering), answering=answering

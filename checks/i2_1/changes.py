@@ -57,7 +57,7 @@ async def _set_prefix(bench: Bench) -> RuntimeChanges:
     """Set message_prefix while the node publishes; then publish_rate while `enabled` is off."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=3.0) as run:
         bench.report_progress(0.05, "waiting for it to publish")
-        node, answering = await wait_until_publishing(run)
+        node, answering = await wait_until_publishing(bench, run)
         if node is None:
             return RuntimeChanges(
                 trace := run.trace(), stuck=await dump_if_stuck(bench, trace, answering), answering=answering
@@ -116,7 +116,7 @@ async def _switch_enabled(bench: Bench) -> RuntimeChanges:
 
 async def _switch(bench: Bench, *, at_once: bool) -> RuntimeChanges:
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
-        node = await wait_until_ready(run, at_once=at_once)
+        node = await wait_until_ready(bench, run, at_once=at_once)
         if node is None:
             return RuntimeChanges(run.trace())
         seen = RuntimeChanges(run.trace(), await read_base_hz(run), answering=True)
@@ -201,7 +201,7 @@ async def change_rate(bench: Bench) -> RateChanges:
 async def _change_rate(bench: Bench, *, at_once: bool) -> RateChanges:
     async with bench.start(FILE, watch={TOPIC: TYPE}) as run:
         bench.report_progress(0.05, "waiting for it to publish")
-        node = await wait_until_ready(run, at_once=at_once)
+        node = await wait_until_ready(bench, run, at_once=at_once)
         if node is None:
             return RateChanges(trace := run.trace(), stuck=await dump_if_stuck(bench, trace))
         steps: list[tuple[SetAnswer, Rate | None, int]] = []

@@ -40,7 +40,7 @@ async def plain_start(bench: Bench) -> PlainStart:
     """Start without parameters: which ones does it declare, and does Ctrl+C end it cleanly?"""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=7.0) as run:  # goes first: it decides a lot on its own
         bench.report_progress(0.2, "asking for its parameters")
-        node = await find_node(run)
+        node = await find_node(bench, run)
         declared = await run.parameters(ANSWER_S) if node else None
         bench.report_facts(PlainStart(run.trace(), declared, None))
         bench.report_progress(0.5, "waiting for a message, then pressing Ctrl+C")
@@ -85,7 +85,7 @@ async def _start_disabled(bench: Bench) -> DisabledStart:
     parameters = {ENABLED: False, RATE: LAUNCH_HZ}
     async with bench.start(FILE, parameters=parameters, watch={TOPIC: TYPE}, expected_s=2.5) as run:
         bench.report_progress(0.3, f"{ENABLED}:=false, listening for silence")
-        node = await find_node(run)
+        node = await find_node(bench, run)
         declared = await run.parameters(ANSWER_S) if node else None
         await wait_until_seen(run, lambda: has_publisher(run))
         since = run.now()

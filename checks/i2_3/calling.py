@@ -4,21 +4,28 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from checks.i2_3.facts import (
     ANSWER_TIMEOUT_S,
     CALLS,
     EXCUSED_S,
+    FILE,
     LONGEST_S,
     SERVICE,
     TYPE,
     has_service,
 )
-from tutor.judge.bench import Run
-from tutor.judge.waiting import patience_s, wait_until_seen
+from tutor.judge.bench import Bench, Run
+from tutor.judge.stuck import ask_unless_stuck
+from tutor.judge.tracebacks import Frame
+from tutor.judge.waiting import find_stuck_frames, patience_s, wait_until_seen
 
 DISCOVERY_S = 1.0
 """Time limit for all services of a node to appear in the graph once the node is discovered."""
+
+STUCK_CALL_S = 1.0
+"""Timeout of a call to a node that waits for ever."""
 
 SPIN_S = 2.5
 """A node spins within twice this time of its service being discovered, or never."""
@@ -33,19 +40,31 @@ async def wait_for_service(run: Run) -> bool:
     )
 
 
-def answer_limit_s(spins: bool) -> float:
-    """Timeout of a call. A node that does not spin yet has time to begin to, and to do the work."""
-    return ANSWER_TIMEOUT_S if spins else SPIN_S + LONGEST_S + EXCUSED_S
+async def dump_silent_node(bench: Bench) -> tuple[Frame, ...]:
+    """Start the node again, only to return its stack while nobody asks it for anything."""
+    return await find_stuck_frames(bench, FILE)
 
 
-async def wait_until_spinning(run: Run) -> bool:
-    """Wait until the node answers a parameter request; False if it has parameter services, but does not answer.
+@dataclass(frozen=True)
+class Readiness:
+    """Whether a node spins, whether it waits for ever instead, and the timeout of a call to it, in seconds."""
 
-    A node may be in the graph long before it spins.
+    spins: bool = True
+    is_stuck: bool = False
+    limit_s: float = ANSWER_TIMEOUT_S
+
+
+async def wait_until_spinning(bench: Bench, run: Run) -> Readiness:
+    """Wait until the node answers a parameter request; one without parameter services is taken to spin.
+
+    A node may be in the graph long before it spins, so that a call has time to wait for that, and for the work.
     """
-    if await run.until(lambda: bool(run.graph.parameter_nodes), DISCOVERY_S):
-        return await run.parameters(SPIN_S) is not None
-    return True
+    if not await run.until(lambda: bool(run.graph.parameter_nodes), DISCOVERY_S):
+        return Readiness()
+    answer, is_stuck = await ask_unless_stuck(run, SPIN_S, lambda: bench.facts(dump_silent_node))
+    if answer is not None:
+        return Readiness()
+    return Readiness(False, is_stuck, STUCK_CALL_S if is_stuck else SPIN_S + LONGEST_S + EXCUSED_S)
 
 
 def total_cpu_wait_s(run: Run) -> float:

@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from checks.i2_3.calling import (
-    answer_limit_s,
     distinct_operands,
     random_operands,
     total_cpu_wait_s,
@@ -49,7 +48,7 @@ async def run_idle(bench: Bench) -> IdleRun:
         await wait_until_seen(run, lambda: bool(run.graph.nodes))
         up_at = run.now()
         # A timer needs a node that spins.
-        may_tick = await wait_until_spinning(run) or bool(logs_since(run.logs, up_at))
+        may_tick = (await wait_until_spinning(bench, run)).spins or bool(logs_since(run.logs, up_at))
         since, waited_before_s = run.now(), total_cpu_wait_s(run)
         if may_tick:
             await wait_until_seen(run, lambda: bool(logs_since(run.logs, since)), idle_s=IDLE_S)
@@ -71,7 +70,7 @@ async def call_concurrently(bench: Bench) -> ConcurrentCalls:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
         if not await wait_for_service(run):
             return ConcurrentCalls(run.trace())
-        limit_s = answer_limit_s(await wait_until_spinning(run))
+        limit_s = (await wait_until_spinning(bench, run)).limit_s
         bench.report_progress(0.3, f"calling {SERVICE} three times at once")
         batches: list[CallBatch] = []
         while not batches or needs_repeat_at_once(ConcurrentCalls(run.trace(), tuple(batches))):
@@ -113,7 +112,7 @@ async def interrupt_during_call(bench: Bench) -> Interrupted:
         bench.report_progress(0.1, f"waiting for {SERVICE}")
         called = await wait_for_service(run)
         if called:
-            await wait_until_spinning(run)
+            await wait_until_spinning(bench, run)
         call = asyncio.create_task(run.call(SERVICE, TYPE, random_operands(), limit_s=ANSWER_TIMEOUT_S))
         try:
             if called:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from checks.i2_3.calling import (
-    answer_limit_s,
+    dump_silent_node,
     large_operands,
     random_operands,
     total_cpu_wait_s,
@@ -66,7 +66,7 @@ async def call_singly(bench: Bench) -> SingleCalls:
 
 
 async def _call_singly(bench: Bench, suspect: Callable[[bool], None]) -> tuple[SingleCalls, bool]:
-    """Make the calls; also return whether the first one was fine.
+    """Make the calls; also return whether the first one was fine, or it is known why not.
 
     `suspect` is called as soon as it may not be, with whether the node answers at all.
     """
@@ -74,12 +74,17 @@ async def _call_singly(bench: Bench, suspect: Callable[[bool], None]) -> tuple[S
         bench.report_progress(0.1, f"waiting for {SERVICE}")
         if not await wait_for_service(run):
             return SingleCalls(run.trace()), False
-        if not (spins := await wait_until_spinning(run)):
+        ready = await wait_until_spinning(bench, run)
+        if ready.is_stuck:
+            answer, waited_s = await _make_call(run, random_operands(), ready.limit_s)
+            call = Call(answer, run.now(), waited_s)
+            return SingleCalls(run.trace(), (call,), await bench.facts(dump_silent_node), spins=False), True
+        if not ready.spins:
             suspect(False)
         bench.report_progress(0.2, f"calling {SERVICE}")
         second: list[asyncio.Task[_TimedAnswer]] = []
         try:
-            calls, fine = await _call_first(bench, run, suspect, second, answer_limit_s(spins))
+            calls, fine = await _call_first(bench, run, suspect, second, ready.limit_s)
             later: Sequence[Call] = ()
             idle = await bench.facts(run_idle)
             bench.report_facts(SingleCalls(run.trace(), tuple(calls), idle=idle))
