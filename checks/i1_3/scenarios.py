@@ -31,13 +31,17 @@ from checks.i1_3.facts import (
 )
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.stuck import ask_unless_stuck
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import SETTLE_S, patience_s, wait_until_log_quiet, wait_until_seen
+from tutor.judge.waiting import SETTLE_S, find_stuck_frames, patience_s, wait_until_log_quiet, wait_until_seen
 from tutor.ros_model import Graph, ServiceEndpoint
 
 EXIT_LIMIT_S = 10.0
 """Time limit for a process to exit once its node has begun to disappear from the graph."""
+
+SPIN_S = 2.0
+"""A node that spins answers a parameter request within twice this time."""
 
 LOG_QUIET_S = 0.3
 """Silence after which a node counts as done logging about a call: longer than between two of its messages."""
@@ -52,17 +56,24 @@ async def call_each_service(bench: Bench) -> ServiceCalls:
     async with bench.start(SERVER, expected_s=0.5) as run:
         bench.report_progress(0.1, "waiting for the four services")
         had_node = await _wait_for_services(run)
-        spins = await run.parameters(2.0) is not None
+        parameters, is_stuck = await ask_unless_stuck(run, SPIN_S, lambda: bench.facts(_dump_silent_server))
         graph_before = run.graph
         offered = [name for name in OPERATOR_SIGNS if name not in missing_services(graph_before.servers)]
         bench.report_progress(0.4, "calling each service")
-        answers = await _make_calls(run, [(name, *EASY_OPERANDS) for name in offered])
+        limit_s = STUCK_CALL_S if is_stuck else ANSWER_S
+        answers = await _make_calls(run, [(name, *EASY_OPERANDS) for name in offered], limit_s)
         unanswered = next((answer for answer in answers if answer.response is None), None)
         trace = await _trace_after_calls(run, graph_before, had_node)
         bench.report_progress(0.8, "pressing Ctrl+C")
         ended = await run.interrupt() if run.exit is None else None
-    stuck = await _dump_stuck_node(bench, unanswered) if unanswered and trace.exit is None else ()
-    return ServiceCalls(trace, answers, spins, stuck, ended)
+    stuck: tuple[Frame, ...] = ()
+    if unanswered and trace.exit is None:
+        stuck = await (bench.facts(_dump_silent_server) if is_stuck else _dump_stuck_node(bench, unanswered))
+    return ServiceCalls(trace, answers, parameters is not None, stuck, ended)
+
+
+async def _dump_silent_server(bench: Bench) -> tuple[Frame, ...]:
+    return await find_stuck_frames(bench, SERVER)
 
 
 async def _wait_for_services(run: Run) -> bool:
@@ -121,11 +132,13 @@ async def call_with_random_operands(bench: Bench) -> ServiceCalls:
         return ServiceCalls(await _trace_after_calls(run, graph_before, had_node), answers)
 
 
-async def _make_calls(run: Run, questions: Sequence[tuple[str, int, int]]) -> tuple[CallAnswer, ...]:
+async def _make_calls(
+    run: Run, questions: Sequence[tuple[str, int, int]], limit_s: float = ANSWER_S
+) -> tuple[CallAnswer, ...]:
     """Make the calls one after another; stop after an unanswered one, as each further one would time out too."""
     answers: list[CallAnswer] = []
     for name, a, b in questions:
-        answers.append(await run.call(name, TYPE, {"a": a, "b": b}, limit_s=ANSWER_S))
+        answers.append(await run.call(name, TYPE, {"a": a, "b": b}, limit_s=limit_s))
         if answers[-1].response is None:
             break
     return tuple(answers)
