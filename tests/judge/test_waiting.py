@@ -71,3 +71,9 @@ async def test_a_node_that_creates_the_right_publisher_late_is_waited_for() -> N
 async def test_cpu_wait_of_the_node_does_not_count() -> None:
     run = FakeRun((0.0, "/temperature", TYPE), (4.0, TOPIC, TYPE), message_at=4.5, cpu_wait_s=2.0)
     assert await wait_for_message(run, TOPIC, TYPE)  # type: ignore[arg-type]
+
+
+async def test_a_message_is_no_longer_waited_for_once_it_cannot_come() -> None:
+    run = FakeRun((0.0, TOPIC, TYPE), message_at=9.0)
+    assert not await wait_for_message(run, TOPIC, TYPE, given_up=lambda: run.now() >= 3.0)  # type: ignore[arg-type]
+    assert run.now() == pytest.approx(3.0, abs=0.2)
