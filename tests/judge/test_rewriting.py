@@ -285,6 +285,7 @@ DECLARED = """\
         self.declare_parameter('message_prefix', 'Hello')
         self.declare_parameter('publish_rate', 1.0)
 """
+DECLARED_AT_ONCE = "        self.declare_parameters('', PARAMETERS, ignore_override=True)\n"
 DECLARED_IN_LOOP = """\
         for name, default in (('message_prefix', 'Hello'), ('publish_rate', 1.0)):
             self.declare_parameter(name, default, ignore_override=True)
@@ -298,6 +299,10 @@ DECLARED_IN_LOOP = """\
         (
             changed(("'Hello')", "'Hello', ignore_override=True)")),
             NODE.replace("'Hello')", "'Hello', ignore_override=False)"),
+        ),
+        (
+            changed((DECLARED, DECLARED_AT_ONCE)),
+            NODE.replace(DECLARED, DECLARED_AT_ONCE.replace("True", "False")),
         ),
         (
             changed((DECLARED, DECLARED_IN_LOOP)),

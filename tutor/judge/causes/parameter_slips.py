@@ -194,10 +194,11 @@ def _diagnose_ignored_overrides(file: NodeFile, name: str) -> Cause | None:
     found: list[tuple[ast.expr, str]] = []
     first: ast.Call | None = None
     for call in file.calls("declare_parameter", "declare_parameters"):
-        given = argument(call, 3 if called_name(call) == "declare_parameter" else 2, "ignore_override")
+        single = called_name(call) == "declare_parameter"
+        given = argument(call, 3 if single else 2, "ignore_override")
         if given is not None and ast.unparse(given) == "True":
-            named = argument(call, 0, "name")  # a variable in a loop over all parameters
-            own = name in ast.unparse(call) or not isinstance(named, ast.Constant)
+            declared = argument(call, 0, "name") if single else argument(call, 1, "parameters")
+            own = name in ast.unparse(call) or isinstance(declared, ast.Name | ast.Attribute)  # all, in a loop or table
             first = first or call if own else first
             found.append((given, "False"))
     step = file.step(replace_nodes(file.text, *found)) if first is not None else None
