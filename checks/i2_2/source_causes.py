@@ -12,8 +12,8 @@ from checks.i2_2.launch_file import Launch
 from checks.i2_2.reading import Call, Source
 from checks.i2_2.rewriting import prepend_to_list
 from tutor.judge.causes.parameter_slips import diagnose_dropped_arguments
-from tutor.judge.edits import remove_lines, replace_nodes
-from tutor.judge.rewriting.node import NodeFile, find_in_files
+from tutor.judge.edits import remove_lines, replace_node, replace_nodes
+from tutor.judge.rewriting.node import NodeFile, argument, find_in_files
 from tutor.judge.verdict import Cause
 from tutor.ros_model import Graph
 
@@ -204,7 +204,30 @@ def _value_of(node: ast.AST, name: str) -> ast.expr | None:
 
 def diagnose_in_source(seen: LaunchRun, name: str) -> Cause | None:
     """Whether a program drops the arguments of ROS, or the launch file overwrites this one."""
-    return find_in_files(seen.trace, diagnose_dropped_arguments, lambda file: _diagnose_set_argument(file, name))
+    return find_in_files(
+        seen.trace,
+        diagnose_dropped_arguments,
+        lambda file: _diagnose_set_argument(file, name),
+        _diagnose_setting_in_group,
+    )
+
+
+def _diagnose_setting_in_group(file: NodeFile) -> Cause | None:
+    """Whether a configuration is set in a group, which restores it at its end, and read outside of the group."""
+    for group in file.calls("GroupAction"):
+        inside = list(ast.walk(group))
+        if any(each.arg == "scoped" for each in group.keywords):
+            continue
+        for call in (each for each in file.calls("SetLaunchConfiguration") if each in inside):
+            name = argument(call, 0, "name")
+            reads = [each for each in file.calls("LaunchConfiguration") if each not in inside and each.args]
+            if name is None or not any(ast.unparse(each.args[0]) == ast.unparse(name) for each in reads):
+                continue
+            scoped = [*group.keywords, ast.keyword("scoped", ast.Constant(False))]
+            step = file.step([replace_node(file.text, group, ast.unparse(ast.Call(group.func, group.args, scoped)))])
+            text = f"line {call.lineno} sets {ast.unparse(name)} in a group, and the end of the group takes it back"
+            return Cause("setting lost with its group", text, step) if step else None
+    return None
 
 
 def _diagnose_set_argument(file: NodeFile, name: str) -> Cause | None:

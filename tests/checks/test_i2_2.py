@@ -271,6 +271,20 @@ def test_a_launch_file_that_sets_the_argument_itself(more: str, is_named: bool) 
     assert ("remove line 3: SetLaunchConfiguration" in verdict.hint) is is_named
 
 
+@pytest.mark.parametrize(
+    ("more", "read", "is_named"),
+    [("", "target", True), (", scoped=False", "target", False), ("", "other", False)],
+)
+def test_a_setting_that_a_group_takes_back(more: str, read: str, is_named: bool) -> None:
+    group = f"GroupAction([SetLaunchConfiguration('target', topic)]{more})"
+    source = f"description = LaunchDescription([\n    {group},\n    talker(LaunchConfiguration('{read}')),\n])\n"
+    seen = with_topic(pair("/chatter", "/chatter"))
+    seen = replace(seen, trace=replace(seen.trace, sources={"my_launch.py": source}))
+    verdict = judges.judge_topic(DEFAULT_RUN, seen)
+    assert ("setting lost with its group" in verdict.cause) is is_named
+    assert ("GroupAction([SetLaunchConfiguration('target', topic)], scoped=False)," in verdict.hint) is is_named
+
+
 @pytest.mark.parametrize(("sent", "taken"), [("/news", "/chatter"), ("/chatter", "/news")])
 def test_one_node_is_not_remapped(sent: str, taken: str) -> None:
     command_lines = ["talker --ros-args -r chatter:=news", "listener --ros-args"]
