@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from checks.i1_1.facts import (
@@ -178,31 +178,24 @@ async def probe_names(bench: Bench) -> NameProbes:
                 # Without any log message, it may be that the first ones were lost, and are resent later.
                 return repeats and (has_published(2) if run.logs else has_published(2, for_s=RESENT_S))
 
-            await wait_until_seen(
-                run,
-                lambda: is_decided() or has_published(3),
-                promised=lambda: True,
-                message_gap_s=USUALLY_LOGGED_S,
-                idle_s=IDLE_S,
-            )
+            async def wait(seen: Callable[[], bool], limit_s: float) -> None:
+                await wait_until_seen(run, seen, promised=lambda: True, message_gap_s=limit_s, idle_s=IDLE_S)
+
+            await wait(lambda: is_decided() or has_published(3), USUALLY_LOGGED_S)
             declared = await bench.facts(parameters)
-            if not is_decided() and not await _ignores(run, name, declared):
-                # Many nodes log every tenth message, which takes 10 s at 1 Hz, however late the first one comes.
-                began = run.samples_on(TOPIC)[0].received_at if run.samples_on(TOPIC) else since
-                left_s = MESSAGE_GAP_S - (run.now() - began)
+            if not is_decided():
                 plain = asyncio.ensure_future(bench.facts(plain_start))
 
-                def is_stuck() -> bool:
-                    return plain.done() and plain.exception() is None and plain.result().stuck_for_ever
+                def is_over() -> bool:
+                    stuck = plain.done() and plain.exception() is None and plain.result().stuck_for_ever
+                    return stuck or is_decided()
 
                 try:
-                    await wait_until_seen(
-                        run,
-                        lambda: is_decided() or is_stuck(),
-                        promised=lambda: True,
-                        message_gap_s=left_s,
-                        idle_s=IDLE_S,
-                    )
+                    await wait(lambda: is_over() or has_published(3), MESSAGE_GAP_S - (run.now() - since))
+                    if not is_over() and not await _ignores(run, name, declared):
+                        # Many nodes log every tenth message, which takes 10 s at 1 Hz, from the first one on.
+                        began = run.samples_on(TOPIC)[0].received_at if run.samples_on(TOPIC) else since
+                        await wait(is_over, MESSAGE_GAP_S - (run.now() - began))
                 finally:
                     await cancel([plain])
             found, trace = logged(), run.trace()
