@@ -19,6 +19,8 @@ from tutor.judge.rewriting.node import NodeFile, find_in_files
 from tutor.judge.trace import Level, LogRecord
 from tutor.judge.verdict import Cause
 
+EVERY_MESSAGE = "summary for every message"
+
 
 def diagnose_end(trial: Trial, what: str) -> Cause:
     """Why the node ended, having met `what`."""
@@ -87,9 +89,7 @@ def diagnose_interval(summaries: Sequence[Summary], trial: Trial, messages: int)
     due = range(SUMMARY_EVERY, messages + 1, SUMMARY_EVERY)
     when = [summary.messages for summary in summaries]
     if len(summaries) > 3 and len(summaries) >= 0.7 * messages:
-        return Cause(
-            "summary for every message", f"{len(summaries)} summaries for {messages} messages", every_ten(trial)
-        )
+        return Cause(EVERY_MESSAGE, f"{len(summaries)} summaries for {messages} messages", every_ten(trial))
     if len(summaries) > len(due) or any(summary.repetitions > 1 for summary in summaries):
         return Cause(
             "too many summaries",

@@ -1168,6 +1168,19 @@ def test_surplus_or_incomplete_summaries_already_fail_in_the_fast_stretch() -> N
         assert_failed(early, cause)
 
 
+class IrregularlyOften(FakeStats):
+    """As if it summed up after every message, of which some come too fast to be told apart."""
+
+    def receive(self, now: float, data: str) -> Iterator[Log]:
+        self.every = 1 if (self.total + 1) % 7 in (0, 3) else 1000
+        yield from super().receive(now, data)
+
+
+def test_summaries_at_different_distances_are_left_to_the_slow_messages() -> None:
+    assert fast_stretch.judge_fast_summary(fast(IrregularlyOften())) is None
+    assert_failed(judge_trials(IrregularlyOften)["summary"], "too many summaries")
+
+
 class BoundedList(FakeStats):
     """Counts what is in a list of at most 20 messages, so that from the 20th on every message brings a summary."""
 
