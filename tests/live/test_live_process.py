@@ -10,12 +10,14 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
 from tests.live.private_domain import METRONOME, PrivateDomain, private_domain
 from tutor.live.protocol import Follow, Ready, SetVisible, Update, WatcherRequest, decode_update, encode_request
-from tutor.live.updates import TopicUpdate
+from tutor.live.updates import NodeParameters, TopicUpdate
+from tutor.ros_model import Graph
 
 LIMIT_S = 30.0
 
@@ -84,6 +86,47 @@ def test_every_message_of_a_1_khz_topic_is_counted_with_few_updates(ros_world: P
         assert last.timing is not None
         assert last.timing.rate_hz == pytest.approx(1000, rel=0.2)
         assert ros_world.read_line(node).startswith("3000 ")
+    finally:
+        watcher.close()
+
+
+NUMBERED = """\
+import sys
+import rclpy
+from rclpy.node import Node
+
+rclpy.init()
+node = Node('numbered')
+node.declare_parameter('number', int(sys.argv[1]))
+print('ready', flush=True)
+rclpy.spin(node)
+"""
+
+
+def test_a_node_that_replaces_another_of_its_name_has_its_parameters_read(
+    ros_world: PrivateDomain, tmp_path: Path
+) -> None:
+    program = tmp_path / "numbered.py"
+    program.write_text(NUMBERED)
+    watcher = Watcher(ros_world)
+
+    def wait_for(number: int) -> None:
+        values = (
+            {each.name: each.value for each in update.parameters}
+            for update in watcher.updates()
+            if isinstance(update, NodeParameters) and update.node == "/numbered"
+        )
+        assert any(each.get("number") == number for each in values)
+
+    try:
+        watcher.wait_until_ready()
+        first = ros_world.run(program, "1")
+        wait_for(1)
+        ros_world.run(program, "2")
+        graphs = (update for update in watcher.updates() if isinstance(update, Graph))
+        assert any(graph.nodes.count("/numbered") == 2 for graph in graphs)
+        ros_world.interrupt(first)
+        wait_for(2)
     finally:
         watcher.close()
 

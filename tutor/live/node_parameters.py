@@ -11,6 +11,7 @@ from typing import Any
 
 from tutor.live.protocol import SetParameter
 from tutor.live.updates import NodeParameters, SetOutcome
+from tutor.ros.graph import parameter_event_publishers
 from tutor.ros.observer import Observer
 from tutor.ros.parameter_events import watch_changes
 from tutor.ros.parameters import get_parameters, set_parameters
@@ -30,15 +31,17 @@ class ParameterWatch:
         self._observer = observer
         self._send = send
         self._nodes: frozenset[str] = frozenset()
+        self._publishers: frozenset[tuple[str, bytes]] = frozenset()
         self._refreshing: dict[str, asyncio.Task[None]] = {}
         self._changed_meanwhile: set[str] = set()
         self._retry_at: dict[str, float] = {}
         watch_changes(observer, self.refresh)
 
     def update_graph(self, graph: Graph) -> None:
-        """Read the parameters of new nodes."""
-        nodes = frozenset(graph.parameter_nodes)
-        new, self._nodes = nodes - self._nodes, nodes
+        """Read the parameters of new nodes, including those that have replaced one of the same name."""
+        nodes, publishers = frozenset(graph.parameter_nodes), parameter_event_publishers(self._observer.node)
+        new = (nodes - self._nodes) | {node for node, _ in publishers ^ self._publishers}
+        self._nodes, self._publishers = nodes, publishers
         self._retry_at = {node: due for node, due in self._retry_at.items() if node in nodes}
         for node in new:
             self.refresh(node)

@@ -43,6 +43,16 @@ def graph_fingerprint(node: Node) -> object:
     )
 
 
+def parameter_event_publishers(node: Node) -> frozenset[tuple[str, bytes]]:
+    """Return the name of each node with the DDS id of its publisher of parameter events.
+
+    A node that has replaced another one of the same name has another id.
+    """
+    return frozenset(
+        (_node_of(info), bytes(info.endpoint_gid)) for info in node.get_publishers_info_by_topic("/parameter_events")
+    )
+
+
 def _topic_endpoints(
     topics: Iterable[str], query: Callable[[str], list[TopicEndpointInfo]]
 ) -> tuple[TopicEndpoint, ...]:
