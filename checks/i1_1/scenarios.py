@@ -9,8 +9,8 @@ from typing import Any
 
 from checks.i1_1.facts import ECHO_LIMIT_S, FILE, TOPIC, TYPE, PlainStart, numeric_parameters
 from tutor.judge.bench import Bench, Run
-from tutor.judge.causes.spinning import waits_for_ever
 from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.stuck import is_stuck_for_ever
 from tutor.judge.trace import Sample, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import MESSAGE_GAP_S, RESENT_S, START_S, find_stuck_frames, wait_for_message
@@ -83,7 +83,7 @@ async def _look_at_silent_node(
         if await run.parameters(SPINNING_S) is None and _is_silent(run):
             restarted.set()
             frames = await find_stuck_frames(bench, FILE)
-            if len(run.command_lines()) == 1 and waits_for_ever(run.trace(), frames):
+            if is_stuck_for_ever(run, frames):
                 stuck_for_ever.set()
             return frames
     return ()

@@ -19,7 +19,8 @@ def group_edits(file: NodeFile) -> list[Edit]:
     shared, service_call = timers_in_its_group(file), service(file)
     own = group_of(service_call) if service_call is not None else ""
     name, imported = file.import_name("ReentrantCallbackGroup", "rclpy.callback_groups")
-    others = [each for each in file.calls(*_GROUPS) if file.assigned_to(each) not in ("", *_names_of(file, own))]
+    taken = {"", *_names_of(file, own)}
+    others = [each for each in file.calls(*_GROUPS) if file.assigned_to(each) not in taken]
     found: list[Edit] = []
     for timer_call in shared:
         kept = [file.assigned_to(each) for each in others if each.lineno < timer_call.lineno and _is_set_up(file, each)]
@@ -39,7 +40,8 @@ def timers_in_its_group(file: NodeFile) -> list[ast.Call]:
     service_call = service(file)
     if service_call is None or timer(file) is None or is_reentrant(file, own := group_of(service_call)):
         return []
-    return [each for each in file.timers if group_of(each) in _names_of(file, own)]
+    names = _names_of(file, own)
+    return [each for each in file.timers if group_of(each) in names]
 
 
 def _names_of(file: NodeFile, group: str) -> set[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from math import inf
 
 from tutor.judge.bench import Run
@@ -13,6 +13,11 @@ from tutor.ros_model import Parameter
 
 SLOW_ANSWER_S = 0.5
 """A spinning node answers within this time, unless the machine is busy."""
+
+
+def is_stuck_for_ever(run: Run, frames: Sequence[Frame]) -> bool:
+    """Whether a run will do nothing more by itself, given the stack of another start: no process of it can."""
+    return len(run.command_lines()) == 1 and waits_for_ever(run.trace(), frames)
 
 
 async def ask_unless_stuck(
@@ -27,9 +32,8 @@ async def ask_unless_stuck(
     looking: asyncio.Future[tuple[Frame, ...]] = asyncio.get_running_loop().create_future()
 
     def is_stuck() -> bool:
-        if not looking.done() or looking.exception() is not None or len(run.command_lines()) > 1:
-            return False
-        return waits_for_ever(run.trace(), looking.result())
+        found = looking.done() and looking.exception() is None
+        return found and is_stuck_for_ever(run, looking.result())
 
     try:
         if not await run.until(asked.done, SLOW_ANSWER_S) and run.exit is None:
