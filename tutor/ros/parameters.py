@@ -46,6 +46,7 @@ RESEND_S = 1.0
 
 _LARGE_BYTES = 1_000_000
 _ELEMENT_BYTES = 8
+"""Of an array of numbers, and the length of a string; those of bytes and booleans are counted as numbers."""
 
 
 async def get_parameters(observer: Observer, nodes: Iterable[str], limit_s: float) -> tuple[Parameter, ...] | None:
@@ -199,9 +200,18 @@ def _read_value(value: Any) -> tuple[int, Any]:
 
 
 def _value_bytes(value: Any) -> int:
+    """Return about how many bytes the value took when it was received."""
     field = _VALUE_FIELDS[value.type]
-    content = getattr(value, field) if field else None
-    return _ELEMENT_BYTES * len(content) if content is not None and hasattr(content, "__len__") else _ELEMENT_BYTES
+    content: Any = getattr(value, field) if field else None
+    if isinstance(content, str):
+        return _text_bytes(content)
+    if field == "string_array_value":
+        return sum(_ELEMENT_BYTES + _text_bytes(text) for text in content)
+    return _ELEMENT_BYTES * len(content) if hasattr(content, "__len__") else _ELEMENT_BYTES
+
+
+def _text_bytes(text: str) -> int:
+    return len(text) * (1 if text.isascii() else 4)
 
 
 def _parameter_message(name: str, value: Any, type_name: str | None = None) -> Any:
