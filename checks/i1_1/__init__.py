@@ -22,5 +22,6 @@ CHECK = Check(
         Criterion("sensor-name", judges.judge_name, (probes.probe_names,)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.plain_start,), bonus=True),
     ),
-    expected_s=4.3,  # the rate probe at 0.7 Hz: 1.4 s to the first message, then 2.9 s for two periods
+    expected_s=4.3,
+    expected_reason="the rate at 0.7 Hz: 1.4 s to the first message, then two periods of 1.4 s",
 )

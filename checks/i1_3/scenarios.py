@@ -34,7 +34,7 @@ from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.stuck import ask_unless_stuck
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import SETTLE_S, find_stuck_frames, patience_s, wait_until_log_quiet, wait_until_seen
+from tutor.judge.waiting import IDLE_S, SETTLE_S, find_stuck_frames, patience_s, wait_until_log_quiet, wait_until_seen
 from tutor.ros_model import Graph, ServiceEndpoint
 
 EXIT_LIMIT_S = 10.0
@@ -159,7 +159,7 @@ async def divide_by_zero(bench: Bench) -> Division:
         ordinary = tuple(run.logs)
         bench.report_progress(0.4, "calling /divide: 10 ÷ 0")
         by_zero = await divide(10, 0)
-        await run.until(lambda: bool(find_complaints(ordinary, run.logs[len(ordinary) :])), LOG_DELAY_S)
+        await run.until(lambda: bool(find_complaints(ordinary, run.logs[len(ordinary) :])), LOG_DELAY_S, idle_s=IDLE_S)
         logged = tuple(run.logs[len(ordinary) :])
         await run.until(lambda: run.exit is not None, DELAYED_EXIT_S)
         bench.report_progress(0.8, "calling /divide again")

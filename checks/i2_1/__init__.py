@@ -44,6 +44,6 @@ CHECK = Check(
         ),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.plain_start,), bonus=True),
     ),
-    # Changing the rate: 1.2 s to measure 10 Hz, 3.5 s for 0.75 Hz.
     expected_s=5.4,
+    expected_reason="a change of the rate: 1.2 s to measure 10 Hz, 3.5 s to measure 0.75 Hz",
 )

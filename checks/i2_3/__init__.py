@@ -45,5 +45,6 @@ CHECK = Check(
             bonus=True,
         ),
     ),
-    expected_s=6.3,  # two single calls of 3 s
+    expected_s=6.3,
+    expected_reason="two calls of 3 s, one after the other",
 )

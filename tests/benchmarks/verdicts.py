@@ -2,12 +2,12 @@
 
     uv run python -m tests.benchmarks.verdicts [EXERCISE[/KIND[/NAME]] ...] [--sample] [--ready] [--jobs 2] [--times 1]
 
-For each exercise: its solution, alone, then its wrong and its right submissions (KIND is one of these two), each timed
-from the start of its process; with `--ready`, as in the app after the first check: from the moment at which an engine
-that has prepared itself is given its arguments. "told" is when the first final failed criterion comes, "whole" when the
-check has ended; half of the checks stay within p50, nine of ten within p90. "times sol." is the median of the
-submissions relative to the solution's time; "within" is the share of them that end within twice the solution's time
-plus 4 s. CPU is in seconds per check: of the engine, and of its children.
+For each exercise: its solution, alone, with the longest wait that its criteria ask for, then its wrong and its right
+submissions (KIND is one of these two). Each is timed from the start of its process; with `--ready`, as in the app after
+the first check: from the moment at which an engine that has prepared itself is given its arguments. "told" is when the
+first final failed criterion comes, "whole" when the check has ended; half of the checks stay within p50, nine of ten
+within p90. "times sol." is the median of the submissions relative to the solution's time; "within" is the share of them
+that end within twice the solution's time plus 4 s. CPU is in seconds per check: of the engine, and of its children.
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ from tests.judging import find_cases
 from tests.sampling import sample
 from tutor.content import load_course
 from tutor.content.submissions import RIGHT, WRONG
+from tutor.engine.modules import load_check
 from tutor.judge.events import CriterionJudged, ExerciseJudged, decode
 from tutor.judge.verdict import Status
 from tutor.process.supervisor import descendants
@@ -177,7 +178,9 @@ def main() -> int:
         own = [(f"{lesson.id} solution", lesson.id, "solution", folder)] * arguments.solution_times
         solutions = asyncio.run(time_all(own, 1, ready=arguments.ready))
         solution_s[lesson.id] = statistics.median(each.whole_s for each in solutions)
-        print(format_row(f"{lesson.id} solution", solutions, None), flush=True)
+        check = load_check(lesson)
+        floor = f"  of which {check.expected_s:.1f} for {check.expected_reason}"
+        print(format_row(f"{lesson.id} solution", solutions, None) + floor, flush=True)
         timings += solutions
     for kind in (WRONG, RIGHT):
         for lesson in lessons:

@@ -18,7 +18,14 @@ class FakeProcess:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now, self.wake, self.cpu_wait_s = 50.0, NextWake(math.inf, 7), 3.0
         monkeypatch.setattr("time.monotonic", lambda: self.now)
-        self.idle = idle.IdleDetector(lambda by: self.wake, lambda: self.cpu_wait_s, 0.7)
+        self.may_have_lost = True
+        self.idle = idle.IdleDetector(
+            lambda by: self.wake,
+            lambda: self.cpu_wait_s,
+            0.7,
+            lossless_s=0.3,
+            may_have_lost=lambda: self.may_have_lost,
+        )
 
     def advance(self, seconds: float) -> bool:
         self.now += seconds
@@ -57,3 +64,22 @@ def test_a_machine_that_is_always_busy_extends_the_idle_time_sixfold_at_most(pro
     process.advance(0.2)
     process.cpu_wait_s += 1000.0
     assert [process.advance(0.5) for _ in range(9)] == [False] * 8 + [True]  # 6 * 0.7 s
+
+
+def test_less_is_enough_if_nothing_was_lost(process: FakeProcess) -> None:
+    process.may_have_lost = False
+    assert [process.advance(0.2) for _ in range(4)] == [False, False, True, True]
+
+
+def test_a_loss_that_shows_while_it_is_idle_counts(process: FakeProcess) -> None:
+    process.may_have_lost = False
+    assert [process.advance(0.2) for _ in range(3)] == [False, False, True]
+    process.may_have_lost = True
+    assert [process.advance(0.2) for _ in range(3)] == [False, True, True]
+
+
+def test_a_short_idle_time_is_not_made_longer(process: FakeProcess) -> None:
+    process.idle = idle.IdleDetector(
+        lambda by: process.wake, lambda: 0.0, 0.7, lossless_s=1.0, may_have_lost=lambda: False
+    )
+    assert [process.advance(0.2) for _ in range(6)] == [False, False, False, False, True, True]

@@ -15,15 +15,26 @@ POLL_S = 0.1
 class IdleDetector:
     """Detects whether a process is idle.
 
-    `next_wake(by)`: see `tutor.process.next_wake`. `for_s`: how long its threads must have been blocked, in seconds.
-    `cpu_wait_s()`: how long we have waited for a CPU so far; within limits, that time does not count, since messages
-    may have arrived that we have not seen.
+    `next_wake(by)`: see `tutor.process.next_wake`. `for_s`: how long its threads must have been blocked, in seconds;
+    `lossless_s`: the same if nothing can have been lost on its way, as `may_have_lost()` tells. `cpu_wait_s()`: how
+    long we have waited for a CPU so far; within limits, that time does not count, since messages may have arrived that
+    we have not seen.
     """
 
-    def __init__(self, next_wake: Callable[[float], NextWake], cpu_wait_s: Callable[[], float], for_s: float) -> None:
+    def __init__(
+        self,
+        next_wake: Callable[[float], NextWake],
+        cpu_wait_s: Callable[[], float],
+        for_s: float,
+        *,
+        lossless_s: float,
+        may_have_lost: Callable[[], bool],
+    ) -> None:
         self._next_wake = next_wake
         self._cpu_wait_s = cpu_wait_s
         self._for_s = for_s
+        self._lossless_s = min(for_s, lossless_s)
+        self._may_have_lost = may_have_lost
         self._read_at = 0.0
         self._timeslices = -1
         self._idle_since = self._waited_before_s = 0.0
@@ -41,6 +52,11 @@ class IdleDetector:
             self._idle_since, self._waited_before_s = now, self._cpu_wait_s()
             self._idle = False
         else:
-            waited_s = min(self._cpu_wait_s() - self._waited_before_s, MAX_EXTENSION_FACTOR * self._for_s)
-            self._idle = now - self._idle_since >= self._for_s + waited_s
+            idle_s = now - self._idle_since
+            self._idle = idle_s >= self._extended(self._lossless_s) and (
+                idle_s >= self._extended(self._for_s) or not self._may_have_lost()
+            )
         return self._idle
+
+    def _extended(self, for_s: float) -> float:
+        return for_s + min(self._cpu_wait_s() - self._waited_before_s, MAX_EXTENSION_FACTOR * for_s)

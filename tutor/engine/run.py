@@ -179,7 +179,10 @@ class RosRun:
         answers = await asyncio.gather(
             *(
                 self._waits.for_response(
-                    partial(parameters.get_parameters, self._observer, [node], NO_TIMEOUT_S), 2 * limit_s, None
+                    partial(parameters.get_parameters, self._observer, [node], NO_TIMEOUT_S),
+                    2 * limit_s,
+                    None,
+                    resend_s=parameters.RESEND_S,
                 )
                 for node in self.graph.parameter_nodes
             )
@@ -211,7 +214,10 @@ class RosRun:
         with contextlib.suppress(AnswerTooLarge):
             if matched:
                 response = await self._waits.for_response(
-                    partial(self._observer.call, service, type, request, NO_TIMEOUT_S, resend_s=resend_s), limit_s, None
+                    partial(self._observer.call, service, type, request, NO_TIMEOUT_S, resend_s=resend_s),
+                    limit_s,
+                    None,
+                    resend_s=resend_s,
                 )
         return CallAnswer(
             service=service,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import math
 import time
 from collections.abc import Callable, Coroutine
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -11,14 +12,17 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from tutor.engine.idle import IdleDetector
 from tutor.errors import EngineError, MachineTooBusy
 from tutor.judge.trace import Exit
-from tutor.judge.waiting import RESENT_S
-from tutor.process import CpuMeter, CpuTime, LearnerProcess, own_cpu_time
+from tutor.judge.waiting import IDLE_S, RESENT_S
+from tutor.process import CpuMeter, CpuTime, LearnerProcess, count_dropped_datagrams, own_cpu_time
 from tutor.process.cpu_wait import MAX_EXTENSION_FACTOR, estimate_unblocked_s
 
 if TYPE_CHECKING:
     from tutor.ros.observer import Observer  # imports rclpy
 
 T = TypeVar("T")
+
+LOSSLESS_S = 1.0
+"""Where no datagram was dropped, all that an idle process sent, or was sent, has arrived within this time."""
 
 POLL_S = 0.05
 """Poll interval for what raises no events of its own, such as the graph; also the maximum age of cached readings."""
@@ -55,6 +59,7 @@ class Waits:
         self._meter = CpuMeter(process.pid)
         self._cpu_time: tuple[float, CpuTime] = (0.0, CpuTime())
         self._pending_requests = 0
+        self._dropped_before = count_dropped_datagrams()
         self._ended: tuple[float, float] | None = None
         """When a wait first saw that the process had ended, by the loop's clock, and our CPU wait by then.
 
@@ -79,7 +84,7 @@ class Waits:
         """Wait as `tutor.judge.bench.Run.until` does."""
         # The limit is for the node: time in which the machine let neither it nor us run does not count.
         idle = self._idle_detector(idle_s) if idle_s is not None else None
-        return await self._until(seen, limit_s, lambda: (self.cpu_time().waited_s, own_cpu_time().waited_s), idle)
+        return await self._until(seen, limit_s, self._cpu_waits_s, idle)
 
     async def for_exit(self, limit_s: float, meanwhile: Callable[[], object], all_sent: Callable[[], bool]) -> bool:
         """Wait as `tutor.judge.bench.Run.wait_for_exit` does."""
@@ -93,17 +98,26 @@ class Waits:
         idle = self._idle_detector(RESENT_S)
         return await self._until(ended, limit_s, lambda: (self.cpu_time().main_waited_s,), idle, all_sent)
 
-    async def for_response(self, request: Callable[[], Coroutine[Any, Any, T]], limit_s: float, default: T) -> T:
+    async def for_response(
+        self,
+        request: Callable[[], Coroutine[Any, Any, T]],
+        limit_s: float,
+        default: T,
+        *,
+        resend_s: float = math.inf,
+    ) -> T:
         """Send a request, and await its response.
 
-        Return `default` if none comes within the limit, or before the process exits or is idle.
+        Return `default` if none comes within the limit, or before the process exits or is idle. `resend_s`: the request
+        is sent again after this many seconds without a response.
         """
         task = asyncio.ensure_future(request())
         task.add_done_callback(lambda _: self._changed.set())
         self._pending_requests += 1
         try:
             # A process that is idle for longer than a lost request takes to be resent is not going to respond.
-            await self.until(task.done, limit_s, idle_s=RESENT_S)
+            idle = self._idle_detector(RESENT_S, LOSSLESS_S if resend_s == math.inf else resend_s + IDLE_S)
+            await self._until(task.done, limit_s, self._cpu_waits_s, idle)
             return task.result() if task.done() else default
         finally:
             self._pending_requests -= 1
@@ -118,8 +132,22 @@ class Waits:
             return now - ended_at < MAX_LATENCY_S
         return now - ended_at < min(DISCOVERY_S + own_cpu_time().waited_s - waited_s, MAX_LATENCY_S)
 
-    def _idle_detector(self, for_s: float) -> IdleDetector:
-        return IdleDetector(self._process.next_wake, lambda: own_cpu_time().waited_s, for_s)
+    def _cpu_waits_s(self) -> tuple[float, ...]:
+        return self.cpu_time().waited_s, own_cpu_time().waited_s
+
+    def _idle_detector(self, for_s: float, lossless_s: float = LOSSLESS_S) -> IdleDetector:
+        return IdleDetector(
+            self._process.next_wake,
+            lambda: sum(self._cpu_waits_s()),
+            for_s,
+            lossless_s=lossless_s,
+            may_have_lost=self._may_have_lost,
+        )
+
+    def _may_have_lost(self) -> bool:
+        """Whether a datagram of the run may have been dropped, and so be sent again only after seconds."""
+        dropped = count_dropped_datagrams()
+        return dropped is None or dropped != self._dropped_before
 
     async def _until(
         self,

@@ -43,13 +43,14 @@ class Check:
     """All criteria of one exercise, in display order.
 
     `expected_s`: the longest wall-clock wait in seconds that a scenario needs with our own solution, such as for three
-    messages at 0.5 Hz; anything a check takes beyond it is overhead, which a benchmark measures. `exceptions`: known
-    exceptions of this exercise, which take precedence over the built-in ones.
+    messages at 0.5 Hz, and `expected_reason` what it waits for; anything a check takes beyond it is overhead, which a
+    benchmark measures. `exceptions`: known exceptions of this exercise, which take precedence over the built-in ones.
     """
 
     exercise: str
     criteria: tuple[Criterion, ...]
     expected_s: float = 0.0
+    expected_reason: str = ""
     exceptions: tuple[KnownException, ...] = ()
 
     def __post_init__(self) -> None:

@@ -42,7 +42,7 @@ RESENT_S = 3.5
 """A lost message is resent within 3 s, at its writer's next heartbeat (Fast DDS's default).
 
 After this time, everything that an idle process did, or would do in response to us, has been observed, including
-changes to the graph.
+changes to the graph. `Run.until` waits for less if nothing was lost.
 """
 
 STUCK_S = 1.5
