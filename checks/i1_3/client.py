@@ -41,10 +41,10 @@ def judge_client(seen: ClientRun) -> Verdict:
     calls_made = [f"{s.service} {s.request['a']} {s.request['b']} -> {s.response['sum']}" for s in seen.served[:12]]
     evidence = (*calls_made, *causes.output_tail(seen.trace, 4))
     if seen.exit is None:
-        is_idle = seen.watched_s < CLIENT_S
+        waits_in_vain = seen.watched_s < CLIENT_S
         state = (
-            f"idle after {seen.watched_s:.1f} s, with nothing left to wait for"
-            if is_idle
+            f"after {seen.watched_s:.1f} s it waits for nothing that could still come"
+            if waits_in_vain
             else f"still running after {CLIENT_S:g} s"
         )
         observed = f"{state}; called {_list_services(called)}"

@@ -29,6 +29,8 @@ A client that does not wait has sent its request by then; one that waits in step
 """
 NO_CLIENT_GRACE_S = 1.0
 """Grace period for a node without a service client: it may look for our servers before it creates one."""
+NO_PROGRESS_S = 1.0
+"""A client that has sent and printed nothing for so long may be stuck: another start tells."""
 DELAYED_EXIT_S = 0.5
 """Time within which a node that does not survive a division by zero exits."""
 STUCK_CALL_S = 1.5

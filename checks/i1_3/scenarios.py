@@ -17,6 +17,7 @@ from checks.i1_3.facts import (
     EASY_OPERANDS,
     LOG_DELAY_S,
     NO_CLIENT_GRACE_S,
+    NO_PROGRESS_S,
     OPERATOR_SIGNS,
     SERVER,
     SERVER_DELAY_S,
@@ -31,7 +32,7 @@ from checks.i1_3.facts import (
 )
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.stuck import ask_unless_stuck
+from tutor.judge.stuck import ask_unless_stuck, stuck_test
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import IDLE_S, SETTLE_S, find_stuck_frames, patience_s, wait_until_log_quiet, wait_until_seen
@@ -173,15 +174,18 @@ async def run_client(bench: Bench) -> ClientRun:
     """Run the client, and bring up our four servers a little later."""
     if not bench.has_file(CLIENT):
         return ClientRun(None)
-    async with bench.start(CLIENT, expected_s=2.0) as run:
+    async with (
+        bench.start(CLIENT, expected_s=2.0) as run,
+        stuck_test(run, lambda: bench.facts(_dump_silent_client)) as test,
+    ):
         bench.report_progress(0.2, "running the client, before there is a server")
         clients: set[ServiceEndpoint] = set()  # gathered as it runs: the graph forgets them when it exits
         due_at = inf
         up_at: float | None = None
-        lost_s = 0.0
+        lost_s, progress, progress_at = 0.0, 0, 0.0
 
         def look() -> None:
-            nonlocal due_at, up_at, lost_s
+            nonlocal due_at, up_at, lost_s, progress, progress_at
             if run.exit is not None:
                 return
             clients.update(run.graph.clients)
@@ -193,19 +197,38 @@ async def run_client(bench: Bench) -> ClientRun:
                 due_at = min(due_at, run.now() + SERVER_DELAY_S)
             if up_at is None and run.now() >= due_at:
                 bench.report_progress(0.4, "bringing up our servers")
-                # /add comes up last, because clients ask for it first: one that waits for /add alone then finds the
-                # others as well.
-                for name in reversed(OPERATOR_SIGNS):
-                    run.serve(name, TYPE, _server(name))
-                up_at = run.now()
+                _serve_all(run)
+                up_at = progress_at = run.now()
+            if (shown := len(run.served) + len(run.output)) != progress:
+                progress, progress_at = shown, run.now()
+            if up_at is not None and run.now() - progress_at >= NO_PROGRESS_S:
+                test.start()
 
         our_wait_s = run.our_cpu_wait_s()
-        await run.wait_for_exit(CLIENT_S, meanwhile=look, all_sent=lambda: up_at is not None)
+        await run.wait_for_exit(
+            CLIENT_S, meanwhile=look, all_sent=lambda: up_at is not None, given_up=lambda: test.is_stuck()
+        )
         watched_s = run.now() - run.started_at
         trace, served, ended = run.trace(), tuple(run.served), run.exit
         stuck = await run.dump_stacks() if ended is None else ()
         up_s = None if up_at is None else up_at - run.started_at
         return ClientRun(trace, served, ended, stuck, tuple(clients), up_s, lost_s, watched_s)
+
+
+async def _dump_silent_client(bench: Bench) -> tuple[Frame, ...]:
+    """Start the client once more, with our servers up, only to see where it is when it goes on no longer."""
+    async with bench.start(CLIENT) as run:
+        bench.report_progress(0.9, "looking where the client is stuck")
+        _serve_all(run)
+        await wait_until_seen(run, lambda: bool(run.served))
+        await run.until(lambda: run.exit is not None, STUCK_CALL_S)
+        return await run.dump_stacks() if run.exit is None else ()
+
+
+def _serve_all(run: Run) -> None:
+    # /add comes up last, because clients ask for it first: one that waits for /add alone then finds the others as well.
+    for name in reversed(OPERATOR_SIGNS):
+        run.serve(name, TYPE, _server(name))
 
 
 def random_operands() -> list[tuple[int, int]]:

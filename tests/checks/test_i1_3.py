@@ -520,11 +520,11 @@ def test_a_client_that_takes_zero_for_no_result(test: str, step: str) -> None:
     assert step in verdict.hint
 
 
-def test_an_idle_client_is_reported_with_the_time_that_it_was_watched() -> None:
+def test_a_client_that_waits_in_vain_is_reported_with_the_time_that_it_was_watched() -> None:
     hanging = demonstration(SERVED[:1], None)
     assert "still running after 15 s" in judge_client(hanging).observed
     assert (
-        "idle after 6.2 s, with nothing left to wait for; called "
+        "after 6.2 s it waits for nothing that could still come; called "
         in judge_client(replace(hanging, watched_s=6.2)).observed
     )
 

@@ -13,7 +13,6 @@ from tutor.judge.causes.spinning import (
     diagnose_spin_in_constructor,
     diagnose_untimed_spin_once,
     diagnose_untimed_spins_in_turn,
-    waits_for_ever,
 )
 from tutor.judge.causes.topics import diagnose_no_messages
 from tutor.judge.rewriting.node import node_file
@@ -47,32 +46,6 @@ def started(*body: str, **more: object) -> Trace:
 def stack_at(line: int, code: str, function: str = "main") -> tuple[Frame, ...]:
     path = f"{FOLDER}/node.py"
     return Frame(path, line, function, code, 1), Frame(path, 99, "<module>", "main()", 1)
-
-
-WAITING = ["while rclpy.ok():", "    time.sleep(0.1)"]
-THREAD = Frame("/usr/lib/python3.12/threading.py", 331, "wait", "", 2)
-
-
-@pytest.mark.parametrize(
-    ("body", "others", "for_ever"),
-    [
-        (WAITING, (), True),
-        (["while True:", "    time.sleep(1)"], (), True),
-        (["while not talker.done:", "    time.sleep(0.1)"], (), False),
-        ([*WAITING, "    talker.tick()"], (), False),
-        (["for _ in range(99):", "    time.sleep(0.1)"], (), False),
-        (["signal.alarm(9)", *WAITING], (), False),
-        (["rclpy.get_logger('a')", *WAITING], (), True),
-        (WAITING, (THREAD,), False),
-        (WAITING, (replace(THREAD, path=f"{FOLDER}/node.py", line=7, function="tick"),), False),
-    ],
-)
-def test_only_threads_that_all_wait_in_endless_loops_wait_for_ever(
-    body: list[str], others: tuple[Frame, ...], for_ever: bool
-) -> None:
-    stuck = stack_at(14, "time.sleep(0.1)")[:1] + others
-    assert waits_for_ever(started(*body), stuck) == for_ever
-    assert not waits_for_ever(started(*body), ())
 
 
 @pytest.mark.parametrize(

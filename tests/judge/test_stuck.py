@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
 from tests.checks.builders import FOLDER, trace
-from tutor.judge.stuck import SLOW_ANSWER_S, ask_unless_stuck
+from tutor.judge.stuck import SLOW_ANSWER_S, ask_unless_stuck, waits_for_ever
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.ros_model import Parameter
@@ -80,3 +81,66 @@ async def test_a_machine_too_busy_for_another_start_leaves_the_answer_to_be_awai
         raise TimeoutError
 
     assert await ask_unless_stuck(FakeRun(50), 2.0, look) == (ANSWER, False)  # type: ignore[arg-type]
+
+
+PROGRAM = """\
+class Client(Node):
+    @property
+    def expired(self):
+        return time.time() > self.end
+
+{definition}
+
+def main():
+    client = Client()
+    {loop}
+        {body}
+"""
+OTHER_THREAD = Frame("/usr/lib/python3.12/threading.py", 331, "wait", "", 2)
+
+
+@pytest.mark.parametrize(
+    ("loop", "body", "others", "for_ever"),
+    [
+        ("while rclpy.ok():", "time.sleep(0.1)", (), True),
+        ("while True:", "time.sleep(1)", (), True),
+        ("while True:", "pass", (), True),
+        ("while rclpy.ok():", "client.tick()", (), False),
+        ("for _ in range(99):", "time.sleep(0.1)", (), False),
+        ("while True:", "time.sleep(0.1); signal.alarm(9)", (), False),
+        ("while rclpy.ok():", "time.sleep(0.1)", (OTHER_THREAD,), False),
+        (
+            "while rclpy.ok():",
+            "time.sleep(0.1)",
+            (replace(OTHER_THREAD, path=f"{FOLDER}/node.py", line=4, function="expired"),),
+            False,
+        ),
+        # Without another thread, nothing changes these.
+        ("while not future.done():", "pass", (), True),
+        ("while rclpy.ok() and not future.done():", "time.sleep(0.1)", (), True),
+        ("while client.answers < 4:", "time.sleep(0.1)", (), True),
+        ("while len(client.answers) != 4:", "time.sleep(0.1)", (), True),
+        ("while not future.done():", "time.sleep(0.1)", (OTHER_THREAD,), False),
+        ("while not future.done():", "rclpy.spin_once(client)", (), False),
+        ("while not client.expired:", "time.sleep(0.1)", (), False),
+        ("while time.time() < end:", "time.sleep(0.1)", (), False),
+        ("while not client.service_is_ready():", "time.sleep(0.1)", (), False),
+        ("while [each for each in client.answers]:", "time.sleep(0.1)", (), False),
+    ],
+)
+def test_only_threads_that_all_wait_in_loops_which_nothing_ends_wait_for_ever(
+    loop: str, body: str, others: tuple[Frame, ...], for_ever: bool
+) -> None:
+    text = PROGRAM.format(definition="", loop=loop, body=body)
+    stuck = Frame(f"{FOLDER}/node.py", 10, "main", body, 1), *others
+    assert waits_for_ever(trace(sources={"node.py": text}), stuck) == for_ever
+    assert not waits_for_ever(trace(sources={"node.py": text}), ())
+
+
+def test_a_condition_may_run_code_of_the_learners() -> None:
+    own = "def done():\n    return poll()"
+    for definition, for_ever in (("", True), (own, False), (own.replace("done", "__bool__"), False)):
+        text = PROGRAM.format(definition=definition, loop="while not future.done():", body="pass")
+        line = 11 if definition else 10
+        stuck = (Frame(f"{FOLDER}/node.py", line, "main", "pass", 1),)
+        assert waits_for_ever(trace(sources={"node.py": text}), stuck) == for_ever

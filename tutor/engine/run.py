@@ -171,8 +171,9 @@ class RosRun:
         *,
         meanwhile: Callable[[], object] = lambda: None,
         all_sent: Callable[[], bool] = lambda: False,
+        given_up: Callable[[], bool] = lambda: False,
     ) -> bool:
-        return await self._waits.for_exit(limit_s, meanwhile, all_sent)
+        return await self._waits.for_exit(limit_s, meanwhile, all_sent, given_up)
 
     async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:
         # One task per node, so that one that never answers does not hide the others. Each makes up to three requests.

@@ -86,17 +86,24 @@ class Waits:
         idle = self._idle_detector(idle_s) if idle_s is not None else None
         return await self._until(seen, limit_s, self._cpu_waits_s, idle)
 
-    async def for_exit(self, limit_s: float, meanwhile: Callable[[], object], all_sent: Callable[[], bool]) -> bool:
+    async def for_exit(
+        self,
+        limit_s: float,
+        meanwhile: Callable[[], object],
+        all_sent: Callable[[], bool],
+        given_up: Callable[[], bool],
+    ) -> bool:
         """Wait as `tutor.judge.bench.Run.wait_for_exit` does."""
 
         def ended() -> bool:
             meanwhile()
-            return self._process.exit is not None
+            return self._process.exit is not None or given_up()
 
         # Only the main thread's wait for a CPU excuses a late exit. Other threads may wait while it sleeps, and a delay
         # of ours changes nothing, since an exit that we see late still has its own time.
         idle = self._idle_detector(RESENT_S)
-        return await self._until(ended, limit_s, lambda: (self.cpu_time().main_waited_s,), idle, all_sent)
+        await self._until(ended, limit_s, lambda: (self.cpu_time().main_waited_s,), idle, all_sent)
+        return self._process.exit is not None
 
     async def for_response(
         self,

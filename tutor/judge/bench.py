@@ -110,12 +110,13 @@ class Run(Protocol):
         *,
         meanwhile: Callable[[], object] = lambda: None,
         all_sent: Callable[[], bool] = lambda: False,
+        given_up: Callable[[], bool] = lambda: False,
     ) -> bool:
         """Wait until the process has ended; `meanwhile` is called whenever a new fact comes in.
 
-        Return False after `limit_s` seconds, plus any in which the machine kept the main thread waiting. Once
-        `all_sent()` is true, the process can expect nothing more from us: then also give up when it is idle (see
-        `until`) for longer than a lost message takes to be resent.
+        Return False after `limit_s` seconds, plus any in which the machine kept the main thread waiting, and once
+        `given_up()`. Once `all_sent()` is true, the process can expect nothing more from us: then also give up when it
+        is idle (see `until`) for longer than a lost message takes to be resent.
         """
 
     async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:

@@ -2,17 +2,67 @@
 
 from __future__ import annotations
 
+import ast
 import asyncio
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
+from contextlib import asynccontextmanager
 from math import inf
 
+from tutor.judge import source, tracebacks
 from tutor.judge.bench import Run
-from tutor.judge.causes.spinning import waits_for_ever
+from tutor.judge.rewriting.callbacks import Loop, only_waits
+from tutor.judge.rewriting.node import file_of
+from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.ros_model import Parameter
 
 SLOW_ANSWER_S = 0.5
 """A spinning node answers within this time, unless the machine is busy."""
+
+_UNTIL_SIGINT = "True", "1", "rclpy.ok()", "ok()"
+"""Conditions that hold until Ctrl+C."""
+_QUERIES = "done", "is_set", "ok", "len"
+"""Functions that do nothing but say how things are."""
+
+_PLAIN = ast.Constant, ast.UnaryOp, ast.BoolOp, ast.Compare, ast.unaryop, ast.boolop, ast.cmpop, ast.expr_context
+
+Look = Callable[[], Awaitable[tuple[Frame, ...]]]
+"""Returns the stack of another start that is given no more than the run is."""
+
+
+class StuckTest:
+    """Tells whether a run waits for ever, by the stack of another start."""
+
+    def __init__(self, run: Run, look: Look) -> None:
+        self._run = run
+        self._look = look
+        self._looking: asyncio.Future[tuple[Frame, ...]] | None = None
+
+    def start(self) -> None:
+        """Look at another start, unless that has already been asked for."""
+        if self._looking is None and self._run.exit is None:
+            self._looking = asyncio.ensure_future(self._look())
+
+    def is_stuck(self) -> bool:
+        """Whether the other start has shown by now that the run will do nothing more by itself."""
+        found = self._looking is not None and self._looking.done() and self._looking.exception() is None
+        return found and self._looking is not None and is_stuck_for_ever(self._run, self._looking.result())
+
+    async def close(self) -> None:
+        """Stop looking."""
+        if self._looking is not None:
+            self._looking.cancel()
+            await asyncio.gather(self._looking, return_exceptions=True)
+
+
+@asynccontextmanager
+async def stuck_test(run: Run, look: Look) -> AsyncIterator[StuckTest]:
+    """A test whether a run waits for ever, which has not started yet."""
+    test = StuckTest(run, look)
+    try:
+        yield test
+    finally:
+        await test.close()
 
 
 def is_stuck_for_ever(run: Run, frames: Sequence[Frame]) -> bool:
@@ -20,27 +70,59 @@ def is_stuck_for_ever(run: Run, frames: Sequence[Frame]) -> bool:
     return len(run.command_lines()) == 1 and waits_for_ever(run.trace(), frames)
 
 
-async def ask_unless_stuck(
-    run: Run, limit_s: float, look: Callable[[], Awaitable[tuple[Frame, ...]]]
-) -> tuple[tuple[Parameter, ...] | None, bool]:
+async def ask_unless_stuck(run: Run, limit_s: float, look: Look) -> tuple[tuple[Parameter, ...] | None, bool]:
     """Ask a node for its parameters; return its answer, None if there is none, and whether the node waits for ever.
 
-    `look`: returns the stack of another start that is given no answer either. It is called if the answer takes longer
-    than that of a spinning node, and the answer is not waited for once this stack shows that none will come.
+    `look` is called if the answer takes longer than that of a spinning node, and the answer is not waited for once the
+    stack shows that none will come.
     """
     asked = asyncio.ensure_future(run.parameters(limit_s))
-    looking: asyncio.Future[tuple[Frame, ...]] = asyncio.get_running_loop().create_future()
-
-    def is_stuck() -> bool:
-        found = looking.done() and looking.exception() is None
-        return found and is_stuck_for_ever(run, looking.result())
-
     try:
-        if not await run.until(asked.done, SLOW_ANSWER_S) and run.exit is None:
-            looking = asyncio.ensure_future(look())
-        await run.until(lambda: asked.done() or is_stuck(), inf)
-        return (None, True) if is_stuck() else (await asked, False)
+        async with stuck_test(run, look) as test:
+            if not await run.until(asked.done, SLOW_ANSWER_S):
+                test.start()
+            await run.until(lambda: asked.done() or test.is_stuck(), inf)
+            return (None, True) if test.is_stuck() else (await asked, False)
     finally:
-        looking.cancel()
         asked.cancel()
-        await asyncio.gather(looking, asked, return_exceptions=True)
+        await asyncio.gather(asked, return_exceptions=True)
+
+
+def waits_for_ever(trace: Trace, stuck: Sequence[Frame]) -> bool:
+    """Whether every thread of a stack dump is in a loop of the learner's that only waits, and that nothing ends.
+
+    Only a signal could do something then, such as one that the program asks for with an alarm.
+    """
+    if source.mentions(trace, "alarm", "setitimer"):
+        return False
+    threads = tracebacks.frames_by_thread(stuck)
+    own = [tracebacks.own_frame(thread, trace.folder) for thread in threads]
+    return bool(own) and all(at is not None and _is_in_waiting_loop(trace, at, len(threads) == 1) for at in own)
+
+
+def _is_in_waiting_loop(trace: Trace, at: Frame, alone: bool) -> bool:
+    """`alone`: no other thread can change what the loop waits for."""
+    file = file_of(trace, at)
+    inside = [file.statement_at(at.line), *file.ancestors(file.statement_at(at.line) or file.tree)]
+    loop = next((each for each in inside if isinstance(each, Loop)), None)
+    if not isinstance(loop, ast.While) or file.function_around(loop) is not file.function_at(at.line):
+        return False
+    endless = ast.unparse(loop.test) in _UNTIL_SIGINT or (alone and _only_looks(trace, loop.test))
+    return endless and all(map(only_waits, loop.body))
+
+
+def _only_looks(trace: Trace, test: ast.expr) -> bool:
+    """Whether evaluating a condition runs no code of the learner's, and asks no clock: only others can change it."""
+    own = {each.name for each in source.all_nodes(trace) if isinstance(each, source.Function)}
+    if any(name.startswith("__") and name != "__init__" for name in own):  # such as __bool__ or __eq__
+        return False
+    for each in ast.walk(test):
+        if isinstance(each, ast.Call):
+            if source.called_name(each) not in _QUERIES:
+                return False
+        elif isinstance(each, ast.Name | ast.Attribute):
+            if source.last_name(each) in own:  # perhaps a property
+                return False
+        elif not isinstance(each, _PLAIN):
+            return False
+    return True

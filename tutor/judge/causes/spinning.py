@@ -16,33 +16,12 @@ from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Cause
 
 SPINS_ONCE = "spin_once", "spin_some"
-_ALWAYS = "True", "1", "rclpy.ok()", "ok()"
-"""Conditions that hold until Ctrl+C."""
 _CLEANUP = "destroy_node", "shutdown", "try_shutdown", "exit", "_exit"
 
 
 def is_spinning(stuck: Sequence[Frame]) -> bool:
     """Whether a stack dump shows an rclpy executor at work."""
     return any(frame.path.endswith("rclpy/executors.py") for frame in stuck)
-
-
-def waits_for_ever(trace: Trace, stuck: Sequence[Frame]) -> bool:
-    """Whether every thread of a stack dump is in an endless loop of the learner's that does nothing but wait.
-
-    Only a signal could do something then, such as one that the program asks for with an alarm.
-    """
-    if source.mentions(trace, "alarm", "setitimer"):
-        return False
-    own = [tracebacks.own_frame(thread, trace.folder) for thread in tracebacks.frames_by_thread(stuck)]
-    return bool(own) and all(at is not None and _is_in_waiting_loop(file_of(trace, at), at.line) for at in own)
-
-
-def _is_in_waiting_loop(file: NodeFile, line: int) -> bool:
-    inside = [file.statement_at(line), *file.ancestors(file.statement_at(line) or file.tree)]
-    loop = next((each for each in inside if isinstance(each, Loop)), None)
-    if not isinstance(loop, ast.While) or file.function_around(loop) is not file.function_at(line):
-        return False
-    return ast.unparse(loop.test) in _ALWAYS and all(map(only_waits, loop.body))
 
 
 def diagnose_not_spinning(trace: Trace, stuck: Sequence[Frame], nodes: str) -> Cause | None:
