@@ -228,7 +228,7 @@ def diagnose_disturbed_timer(seen: SingleCalls, pace: TimerPace) -> Cause:
         )
     if _in_worker(seen.stuck):
         if (locked := causes.diagnose_lock_wait(seen.trace, seen.stuck)) is not None:
-            return replace(locked, hint=steps.separate_groups(source) or locked.hint)
+            return locked
         if (late := find_in_files(seen.trace, diagnose_late_group)) is not None:
             return late
         sleeps = own is not None and "sleep" in own.code

@@ -83,6 +83,23 @@ MAIN = (rclpy_frame("spin", thread=2), own_frame(42, "executor.spin()", "main", 
             "take line 20 out of the lock",
         ),
         (
+            node(
+                *("def locked(method):", "  def wrapper(self, *args):", "    with self.lock:"),
+                *("      return method(self, *args)", "  return wrapper"),
+                *("class N(Node):", "  @locked", "  def add(self, req, resp):", "    time.sleep(3.0)"),
+            ),
+            (
+                own_frame(9, "time.sleep(3.0)", "add", thread=3),
+                rclpy_frame("await_or_execute", thread=3),
+                own_frame(3, "with self.lock:", "wrapper"),
+                *WORKER,
+                *MAIN,
+            ),
+            "blocked executor",
+            "another one holds at node.py, line 9",
+            "remove line 7: @locked",
+        ),
+        (
             node("while not future.done():", "    time.sleep(0.1)"),
             (own_frame(2, "time.sleep(0.1)"), *WORKER, *MAIN),
             "blocked executor",

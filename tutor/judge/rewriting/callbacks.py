@@ -46,16 +46,24 @@ def make_reentrant(file: NodeFile) -> list[Edit]:
 
 
 def remove_lock(file: NodeFile, line: int) -> list[Edit]:
-    """Replace the innermost `with` statement around a line, which holds a lock, by its body."""
+    """Replace the innermost `with` statement around a line, which holds a lock, by its body.
+
+    Where there is none, remove the decorator whose function holds one while it calls the decorated function.
+    """
     around = [
         each
         for each in ast.walk(file.tree)
         if isinstance(each, ast.With) and each.lineno <= line <= (each.end_lineno or 0)
     ]
-    if not around:
-        return []
-    innermost = max(around, key=lambda each: each.lineno)
-    return [replace_statement(innermost, _code(file, innermost.body))]
+    if around:
+        innermost = max(around, key=lambda each: each.lineno)
+        return [replace_statement(innermost, _code(file, innermost.body))]
+    function = file.function_at(line)
+    for decorator in function.decorator_list if function is not None else ():
+        made = file.function(decorator)
+        if made is not None and any(isinstance(each, ast.With) for each in ast.walk(made)):
+            return [remove_lines(file.text, decorator.lineno, decorator.end_lineno or 0)]
+    return []
 
 
 def make_lock_reentrant(file: NodeFile) -> list[Edit]:
