@@ -215,6 +215,7 @@ def _diagnose_fast_rate(start: RatedStart, slow: RatedStart | None) -> Cause:
 def _diagnose_other_rate(trace: Trace) -> Cause:
     return find_in_files(
         trace,
+        period_slips.diagnose_second_timer,
         period_slips.diagnose_integer_period,
         lambda file: period_slips.diagnose_sleep(file, LAUNCH_HZ),
         period_slips.diagnose_throttle,

@@ -230,6 +230,35 @@ def test_launch_is_left_open_until_all_starts_have_ended(found: ParameterStarts)
     assert judge_launch_so_far(found) is None
 
 
+SECOND_TIMER = """\
+class N(Node):
+    def __init__(self):
+        super().__init__('n')
+        self.declare_parameter('publish_rate', 1.0)
+        self.first = self.create_timer(1.0, self.send)
+        self.timer = self.create_timer(1 / self.get_parameter('publish_rate').value, self.send)
+
+    def send(self):
+        self.publisher.publish(String())
+
+rclpy.spin(N())
+"""
+
+
+@pytest.mark.parametrize(("hz", "slow_hz"), [(7.0, SLOW_LAUNCH_HZ), (LAUNCH_HZ, 2.5)])
+def test_a_second_timer_is_found_whichever_start_shows_it(hz: float, slow_hz: float) -> None:
+    sources = {"node.py": SECOND_TIMER}
+    seen = parameter_starts(
+        hz,
+        slow_hz=slow_hz,
+        loud=replace(trace(*PREFIXED, graph=PUBLISHING), sources=sources),
+        slow=replace(RUNNING, sources=sources),
+    )
+    verdict = judge_launch(seen)
+    assert_failed(verdict, "two timers")
+    assert verdict.hint == "remove line 5: self.first = self.create_timer(1.0, self.send)"
+
+
 # --- while it runs -----------------------------------------------------------
 
 
