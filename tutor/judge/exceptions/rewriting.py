@@ -215,13 +215,20 @@ def utf8(text: str, words: Words) -> Sequence[Edit]:
     return edits.replace_nodes(text, *swaps[:1])
 
 
+def decoded(text: str, words: Words) -> Sequence[Edit] | None:
+    """Let subscriptions pass on messages, not their bytes."""
+    calls = SourceFile(text).calls("create_subscription")
+    raw = [each for each in calls if any(keyword.arg == "raw" for keyword in each.keywords)]
+    return [edits.remove_keyword(text, each, "raw") for each in raw]
+
+
 def readable(text: str, words: Words) -> Sequence[Edit] | None:
     """Repair the file's syntax by the smallest change after which Python can read it."""
     return repair(text)
 
 
 _REWRITERS = (
-    *(log, logged_less, rospy_logs, severities, imported, types_first, readable, without, raised),
+    *(log, logged_less, rospy_logs, severities, imported, types_first, readable, without, raised, decoded),
     *(
         responses,
         instances,
