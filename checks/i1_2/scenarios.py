@@ -214,7 +214,7 @@ async def _wait_for_match(bench: Bench, run: Run, talker: Publisher, settled_s: 
 
 async def _send(bench: Bench, run: Run, talker: Publisher, sent: list[Sent], numbers: Iterable[int], hz: float) -> None:
     """Send a message for each number at a steady rate, and append it to `sent`; stop if the node has ended."""
-    due = sent[-1].at + 1 / hz if sent else run.now()
+    due = max(sent[-1].at + 1 / hz, run.now()) if sent else run.now()
     for number in numbers:
         # Catch up after a delay, but never send two at once, which would be no steady rate.
         earliest = sent[-1].at + 0.5 / hz if sent else due
