@@ -443,6 +443,10 @@ def main():
             LIFECYCLE.replace("LifecycleNode", "Node"),
             ["below line 7, with the same indentation:\n    sensor.trigger_configure()"],
         ),
+        (
+            LIFECYCLE + "    sensor.trigger_configure()\n",
+            ["write below line 8, with the same indentation: sensor.trigger_activate()"],
+        ),
         (LIFECYCLE + "    sensor.trigger_activate()\n", ["line 3 becomes: return super().on_activate(state)"]),
     ],
 )

@@ -48,7 +48,10 @@ def _call_super(on_activate: Function) -> list[Edit]:
 
 
 def _activate_in_program(file: NodeFile) -> list[Edit]:
-    """Configure and activate the lifecycle node as soon as it is created."""
+    """Configure and activate the lifecycle node once it is created; only activate it if the program configures it."""
+    for call in file.calls("trigger_configure"):
+        if isinstance(call.func, ast.Attribute):
+            return [insert_after(file.statement(call), f"{ast.unparse(call.func.value)}.trigger_activate()")]
     classes = [
         each.name
         for each in ast.walk(file.tree)
