@@ -161,7 +161,7 @@ class Domain:
             return quiet_s >= _UNCOUNTED_QUIET_S
         if len(discovered) < expected:
             return False
-        return not named or quiet_s >= _LONG_QUIET_S or self._all_nodes_have_names()
+        return not named or quiet_s >= _LONG_QUIET_S or self._all_nodes_have_names(discovered)
 
     def _discovered_participants(self) -> set[bytes]:
         """Return the ids of this machine's participants, ours included, whose endpoints have been discovered."""
@@ -176,13 +176,19 @@ class Domain:
         host = next((each[:_HOST_BYTES] for each in own), b"")
         return {each for each in senders & readers if each.startswith(host)}
 
-    def _all_nodes_have_names(self) -> bool:
-        return not any(
-            info.node_name == _UNKNOWN_NODE_NAME
+    def _all_nodes_have_names(self, participants: set[bytes]) -> bool:
+        """Whether the node of each endpoint is known, and that of at least one endpoint of each participant.
+
+        A participant lists its nodes in a message that may come after its first endpoints, and before the others.
+        """
+        endpoints = [
+            info
             for topic, _ in self.node.get_topic_names_and_types()
             for ask in (self.node.get_publishers_info_by_topic, self.node.get_subscriptions_info_by_topic)
             for info in ask(topic)
-        )
+        ]
+        unknown = any(info.node_name == _UNKNOWN_NODE_NAME for info in endpoints)
+        return not unknown and participants <= {_participant_id(info) for info in endpoints}
 
 
 def _participant_id(info: Any) -> bytes:
