@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from typing import Any
 
 import pytest
@@ -55,6 +56,26 @@ async def test_the_log_of_a_running_node_is_shown_with_its_levels_and_followed(l
         await me.sees("scrolled up: End follows", "line 0")
         await me.press("end")
         await me.sees("following", "ValueError: invalid literal")
+
+
+async def test_a_node_that_takes_time_to_start_does_not_take_the_learner_from_another_page(
+    learner: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async with learner() as me:
+        make_command, go = me.session.node_command, threading.Event()
+
+        def make_command_later(*given: Any) -> Any:
+            go.wait(30.0)
+            return make_command(*given)
+
+        monkeypatch.setattr(type(me.session), "node_command", lambda _, *given: make_command_later(*given))
+        await me.press("r")
+        await me.until(lambda: me.main.page == "log")
+        await me.press("2")
+        await me.until(lambda: me.main.page == "code")
+        go.set()
+        await me.sees("● running")
+        assert me.main.page == "code"
 
 
 async def test_a_node_that_crashes_floods_the_log_or_ignores_ctrl_c(

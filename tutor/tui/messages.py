@@ -31,13 +31,12 @@ class CheckOver(Message):
 class NodeChanged(Message):
     """One of the running nodes has printed something, or its state has changed.
 
-    `started`: it has just been started. `automatic`: not by the learner, but because its file was changed outside.
+    `restarted`: it has just been started again, not by the learner, but because its file was changed outside.
     """
 
     path: Path
     state: NodeState
-    started: bool = False
-    automatic: bool = False
+    restarted: bool = False
 
 
 @dataclass

@@ -72,9 +72,9 @@ class Nodes:
             return commands.STOP.keys[0]
         return commands.OTHER_FILE.keys[0] if path in model.paths else commands.PARTNER.keys[0]
 
-    def _post_changed(self, path: Path, *, started: bool = False, automatic: bool = False) -> None:
+    def _post_changed(self, path: Path, *, restarted: bool = False) -> None:
         state = self.by_path[path].state
-        self._host.post_message(messages.NodeChanged(path, state, started=started, automatic=automatic))
+        self._host.post_message(messages.NodeChanged(path, state, restarted=restarted))
 
     def _paths_of(self, lesson: Lesson) -> set[Path]:
         """Return the keys in `by_path` of a lesson's nodes, its partners included."""
@@ -178,6 +178,8 @@ class Nodes:
         self, lesson: Lesson, path: Path, command: Callable[[], NodeCommand], *, automatic: bool = False
     ) -> None:
         self._requests[path] = self._requests.get(path, 0) + 1
+        if not automatic:  # at once: once it has started, the learner may be elsewhere already
+            self._host.show_page("log")
         self._host.start_worker(self._run, lesson, path, command, self._requests[path], automatic, group="node")
 
     async def _run(
@@ -209,7 +211,7 @@ class Nodes:
             self.by_path[path], self.latest = node, path
             if not automatic:
                 self._chosen = (path, self._host.model.path)
-            self._post_changed(path, started=True, automatic=automatic)
+            self._post_changed(path, restarted=automatic)
             await node.run()
 
     # --- options ---

@@ -266,8 +266,8 @@ class MainScreen(HostScreen):
 
     @on(messages.NodeChanged)
     def _node_changed(self, message: messages.NodeChanged) -> None:
-        typing = isinstance(self.focused, CodeEditor)
-        if message.started and not (message.automatic and typing):  # do not take the focus from a learner who is typing
+        # Do not take the focus from a learner who is typing.
+        if message.restarted and not isinstance(self.focused, CodeEditor):
             self.show_page("log")
         if message.path == self.nodes.shown:
             key = self.nodes.stop_key(message.path)
