@@ -32,7 +32,7 @@ from checks.i1_3.facts import (
 )
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.stuck import ask_unless_stuck, stuck_test
+from tutor.judge.stuck import StuckTest, ask_unless_stuck, stuck_test
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import IDLE_S, SETTLE_S, find_stuck_frames, patience_s, wait_until_log_quiet, wait_until_seen
@@ -179,40 +179,53 @@ async def run_client(bench: Bench) -> ClientRun:
         stuck_test(run, lambda: bench.facts(_dump_silent_client)) as test,
     ):
         bench.report_progress(0.2, "running the client, before there is a server")
-        clients: set[ServiceEndpoint] = set()  # gathered as it runs: the graph forgets them when it exits
-        due_at = inf
-        up_at: float | None = None
-        lost_s, progress, progress_at = 0.0, 0, 0.0
-
-        def look() -> None:
-            nonlocal due_at, up_at, lost_s, progress, progress_at
-            if run.exit is not None:
-                return
-            clients.update(run.graph.clients)
-            if up_at is None:
-                lost_s = run.node_cpu_wait_s() + run.our_cpu_wait_s() - our_wait_s
-            if run.graph.nodes and due_at == inf:
-                due_at = run.now() + NO_CLIENT_GRACE_S + SERVER_DELAY_S
-            if clients:
-                due_at = min(due_at, run.now() + SERVER_DELAY_S)
-            if up_at is None and run.now() >= due_at:
-                bench.report_progress(0.4, "bringing up our servers")
-                _serve_all(run)
-                up_at = progress_at = run.now()
-            if (shown := len(run.served) + len(run.output)) != progress:
-                progress, progress_at = shown, run.now()
-            if up_at is not None and run.now() - progress_at >= NO_PROGRESS_S:
-                test.start()
-
-        our_wait_s = run.our_cpu_wait_s()
+        watch = _ClientWatch(bench, run, test)
         await run.wait_for_exit(
-            CLIENT_S, meanwhile=look, all_sent=lambda: up_at is not None, given_up=lambda: test.is_stuck()
+            CLIENT_S, meanwhile=watch.look, all_sent=lambda: watch.up_at is not None, given_up=test.is_stuck
         )
         watched_s = run.now() - run.started_at
         trace, served, ended = run.trace(), tuple(run.served), run.exit
         stuck = await run.dump_stacks() if ended is None else ()
-        up_s = None if up_at is None else up_at - run.started_at
-        return ClientRun(trace, served, ended, stuck, tuple(clients), up_s, lost_s, watched_s)
+        up_s = None if watch.up_at is None else watch.up_at - run.started_at
+        return ClientRun(trace, served, ended, stuck, tuple(watch.clients), up_s, watch.cpu_wait_s, watched_s)
+
+
+class _ClientWatch:
+    """Brings up our servers some time after the client has begun to look for them, and sees whether it gets on.
+
+    `clients`: its service clients, gathered as it runs, since the graph forgets them when it exits. `up_at`: when our
+    servers came up. `cpu_wait_s`: for how long the client, or we, waited for a CPU until then.
+    """
+
+    def __init__(self, bench: Bench, run: Run, test: StuckTest) -> None:
+        self._bench, self._run, self._test = bench, run, test
+        self._our_wait_s = run.our_cpu_wait_s()
+        self._due_at = inf
+        self._progress, self._progress_at = 0, 0.0
+        self.clients: set[ServiceEndpoint] = set()
+        self.up_at: float | None = None
+        self.cpu_wait_s = 0.0
+
+    def look(self) -> None:
+        """Take in new facts, and act on them."""
+        run = self._run
+        if run.exit is not None:
+            return
+        self.clients.update(run.graph.clients)
+        if self.up_at is None:
+            self.cpu_wait_s = run.node_cpu_wait_s() + run.our_cpu_wait_s() - self._our_wait_s
+        if run.graph.nodes and self._due_at == inf:
+            self._due_at = run.now() + NO_CLIENT_GRACE_S + SERVER_DELAY_S
+        if self.clients:
+            self._due_at = min(self._due_at, run.now() + SERVER_DELAY_S)
+        if self.up_at is None and run.now() >= self._due_at:
+            self._bench.report_progress(0.4, "bringing up our servers")
+            _serve_all(run)
+            self.up_at = self._progress_at = run.now()
+        if (progress := len(run.served) + len(run.output)) != self._progress:
+            self._progress, self._progress_at = progress, run.now()
+        if self.up_at is not None and run.now() - self._progress_at >= NO_PROGRESS_S:
+            self._test.start()
 
 
 async def _dump_silent_client(bench: Bench) -> tuple[Frame, ...]:
