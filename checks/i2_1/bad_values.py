@@ -21,6 +21,7 @@ from checks.i2_1.facts import (
     text_of,
 )
 from tutor.judge.bench import Bench, Run
+from tutor.judge.rates import Rate
 from tutor.judge.trace import SetAnswer
 from tutor.judge.waiting import measure_steady_rate
 
@@ -45,19 +46,21 @@ async def _try_bad_rates(bench: Bench, from_hz: float | None) -> BadRates:
             )  # most nodes without validation show it right away
             if any(answer.successful or not answer.answered for answer, _ in refused.rejected):
                 return refused
-        if from_hz is None or await _accepts_rate(run, node, from_hz, base_hz):
-            return await _set_bad_rates_and_measure(bench, run, node, from_hz or base_hz)
+        if from_hz is None:
+            return await _set_bad_rates_and_measure(bench, run, node, base_hz)
+        if (rate := await _set_good_rate(run, node, from_hz, base_hz)) is not None:
+            return replace(await _set_bad_rates_and_measure(bench, run, node, from_hz), rate_before=rate)
     # Accepting a good rate is judged elsewhere: a node that does not must still reject bad ones at its initial rate.
     return await _try_bad_rates(bench, None)
 
 
-async def _accepts_rate(run: Run, node: str, new_hz: float, old_hz: float) -> bool:
-    """Set a rate; return whether the node accepts it and publishes at it."""
+async def _set_good_rate(run: Run, node: str, new_hz: float, old_hz: float) -> Rate | None:
+    """Set a rate; return the measured one, or None unless the node accepts it and publishes at it."""
     answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
     if not answer.answered or not answer.successful:
-        return False
+        return None
     rate, _ = await measure_new_rate(run, answer, new_hz, old_hz)
-    return rate is not None and rate.agrees_with(new_hz)
+    return rate if rate is not None and rate.agrees_with(new_hz) else None
 
 
 async def _set_bad_rates_and_measure(bench: Bench, run: Run, node: str, base_hz: float) -> BadRates:

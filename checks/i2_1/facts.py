@@ -141,8 +141,8 @@ class RuntimeChanges:
 class BadRates:
     """A plain start on which bad rates are set.
 
-    `before`: the value of publish_rate before that. `rejected`: each answer with the value afterwards. `rate`,
-    `messages`: what the node publishes then.
+    `before`: the value of publish_rate before that, and `rate_before` the measured rate, if it had just been set.
+    `rejected`: each answer with the value afterwards. `rate`, `messages`: what the node publishes then.
     """
 
     trace: Trace
@@ -153,6 +153,7 @@ class BadRates:
     messages: int = 0
     stuck: tuple[Frame, ...] = ()
     answering: bool = False
+    rate_before: Rate | None = None
 
 
 @dataclass(frozen=True)

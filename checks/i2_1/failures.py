@@ -90,10 +90,12 @@ def are_alike(rate: Rate, other: Rate | None) -> bool:
     return other is not None and max(rate.hz, other.hz) < 1.1 * min(rate.hz, other.hz)
 
 
-def rate_is_unchanged(rate: Rate | None, hz: float, switched: RuntimeChanges) -> bool:
-    """Whether the rate is still `hz`, or the one the node has actually published at from the start."""
+def rate_is_unchanged(rate: Rate | None, hz: float, switched: RuntimeChanges, before: Rate | None = None) -> bool:
+    """Whether the rate is still `hz`, or `before`, or the one the node has actually published at from the start."""
     if rate is None or rate.agrees_with(hz):
         return rate is not None
+    if before is not None and rate.agrees_with(before.hz):
+        return True  # the difference from `hz`, as by a timer that was left running, was there already
     # A node at VALIDATION_HZ has just been measured at exactly that rate, so the initial one is no excuse.
     return hz != VALIDATION_HZ and switched.before is not None and switched.before.agrees_with(rate.hz)
 

@@ -35,7 +35,7 @@ def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
         return fail_not_running(seen, expected)
     if (accepted := _fail_if_not_refused(seen, expected)) is not None:
         return accepted
-    if not rate_is_unchanged(seen.rate, seen.base_hz, switched):
+    if not rate_is_unchanged(seen.rate, seen.base_hz, switched, seen.rate_before):
         cause = causes.diagnose_process(seen.trace) if seen.trace.exit else None
         cause = cause or _diagnose_change(seen.trace, "the rate changes although the value was rejected")
         return failed(expected, f"after the rejection: {describe(seen.rate, seen.messages)}", cause)

@@ -412,6 +412,8 @@ def bad_rates(*rejected: tuple[SetAnswer, Any], hz: float | None = 1.0, seen: Tr
         bad_rates(hz=1.15),
         bad_rates(*((answer, 4.0) for answer, _ in REFUSED), hz=4.1, base_hz=4.0, before=4.0),
         bad_rates(*((answer, 2.0) for answer, _ in REFUSED), hz=2.0, base_hz=2.0, before=2.0),
+        # An old timer, which still runs, is judged by `timer`.
+        bad_rates(*((answer, 3.0) for answer, _ in REFUSED), hz=4.2, base_hz=3.0, before=3.0, rate_before=rate(3.6)),
         bad_rates(
             *(
                 (refused({RATE: bad}, f"publish_rate: {bad} doesn't comply with floating point range"), 1.0)
