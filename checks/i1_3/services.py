@@ -16,6 +16,9 @@ from tutor.judge.trace import Trace
 
 OPERATORS = {**OPERATOR_SIGNS, "/divide": "//"}
 
+_COMMON_NAMES = "calculate", "answer_request"
+"""Names for a common callback: the first one that the learner does not use."""
+
 
 @dataclass(frozen=True)
 class Offer:
@@ -190,12 +193,13 @@ def _replace_callback(change: Changes, offer: Offer, service: str) -> None:
         srv_name = argument(call, 1, "srv_name")
         assert srv_name is not None
         self_name = code.self_name(call)
-        lines = _common_callback(self_name)
-        if any(
-            ast.unparse(each) == ast.unparse(syntax_tree.parse("\n".join(lines)))
-            for each in code.functions_named("calculate")
-        ):
-            return  # the file has it already, so the fault must be elsewhere
+        for candidate in _COMMON_NAMES:
+            lines = _common_callback(candidate, self_name)
+            written = ast.unparse(syntax_tree.parse("\n".join(lines)))
+            if any(ast.unparse(each) == written for each in code.functions_named(candidate)):
+                return  # the file has it already, so the fault must be elsewhere
+            if not code.functions_named(candidate):
+                break
         name, edit = _add_function(code, call, lines)
         more = "" if self_name else f", {logger_of(code, call)}"
         binding = f"name={ast.unparse(srv_name)}"
@@ -205,12 +209,12 @@ def _replace_callback(change: Changes, offer: Offer, service: str) -> None:
     change.more.append(edit)
 
 
-def _common_callback(self_name: str) -> list[str]:
+def _common_callback(name: str, self_name: str) -> list[str]:
     """The lines of one callback for all four services; a method if `self_name` is not empty."""
     log = f"{self_name}.get_logger()" if self_name else "logger"
     parameters = f"{self_name}, name, request, response" if self_name else "name, request, response, logger"
     return [
-        f"def calculate({parameters}):",
+        f"def {name}({parameters}):",
         "    a, b = request.a, request.b",
         "    if name.endswith('divide') and b == 0:",
         f"        {log}.error('division by zero')",

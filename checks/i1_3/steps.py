@@ -84,7 +84,10 @@ def end_with_zero(code: Code) -> str | None:
         if (function := _find_function_without_result(code, tests)) is not None:
             below = edits.insert_below(function.end_lineno or 0, "return True", like=function.body[0].lineno)
             return code.as_step(below)
-        if own_calls and isinstance(code.statement(call), ast.Expr):
+        statement = code.statement(call)
+        if own_calls and isinstance(statement, ast.Raise):
+            return code.as_step(edits.replace_statement(statement, ast.unparse(own_calls[0])))
+        if own_calls and isinstance(statement, ast.Expr):
             change.swaps.append((call, ast.unparse(own_calls[0])))
         else:
             change.swaps.append((given, "0"))

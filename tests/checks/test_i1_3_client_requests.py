@@ -234,6 +234,7 @@ def test_a_service_that_is_not_called_is_added_to_the_list(text: str, after: str
     ("text", "after"),
     [
         ("def main(): return True\nsys.exit(main())\n", "def main(): return True\nmain()\n"),
+        ("def main(): return True\nraise SystemExit(main())\n", "def main(): return True\nmain()\n"),
         ("sys.exit(1)\n", "sys.exit(0)\n"),
         (
             "def run():\n    print()\ndef main():\n    done = run()\n    if not done:\n        sys.exit(1)\n",

@@ -89,6 +89,12 @@ def test_code_that_was_already_added_is_not_added_again() -> None:
     assert services.compute_results(run_of(after), list(OPERATOR_SIGNS)) is None
 
 
+def test_a_common_callback_does_not_take_a_name_that_the_learner_uses() -> None:
+    taken = LOOP.replace("class ", "def calculate():\n    pass\n\n\nclass ", 1)
+    after = follow_step(taken, services.compute_results(run_of(taken), list(OPERATOR_SIGNS)))
+    assert "def answer_request(self, name, request, response):" in after
+
+
 def test_the_step_for_an_empty_server_can_be_applied() -> None:
     text = "import rclpy\n\nrclpy.init()\n"
     verdict = judge_services(ServiceCalls(run_of(text), ()))
