@@ -102,6 +102,27 @@ def test_a_thread_started_by_the_node_becomes_a_daemon() -> None:
 
 
 @pytest.mark.parametrize(
+    ("loop", "given", "thread"),
+    [
+        ("while True:\n            self.jobs.get()", "", "Thread(target=self.work, daemon=True).start()"),
+        ("while True:\n            self.jobs.get()", ", 3", "Thread(target=self.work, args=(3,), daemon=True).start()"),
+        ("while True:\n            return self.jobs.get()", "", ""),
+        ("while self.running:\n            self.jobs.get()", "", ""),
+    ],
+)
+def test_endless_work_of_a_pool_becomes_a_daemon(loop: str, given: str, thread: str) -> None:
+    start = f"    def start(self):\n        self.pool.submit(self.work{given})\n\n"
+    pool = f"class Pool:\n{start}    def work(self):\n        {loop}\n\n\ndef main"
+    kept = changed(("def main", pool))
+    step = shutdown_steps.allow_interrupt(kept)
+    if thread:
+        assert f"becomes: {thread}" in step
+        assert "from threading import Thread" in step
+    else:
+        assert "Thread(" not in step
+
+
+@pytest.mark.parametrize(
     ("started", "wait"),
     [
         ("loop.run_in_executor(None, executor.spin)", "await spinning"),

@@ -124,9 +124,37 @@ def _remove_obstacles(file: NodeFile) -> list[Edit]:
 
 
 def make_daemons(file: NodeFile) -> list[Edit]:
-    """Turn all threads that the file makes into daemons, except for those that say what they are."""
+    """Turn all threads that the file makes into daemons, except for those that say what they are.
+
+    Those of a pool that are kept busy for ever become threads of their own.
+    """
     made = [*file.calls("Thread"), *_thread_subclasses(file)]
-    return [make_daemon(file, each) for each in made if not any(given.arg == "daemon" for given in each.keywords)]
+    return [
+        *(make_daemon(file, each) for each in made if not any(given.arg == "daemon" for given in each.keywords)),
+        *_take_endless_work_from_pool(file),
+    ]
+
+
+def _take_endless_work_from_pool(file: NodeFile) -> list[Edit]:
+    """Start a daemon for each function with an endless loop that is submitted to a pool of threads."""
+    found: list[Edit] = []
+    for call in file.calls("submit"):
+        work = file.function(call.args[0]) if call.args and not call.keywords else None
+        if work is None or not any(isinstance(each, ast.While) and _is_endless(each) for each in ast.walk(work)):
+            continue
+        if isinstance(statement := file.statement(call), ast.Expr) and statement.value is call:
+            name, imported = file.import_name("Thread", "threading")
+            given = "".join(f"{ast.unparse(each)}, " for each in call.args[1:])
+            arguments = f"args=({given.rstrip()}), " if given else ""
+            code = f"{name}(target={ast.unparse(call.args[0])}, {arguments}daemon=True).start()"
+            found += [*imported, replace_statement(statement, code)]
+    return list(dict.fromkeys(found))
+
+
+def _is_endless(loop: ast.While) -> bool:
+    return ast.unparse(loop.test) in ("True", "1") and not any(
+        isinstance(each, ast.Break | ast.Return) for each in ast.walk(loop)
+    )
 
 
 def _thread_subclasses(file: NodeFile) -> list[ast.Call]:
