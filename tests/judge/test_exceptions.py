@@ -61,6 +61,35 @@ def test_each_example_gets_its_step_from_its_own_entry(
     assert "{" in example.line or "{" not in found.hint
 
 
+SEARCHES = r"""
+import re, sys
+from pathlib import Path
+from tests.judge.test_exceptions import CHECK_TABLES
+from tutor.judge.exceptions import load_shipped
+from tutor.judge.known_exception import WORD
+
+submissions = sorted((Path(path).read_text(errors="replace") for path in sys.argv[1:]), key=len)[-12:]
+texts = [*submissions, "class N(Node):\n" + "        x = f(a, b)\n\n" * 200, "f(a, " * 50 + "\n" + "    g(b)\n" * 100]
+tables = (*CHECK_TABLES, load_shipped())
+for pattern in sorted({pattern for table in tables for each in table for pattern in (each.source, each.without)}):
+    for text in texts:
+        names = re.findall(r"^class (\w+)", text, re.MULTILINE) or ["x"]
+        print(pattern, flush=True)
+        re.search(WORD.sub(names[-1], pattern), text, re.MULTILINE)
+print("all searched")
+"""
+
+
+def test_no_pattern_takes_long_in_a_long_file() -> None:
+    """A nested repetition that is ambiguous takes for ever where it does not match; nothing can interrupt it."""
+    folder = Path(__file__).parents[1] / "submissions"
+    files = [str(path) for path in folder.glob("*/*/*/*.py")]
+    # A search runs in C, so that only the end of its process stops it.
+    command = ["timeout", "60", sys.executable, "-c", SEARCHES, *files]
+    searched = subprocess.run(command, cwd=folder.parents[1], capture_output=True, text=True, check=False).stdout
+    assert searched.splitlines()[-1] == "all searched"
+
+
 ENTRY = """[[known]]
 type = "ValueError"
 says = "no"
