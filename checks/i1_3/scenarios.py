@@ -32,7 +32,7 @@ from checks.i1_3.facts import (
 )
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.stuck import StuckTest, ask_unless_stuck, stuck_test
+from tutor.judge.stuck import StuckTest, ask_unless_stuck
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import IDLE_S, SETTLE_S, find_stuck_frames, patience_s, wait_until_log_quiet, wait_until_seen
@@ -176,7 +176,7 @@ async def run_client(bench: Bench) -> ClientRun:
         return ClientRun(None)
     async with (
         bench.start(CLIENT, expected_s=2.0) as run,
-        stuck_test(run, lambda: bench.facts(_dump_silent_client)) as test,
+        StuckTest(run, lambda: bench.facts(_dump_silent_client)) as test,
     ):
         bench.report_progress(0.2, "running the client, before there is a server")
         watch = _ClientWatch(bench, run, test)

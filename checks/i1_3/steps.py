@@ -86,12 +86,12 @@ def end_with_zero(code: Code) -> str | None:
             return code.as_step(below)
         statement = code.statement(call)
         if own_calls and isinstance(statement, ast.Raise):
-            return code.as_step(edits.replace_statement(statement, ast.unparse(own_calls[0])))
-        if own_calls and isinstance(statement, ast.Expr):
+            change.more.append(edits.replace_statement(statement, ast.unparse(own_calls[0])))
+        elif own_calls and isinstance(statement, ast.Expr):
             change.swaps.append((call, ast.unparse(own_calls[0])))
         else:
             change.swaps.append((given, "0"))
-    return change.as_step() if change.swaps else None
+    return change.as_step() if change.swaps or change.more else None
 
 
 def _find_function_without_result(code: Code, tests: Sequence[ast.If]) -> Function | None:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import ast
 import asyncio
-from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
-from contextlib import asynccontextmanager
+from collections.abc import Awaitable, Callable, Sequence
 from math import inf
+from typing import Self
 
 from tutor.judge import source, tracebacks
 from tutor.judge.bench import Run
@@ -31,38 +31,33 @@ Look = Callable[[], Awaitable[tuple[Frame, ...]]]
 
 
 class StuckTest:
-    """Tells whether a run waits for ever, by the stack of another start."""
+    """Tells whether a run waits for ever, by the stack of another start. Leaving its context ends that start."""
 
     def __init__(self, run: Run, look: Look) -> None:
         self._run = run
         self._look = look
-        self._looking: asyncio.Future[tuple[Frame, ...]] | None = None
+        self._looking: asyncio.Future[bool] | None = None
 
-    def start(self) -> None:
-        """Look at another start, unless that has already been asked for."""
-        if self._looking is None and self._run.exit is None:
-            self._looking = asyncio.ensure_future(self._look())
+    async def __aenter__(self) -> Self:
+        return self
 
-    def is_stuck(self) -> bool:
-        """Whether the other start has shown by now that the run will do nothing more by itself."""
-        found = self._looking is not None and self._looking.done() and self._looking.exception() is None
-        return found and self._looking is not None and is_stuck_for_ever(self._run, self._looking.result())
-
-    async def close(self) -> None:
-        """Stop looking."""
+    async def __aexit__(self, *_: object) -> None:
         if self._looking is not None:
             self._looking.cancel()
             await asyncio.gather(self._looking, return_exceptions=True)
 
+    def start(self) -> None:
+        """Look at another start, unless that has already been asked for."""
+        if self._looking is None and self._run.exit is None:
+            self._looking = asyncio.ensure_future(self._find_out())
 
-@asynccontextmanager
-async def stuck_test(run: Run, look: Look) -> AsyncIterator[StuckTest]:
-    """A test whether a run waits for ever, which has not started yet."""
-    test = StuckTest(run, look)
-    try:
-        yield test
-    finally:
-        await test.close()
+    def is_stuck(self) -> bool:
+        """Whether the other start has shown by now that the run will do nothing more by itself."""
+        looking = self._looking
+        return looking is not None and looking.done() and looking.exception() is None and looking.result()
+
+    async def _find_out(self) -> bool:
+        return is_stuck_for_ever(self._run, await self._look())
 
 
 def is_stuck_for_ever(run: Run, frames: Sequence[Frame]) -> bool:
@@ -78,7 +73,7 @@ async def ask_unless_stuck(run: Run, limit_s: float, look: Look) -> tuple[tuple[
     """
     asked = asyncio.ensure_future(run.parameters(limit_s))
     try:
-        async with stuck_test(run, look) as test:
+        async with StuckTest(run, look) as test:
             if not await run.until(asked.done, SLOW_ANSWER_S):
                 test.start()
             await run.until(lambda: asked.done() or test.is_stuck(), inf)

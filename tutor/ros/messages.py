@@ -65,7 +65,12 @@ def truncate(text: str, max_length: int = MAX_CHARACTERS) -> str:
 
 def kept_bytes(text: str, kept: str) -> int:
     """Return the memory cost in bytes of the kept part of a text. What is cut off counts in part."""
-    return _ELEMENT_BYTES + len(kept) * (1 if kept.isascii() else 4) + len(text) // RECEIVED_PER_KEPT_BYTE
+    return _ELEMENT_BYTES + text_bytes(kept) + len(text) // RECEIVED_PER_KEPT_BYTE
+
+
+def text_bytes(text: str) -> int:
+    """Return about how many bytes a text takes in memory, apart from its header."""
+    return len(text) * (1 if text.isascii() else 4)
 
 
 def set_fields(message: Any, values: Mapping[str, Any]) -> Any:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from tutor.judge.trace import SetAnswer
-from tutor.ros.messages import interface_class, truncate
+from tutor.ros.messages import interface_class, text_bytes, truncate
 from tutor.ros.observer import AnswerTooLarge, Observer
 from tutor.ros_model import PARAMETER_TYPES, Parameter
 
@@ -204,14 +204,10 @@ def _value_bytes(value: Any) -> int:
     field = _VALUE_FIELDS[value.type]
     content: Any = getattr(value, field) if field else None
     if isinstance(content, str):
-        return _text_bytes(content)
+        return text_bytes(content)
     if field == "string_array_value":
-        return sum(_ELEMENT_BYTES + _text_bytes(text) for text in content)
+        return sum(_ELEMENT_BYTES + text_bytes(text) for text in content)
     return _ELEMENT_BYTES * len(content) if hasattr(content, "__len__") else _ELEMENT_BYTES
-
-
-def _text_bytes(text: str) -> int:
-    return len(text) * (1 if text.isascii() else 4)
 
 
 def _parameter_message(name: str, value: Any, type_name: str | None = None) -> Any:
