@@ -61,14 +61,15 @@ class NoVerdict(Exception):
     """A check ended without a verdict; the message says why."""
 
 
-async def judge(case: Case, only: Sequence[str] = ()) -> Outcome:
+async def judge(case: Case, only: Sequence[str] = (), record: Path | None = None) -> Outcome:
     """Check the submission as the terminal app does, in a separate process, and compare with what is expected.
 
-    `only`: the criteria to judge (default: all).
+    `only`: the criteria to judge (default: all). `record`: a folder for a recording of the check.
     """
     started = time.monotonic()
+    engine = ("tests.recordings.engine", str(record), str(case)) if record else ("tutor.engine",)
     try:
-        result, stderr = await _run_engine(case.exercise, case.folder, only)
+        result, stderr = await _run_engine(case.exercise, case.folder, only, engine)
     except NoVerdict as error:
         return Outcome(case, [str(error)], took_s=time.monotonic() - started)
     took = time.monotonic() - started
@@ -85,10 +86,15 @@ async def check_folder(exercise: str, folder: Path) -> ExerciseResult:
     return (await _run_engine(exercise, folder))[0]
 
 
-async def _run_engine(exercise: str, folder: Path, only: Sequence[str] = ()) -> tuple[ExerciseResult, str]:
-    """Return the result, and what was written to stderr. Raises NoVerdict if there is no result."""
+async def _run_engine(
+    exercise: str, folder: Path, only: Sequence[str] = (), engine: Sequence[str] = ("tutor.engine",)
+) -> tuple[ExerciseResult, str]:
+    """Return the result, and what was written to stderr. Raises NoVerdict if there is no result.
+
+    `engine`: the module to run, and its first arguments.
+    """
     process = await asyncio.create_subprocess_exec(
-        *(sys.executable, "-m", "tutor.engine", exercise, str(folder)),
+        *(sys.executable, "-m", *engine, exercise, str(folder)),
         *(f"--criterion={criterion}" for criterion in only),
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.PIPE,

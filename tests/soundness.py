@@ -1,6 +1,7 @@
 """Judge every submission under tests/submissions and compare with what its expect.yaml says.
 
     uv run python -m tests.soundness [EXERCISE[/right|wrong[/NAME]] ...] [--changed] [--times N] [--jobs N] [--busy]
+                                     [--record FOLDER]
 
 `--changed` judges the submissions that differ from the branch main, all of an exercise whose check differs, and the
 tests' sample if code that all checks share differs.
@@ -23,6 +24,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 
 from tests.judging import Outcome, find_cases, holds_here, judge
 from tests.sampling import changed
@@ -41,14 +43,17 @@ COLUMNS = ("exercise", "kind", "submissions", "runs", "as expected", "false pass
 TIMES = ("min s", "median", "max s")
 
 
-async def judge_all(chosen: Sequence[Case], jobs: int) -> list[Outcome]:
-    """Judge the cases, `jobs` at a time, reporting each on stderr. On SIGINT or SIGTERM, return the outcomes so far."""
+async def judge_all(chosen: Sequence[Case], jobs: int, record: Path | None = None) -> list[Outcome]:
+    """Judge the cases, `jobs` at a time, reporting each on stderr. On SIGINT or SIGTERM, return the outcomes so far.
+
+    `record`: a folder for recordings of the checks.
+    """
     slots = asyncio.Semaphore(jobs)
     outcomes: list[Outcome] = []
 
     async def judge_one(case: Case) -> None:
         async with slots:
-            outcome = await judge(case)
+            outcome = await judge(case, record=record)
         outcomes.append(outcome)
         mark = "! " if outcome.wrong else "  "
         count = f"{len(outcomes)}/{len(chosen)}"
@@ -140,6 +145,7 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=3, help="submissions judged in parallel")
     parser.add_argument("--changed", action="store_true", help="only what a difference from main may affect")
     parser.add_argument("--busy", action="store_true", help="run a busy loop on each core meanwhile")
+    parser.add_argument("--record", type=Path, metavar="FOLDER", help="also record what the judges got (see replay)")
     parser.add_argument("--json", action="store_true", help="also print the wrong ones as JSON")
     arguments = parser.parse_args()
     found, broken = find_cases(arguments.wanted)
@@ -157,7 +163,7 @@ def main() -> int:
         print(f"no submission is named {' or '.join(arguments.wanted) or 'anything'}", file=sys.stderr)
         return 2
     with busy_cores(len(os.sched_getaffinity(0)) if arguments.busy else 0):
-        outcomes = asyncio.run(judge_all(here * arguments.times, arguments.jobs))
+        outcomes = asyncio.run(judge_all(here * arguments.times, arguments.jobs, arguments.record))
     wrong = [outcome for outcome in outcomes if outcome.wrong]
     if arguments.json:
         print(json.dumps([{"case": str(o.case), "wrong": o.wrong} for o in wrong]))
