@@ -146,7 +146,7 @@ def _compare_criterion(criterion: CriterionResult, expected: Expected, some_fail
     elif must_fail or criterion.id in expected.fails_any:
         if status is Status.FAILED:
             outcome.wrong += _check_words("cause", expected.causes, expected, criterion.id, cause)
-            outcome.wrong += _check_words("step", expected.steps, expected, criterion.id, criterion.verdict.hint)
+            outcome.wrong += _check_words("step", expected.steps, expected, criterion.id, criterion.verdict.step)
     elif criterion.id in expected.not_passed:
         if status is Status.PASSED:
             outcome.wrong.append(f"should not pass: {described}")

@@ -39,7 +39,7 @@ def with_deeper_cause[V: Verdict | None](judge: Callable[..., V]) -> Callable[..
         cause = _diagnose_double_count(trials) or _diagnose_own_messages(trials) or _diagnose_waiting(trials)
         if cause is None and verdict.cause.partition(":")[0] in _CAUSED_BY_RESETS:
             cause = _diagnose_text_comparison(trials)
-        return verdict if cause is None else replace(verdict, cause=str(cause), hint=cause.hint)
+        return verdict if cause is None else replace(verdict, cause=str(cause), step=cause.hint)
 
     return judged
 

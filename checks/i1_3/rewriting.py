@@ -57,12 +57,12 @@ def with_applicable_steps[Seen: ServiceCalls | Division](judge: Callable[[Seen],
     @wraps(judge)
     def judged(seen: Seen) -> Verdict:
         verdict = judge(seen)
-        if verdict.status is not Status.FAILED or verdict.hint.startswith("rename"):
+        if verdict.status is not Status.FAILED or verdict.step.startswith("rename"):
             return verdict
         cause = with_applicable_step(
-            Cause("", verdict.cause, verdict.hint), seen.trace, lambda: rewrite_server(seen.trace)
+            Cause("", verdict.cause, verdict.step), seen.trace, lambda: rewrite_server(seen.trace)
         )
-        return replace(verdict, hint=cause.hint)
+        return replace(verdict, step=cause.hint)
 
     return judged
 

@@ -61,11 +61,11 @@ def _with_applicable_step(verdict: Verdict, trace: Trace) -> Verdict:
     if verdict.status is not Status.FAILED:
         return verdict
     try:
-        apply_step(verdict.hint, trace.sources)
+        apply_step(verdict.step, trace.sources)
     except NotAnEdit:
         files = started_node(trace), file_calling(trace, "create_service")
         step = next((step for each in files if (step := steps.rewrite_everything(each))), "")
-        return replace(verdict, hint=step or verdict.hint)
+        return replace(verdict, step=step or verdict.step)
     return verdict
 
 
@@ -85,7 +85,7 @@ def _judge_both_calls(seen: SingleCalls, judge: Callable[[SingleCalls], Verdict]
 def _judge_answer(seen: SingleCalls) -> Verdict:
     verdict = _judge_answer_alone(seen)
     if verdict.status is Status.FAILED and (raised := why.diagnose_exception(seen.trace)) is not None:
-        return replace(verdict, cause=str(raised), hint=raised.hint)
+        return replace(verdict, cause=str(raised), step=raised.hint)
     return verdict
 
 

@@ -153,6 +153,6 @@ def assert_failed(verdict: Verdict | None, cause: str, *words: str) -> None:
     assert verdict.cause.partition(":")[0] == cause, verdict
     assert verdict.expected
     assert verdict.observed
-    assert verdict.hint
+    assert verdict.step
     for word in words:
-        assert word in f"{verdict.observed} | {verdict.cause} | {verdict.hint} | {verdict.evidence}", verdict
+        assert word in f"{verdict.observed} | {verdict.cause} | {verdict.step} | {verdict.evidence}", verdict

@@ -1729,7 +1729,7 @@ def test_a_node_that_publishes_on_the_topic_counts_its_own_messages(topic: str, 
     verdict = CHECKED["count"](*trials)
     assert verdict.status is Status.FAILED
     assert verdict.cause.startswith("own messages") == blamed
-    assert (verdict.hint == "line 9 becomes: pass") == blamed
+    assert (verdict.step == "line 9 becomes: pass") == blamed
 
 
 def test_a_sleep_in_the_callback_is_the_cause_of_every_failure() -> None:

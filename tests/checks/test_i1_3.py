@@ -517,7 +517,7 @@ def test_a_client_that_takes_zero_for_no_result(test: str, step: str) -> None:
     assert hanging.trace is not None
     verdict = judge_client(replace(hanging, trace=replace(hanging.trace, sources={"calculator_client.py": source})))
     assert ("zero is false" in verdict.cause) is bool(step)
-    assert step in verdict.hint
+    assert step in verdict.step
 
 
 def test_a_client_that_waits_in_vain_is_reported_with_the_time_that_it_was_watched() -> None:
@@ -784,7 +784,7 @@ def test_a_spin_that_delivers_the_answers_is_not_simply_removed(text: str, step:
     own = frame("main", line=3, code="rclpy.spin(node)")
     verdict = judge_client(demonstration(SERVED, code=None, stuck=(own,), sources={"node.py": text}))
     assert_failed(verdict, "did not end")
-    assert step in verdict.hint
+    assert step in verdict.step
 
 
 def test_a_server_that_sleeps_instead_of_spinning_is_told_to_spin() -> None:

@@ -98,7 +98,7 @@ def test_a_common_callback_does_not_take_a_name_that_the_learner_uses() -> None:
 def test_the_step_for_an_empty_server_can_be_applied() -> None:
     text = "import rclpy\n\nrclpy.init()\n"
     verdict = judge_services(ServiceCalls(run_of(text), ()))
-    after = follow_step(text, verdict.hint)
+    after = follow_step(text, verdict.step)
     assert after.count("create_service(") == 4
 
 

@@ -256,7 +256,7 @@ def test_a_second_timer_is_found_whichever_start_shows_it(hz: float, slow_hz: fl
     )
     verdict = judge_launch(seen)
     assert_failed(verdict, "two timers")
-    assert verdict.hint == "remove line 5: self.first = self.create_timer(1.0, self.send)"
+    assert verdict.step == "remove line 5: self.first = self.create_timer(1.0, self.send)"
 
 
 # --- while it runs -----------------------------------------------------------

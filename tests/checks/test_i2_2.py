@@ -268,7 +268,7 @@ def test_a_launch_file_that_sets_the_argument_itself(more: str, is_named: bool) 
     seen = replace(seen, trace=replace(seen.trace, sources={"my_launch.py": source}))
     verdict = judges.judge_topic(DEFAULT_RUN, seen)
     assert ("argument overwritten" in verdict.cause) is is_named
-    assert ("remove line 3: SetLaunchConfiguration" in verdict.hint) is is_named
+    assert ("remove line 3: SetLaunchConfiguration" in verdict.step) is is_named
 
 
 @pytest.mark.parametrize(
@@ -282,7 +282,7 @@ def test_a_setting_that_a_group_takes_back(more: str, read: str, is_named: bool)
     seen = replace(seen, trace=replace(seen.trace, sources={"my_launch.py": source}))
     verdict = judges.judge_topic(DEFAULT_RUN, seen)
     assert ("setting lost with its group" in verdict.cause) is is_named
-    assert ("GroupAction([SetLaunchConfiguration('target', topic)], scoped=False)," in verdict.hint) is is_named
+    assert ("GroupAction([SetLaunchConfiguration('target', topic)], scoped=False)," in verdict.step) is is_named
 
 
 @pytest.mark.parametrize(("sent", "taken"), [("/news", "/chatter"), ("/chatter", "/news")])
@@ -554,7 +554,7 @@ def test_the_launch_ignores_sigint() -> None:
     seen = replace(seen, trace=replace(seen.trace, sources={seen.trace.file: launch_file}))
     verdict = judges.judge_shutdown(seen)
     assert_failed(verdict, "SIGINT ignored")
-    assert verdict.hint.startswith("let KeyboardInterrupt end the program"), "an edit of the launch file cannot help"
+    assert verdict.step.startswith("let KeyboardInterrupt end the program"), "an edit of the launch file cannot help"
 
 
 def test_a_traceback_of_a_node_fails_though_the_launch_exits_cleanly() -> None:

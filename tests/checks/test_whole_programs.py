@@ -189,6 +189,6 @@ def test_a_step_in_words_becomes_an_applicable_one(hint: str) -> None:
         parameter_steps.whole_program_step,
     )
     verdict = judge(trace)
-    assert step_parsing.is_applicable(verdict.hint, trace.sources)
-    assert (verdict.hint == hint) == hint.startswith("line")
-    assert verdict.cause == ("wrong: it is" if verdict.hint == hint else "wrong: it is; look again")
+    assert step_parsing.is_applicable(verdict.step, trace.sources)
+    assert (verdict.step == hint) == hint.startswith("line")
+    assert verdict.cause == ("wrong: it is" if verdict.step == hint else "wrong: it is; look again")

@@ -150,7 +150,7 @@ async def test_a_scenario_that_never_gets_facts_is_a_machine_error(scene: Scene)
     machine = Machine()
     result = await scene.judge(criterion("a", machine.scenario("a", too_busy_until=9)))
     assert statuses(result) == {"a": "error"}
-    assert result.criteria[0].verdict.hint == "close what keeps this machine busy, then check again"
+    assert result.criteria[0].verdict.step == "close what keeps this machine busy, then check again"
     assert machine.runs == {"a": 3}
 
 

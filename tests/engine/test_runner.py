@@ -153,7 +153,7 @@ async def test_without_a_free_domain_the_criterion_is_an_error_with_a_hint(
     result = await scene.judge(criterion("a", start))
     assert statuses(result) == {"a": "error"}
     assert "No ROS domain id" in result.criteria[0].verdict.cause
-    assert "Wait until other checks" in result.criteria[0].verdict.hint
+    assert "Wait until other checks" in result.criteria[0].verdict.step
 
 
 async def test_an_exception_in_a_scenario_is_the_cause(scene: Scene) -> None:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from tests.recordings.recording import JudgeCall, Outcome, Recording, write
+from tests.recordings.recording import JudgeCall, Recording, outcome, scenario_name, write
 from tutor.engine import __main__ as engine
 from tutor.engine import modules
 from tutor.judge.check import Check, Criterion
@@ -36,34 +36,22 @@ def _recorded(criterion: Criterion, calls: Calls) -> Criterion:
     return replace(criterion, judge=wrap(criterion.judge, ""), early=early)
 
 
-def scenario_name(scenario: Any) -> str:
-    """The name of a scenario, by which a recording finds its early judge again."""
-    return str(getattr(scenario, "__qualname__", None) or scenario)
-
-
 def make_recording(case: str, calls: Calls, result: ExerciseResult) -> Recording:
     """Keep, for each criterion, the last call that gave its verdict; none for those that were never judged."""
     kept = []
     for criterion in result.criteria:
-        if criterion.verdict.status in (Status.ERROR,):
+        if criterion.verdict.status is Status.ERROR:
             continue
         mine = [
-            (call, verdict) for call, verdict in calls
+            (call, verdict)
+            for call, verdict in calls
             if call.criterion == criterion.id and verdict is not None and verdict.status is criterion.verdict.status
         ]
-        same = [call for call, verdict in mine if verdict is not None and verdict.observed == criterion.verdict.observed]
+        same = [
+            call for call, verdict in mine if verdict is not None and verdict.observed == criterion.verdict.observed
+        ]
         kept += (same or [call for call, _ in mine])[-1:]
     return Recording(case, tuple(kept), {each.id: outcome(each.verdict) for each in result.criteria})
-
-
-def outcome(verdict: Verdict) -> Outcome:
-    """What to compare of a verdict."""
-    name, _, _ = verdict.cause.partition(": ")
-    return Outcome(
-        verdict.status.value,
-        name if verdict.status is Status.FAILED else "",
-        verdict.cause, verdict.hint, verdict.observed,
-    )
 
 
 def main() -> int:

@@ -15,6 +15,8 @@ from typing import Any
 
 import msgspec
 
+from tutor.judge.verdict import Verdict
+
 SUFFIX = ".recording"
 
 
@@ -87,8 +89,11 @@ def write(recording: Recording, folder: Path) -> Path:
 def read(file: Path, moved: Mapping[str, str] | None = None) -> Recording:
     """Read a recording. `moved`: where classes of facts are now, "module:Class" to "module:Class"."""
     document = msgspec.msgpack.decode(zlib.decompress(file.read_bytes()))
-    facts = [msgspec.convert(value, _load((moved or {}).get(name, name)), strict=False) for name, value in document["facts"]]
-    calls = (JudgeCall(criterion, scenario, tuple(facts[at] for at in used)) for criterion, scenario, used in document["calls"])
+    facts = [_facts(*each, moved or {}) for each in document["facts"]]
+    calls = (
+        JudgeCall(criterion, scenario, tuple(facts[at] for at in used))
+        for criterion, scenario, used in document["calls"]
+    )
     return Recording(document["case"], tuple(calls), msgspec.convert(document["outcomes"], dict[str, Outcome]))
 
 
@@ -96,8 +101,14 @@ def read_all(folder: Path, wanted: Iterable[str] = ()) -> list[Recording]:
     """Read the recordings whose cases start with one of `wanted` (all if empty), in order."""
     prefixes = tuple(wanted)
     files = sorted(folder.glob(f"*{SUFFIX}"))
-    chosen = [each for each in files if not prefixes or each.name.startswith(tuple(p.replace("/", ".") for p in prefixes))]
+    chosen = [
+        each for each in files if not prefixes or each.name.startswith(tuple(p.replace("/", ".") for p in prefixes))
+    ]
     return [read(each) for each in chosen]
+
+
+def _facts(name: str, value: Any, moved: Mapping[str, str]) -> Any:
+    return None if value is None else msgspec.convert(value, _load(moved.get(name, name)), strict=False)
 
 
 def _load(name: str) -> Any:
@@ -106,3 +117,15 @@ def _load(name: str) -> Any:
     for part in attribute.split("."):
         found = getattr(found, part)
     return found
+
+
+def scenario_name(scenario: Any) -> str:
+    """The name of a scenario, by which a recording finds its early judge again."""
+    return str(getattr(scenario, "__qualname__", None) or scenario)
+
+
+def outcome(verdict: Verdict) -> Outcome:
+    """What to compare of a verdict."""
+    return Outcome(
+        verdict.status.value, verdict.mistake, verdict.cause, verdict.step, verdict.observed, verdict.same_as
+    )

@@ -87,7 +87,7 @@ def test_text_has_a_word_for_every_status_and_the_next_step(mixed: Report) -> No
 
 def test_the_code_of_a_next_step_is_not_wrapped(mixed: Report) -> None:
     code = "self.rate = self.declare_parameter('publish_rate', 2.0).get_parameter_value().double_value  # " + "x " * 40
-    criterion = next(each for each in mixed.exercises[0].criteria if each.verdict.hint)
+    criterion = next(each for each in mixed.exercises[0].criteria if each.verdict.step)
     changed = replace(criterion, verdict=replace(criterion.verdict, hint=f"line 12 becomes: {code.strip()}"))
     exercise = replace(mixed.exercises[0], criteria=(changed,))
     text = render(replace(mixed, exercises=(exercise,)), "text", width=60)

@@ -153,7 +153,7 @@ def _print_proofs(proofs: Sequence[Proof], findings: list[Problem]) -> int:
         _print_findings(found)
         for criterion in unjudged_criteria(proof.result):
             unjudged += 1
-            why = " ".join(f"{criterion.verdict.cause}; {criterion.verdict.hint}".split())
+            why = " ".join(f"{criterion.verdict.cause}; {criterion.verdict.step}".split())
             terminal.out(f"{proof.lesson.id} {proof.kind}, {criterion.id}: could not be judged: {why}\n")
     return unjudged
 

@@ -82,7 +82,7 @@ def with_missing(
 def _skipped_result(lesson: Lesson, why: str) -> ExerciseResult:
     names = ", ".join(file.name for file in lesson.files if file.required)
     hint = f"`{command('start', lesson.id)}` puts the skeleton into the workspace" if why == NOT_STARTED else ""
-    verdict = Verdict(Status.SKIPPED, expected=names, cause=why, hint=hint)
+    verdict = Verdict(Status.SKIPPED, expected=names, cause=why, step=hint)
     return ExerciseResult(
         id=lesson.id,
         title=lesson.title,

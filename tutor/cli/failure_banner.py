@@ -23,8 +23,8 @@ def render_banner(name: str, result: CriterionResult, console: Console, max_rows
     verdict = result.verdict
     head = Text(f"{MARKS[verdict.status]} {name} failed after {seconds(result.duration_s)}", f"bold {_RED}")
     body = [Text(one_line(verdict.cause or verdict.observed, 1000), "bold")]
-    if verdict.hint:
-        body.append(Text.assemble(("next step: ", "dim"), printable(verdict.hint).strip()))
+    if verdict.step:
+        body.append(Text.assemble(("next step: ", "dim"), printable(verdict.step).strip()))
     rows = [head]
     for text in body:
         rows += text.wrap(console, max(20, console.width - len(_MARGIN) - 1))

@@ -6,14 +6,17 @@ import asyncio
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from tutor.content import Lesson
 from tutor.engine.bench import RosBench
+from tutor.engine.explanation import explain
 from tutor.engine.first_failure import judge_until_failure, skipped_after, skipped_verdict
 from tutor.engine.isolation import Isolation
 from tutor.engine.provisional import Provisional
 from tutor.engine.so_far import SoFar
+from tutor.engine.source import read_sources
 from tutor.engine.start_limiter import StartLimiter
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
 from tutor.engine.waits import TOO_BUSY
@@ -21,7 +24,7 @@ from tutor.errors import Fault, MachineTooBusy
 from tutor.judge.bench import Scenario, was_slowed
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
-from tutor.judge.result import CriterionResult, ExerciseResult
+from tutor.judge.result import CriterionResult, ExerciseResult, Remark, tell_roots_once
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault
 from tutor.process.fork_link import ForkServerLink
@@ -106,12 +109,22 @@ class Runner:
             id=exercise,
             title=self._lesson.title,
             submission=tuple(self._submission.files),
-            criteria=tuple(results),
+            criteria=tell_roots_once(results),
             duration_s=self._elapsed_s(),
             unjudged=unjudged,
         )
+        if result.verdict is Status.PASSED and not unjudged:
+            result = replace(result, remarks=self._remarks())
         self._on_event(ExerciseJudged(result))
         return result
+
+    def _remarks(self) -> tuple[Remark, ...]:
+        from tutor.mistakes import remarks  # late, as in `explain`
+
+        sources: dict[str, str] = {}
+        for path in self._submission.files.values():
+            sources |= read_sources(path)
+        return remarks(sources, self._check)
 
     async def _judge_shown(self) -> tuple[Sequence[CriterionResult], tuple[str, ...]]:
         """Judge the criteria to show; return their results, and the ids of those skipped at the first failure."""
@@ -192,7 +205,7 @@ class Runner:
             if not (await asyncio.shield(self._verdicts[dependency])).passed:
                 return skipped_after(dependency)
         try:
-            verdict = await self._judge_early_or_fully(criterion)
+            verdict = explain(await self._judge_early_or_fully(criterion), self._check)
             text = self._texts.get(criterion.id)
             return point_to_todo(verdict, self._todo, text.hint if text else "")
         except Fault as error:

@@ -35,4 +35,4 @@ def point_to_todo(verdict: Verdict, todo: str, hint: str) -> Verdict:
     """
     if verdict.status is not Status.FAILED or not todo:
         return verdict
-    return replace(verdict, hint=f"work through the TODOs of the skeleton, from {todo} on. {hint}".strip())
+    return replace(verdict, step=f"work through the TODOs of the skeleton, from {todo} on. {hint}".strip())

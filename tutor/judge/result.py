@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 from tutor.judge.verdict import Status, Verdict
 
@@ -20,10 +20,24 @@ class CriterionResult:
 
 
 @dataclass(frozen=True, slots=True)
+class Remark:
+    """What works, but will bite: a mistake of the catalogue in a submission that passed. It changes no verdict.
+
+    `file` and `line` say where.
+    """
+
+    mistake: str
+    text: str
+    file: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
 class ExerciseResult:
     """One judged exercise. `submission` holds the names of the judged files; empty if there were none.
 
-    `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure.
+    `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure. `remarks`: at
+    most two, if everything required passed.
     """
 
     id: str
@@ -32,6 +46,7 @@ class ExerciseResult:
     criteria: tuple[CriterionResult, ...]
     duration_s: float
     unjudged: tuple[str, ...] = ()
+    remarks: tuple[Remark, ...] = ()
 
     @property
     def missing(self) -> str:
@@ -96,3 +111,24 @@ def overall(statuses: Iterable[Status]) -> Status:
     if Status.ERROR in seen or not seen:
         return Status.ERROR
     return Status.FAILED if Status.SKIPPED in seen else Status.PASSED
+
+
+def tell_roots_once(criteria: Sequence[CriterionResult]) -> tuple[CriterionResult, ...]:
+    """Let criteria that fail by the same mistake at the same place point to the first of them, required ones first."""
+    roots: dict[tuple[str, str, str], str] = {}
+    for criterion in sorted(criteria, key=lambda each: each.bonus):
+        if criterion.verdict.mistake:
+            roots.setdefault(_root(criterion.verdict), criterion.id)
+    told = []
+    for criterion in criteria:
+        root = roots.get(_root(criterion.verdict), criterion.id) if criterion.verdict.mistake else criterion.id
+        if root != criterion.id:
+            verdict = replace(criterion.verdict, cause=f"for the same reason as `{root}`", step="", same_as=root)
+            criterion = replace(criterion, verdict=verdict)
+        told.append(criterion)
+    return tuple(told)
+
+
+def _root(verdict: Verdict) -> tuple[str, str, str]:
+    """What makes two failures the same: the mistake and its place, or its words where it has none."""
+    return verdict.mistake, verdict.place, "" if verdict.place else verdict.cause

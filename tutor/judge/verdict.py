@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import Enum
+from typing import TYPE_CHECKING
 
-MAX_CHARACTERS, MAX_HINT_CHARACTERS, MAX_LINE_CHARACTERS, MAX_LINES = 2000, 10_000, 500, 20
-"""Size limits of a verdict: its texts, its hint (which may be a whole program), each line and all lines of evidence."""
+if TYPE_CHECKING:
+    from tutor.judge.symptom import Observation
 
-BUSY_HINT = "close what keeps this machine busy, then check again"
+MAX_CHARACTERS, MAX_LINE_CHARACTERS, MAX_LINES = 2000, 500, 20
+"""Size limits of a verdict: its texts, each line and all lines of evidence."""
+
+BUSY_STEP = "close what keeps this machine busy, then check again"
 
 
 class Status(Enum):
@@ -45,15 +49,20 @@ class Verdict:
     """The diagnosis of one criterion: a status, and what was expected, observed, concluded and advised.
 
     `observed` contains numbers with units; `evidence` holds single lines to show verbatim (log lines, samples, the
-    learner's own line of code), oldest first.
+    learner's own line of code), oldest first. Of a failure, `mistake` is its id in the catalogue, `cause` says why, and
+    `step` what to change, in words; `place` is the file and line, such as "node.py:12", if one is known. `same_as`: the
+    id of the criterion whose failure explains this one; then cause and step are told there.
     """
 
     status: Status
     expected: str = ""
     observed: str = ""
     cause: str = ""
-    hint: str = ""
+    step: str = ""
     evidence: tuple[str, ...] = ()
+    mistake: str = ""
+    place: str = ""
+    same_as: str = ""
 
     @property
     def passed(self) -> bool:
@@ -68,7 +77,7 @@ def bounded(verdict: Verdict) -> Verdict:
         expected=_truncate(verdict.expected, MAX_CHARACTERS),
         observed=_truncate(verdict.observed, MAX_CHARACTERS),
         cause=_truncate(verdict.cause, MAX_CHARACTERS),
-        hint=_truncate(verdict.hint, MAX_HINT_CHARACTERS),
+        step=_truncate(verdict.step, MAX_CHARACTERS),
         evidence=tuple(_truncate(line, MAX_LINE_CHARACTERS) for line in verdict.evidence[:MAX_LINES]),
     )
 
@@ -88,7 +97,7 @@ def undecided(to_do: str) -> Undecided:
 
     The engine repeats the scenarios with nothing else running and judges again; if still undecided, it is an error.
     """
-    return Undecided(Status.ERROR, cause=f"this machine is too busy {to_do}", hint=BUSY_HINT)
+    return Undecided(Status.ERROR, cause=f"this machine is too busy {to_do}", step=BUSY_STEP)
 
 
 def passed(expected: str, observed: str, evidence: Iterable[str] = ()) -> Verdict:
@@ -96,9 +105,19 @@ def passed(expected: str, observed: str, evidence: Iterable[str] = ()) -> Verdic
     return Verdict(Status.PASSED, expected=expected, observed=observed, evidence=tuple(evidence))
 
 
-def failed(expected: str, observed: str, cause: Cause, evidence: Iterable[str] = ()) -> Verdict:
-    """The learner's code does not meet the criterion; `cause` names why and what to do next."""
-    return Verdict(Status.FAILED, expected, observed, str(cause), cause.hint, tuple(evidence))
+@dataclass(frozen=True, slots=True)
+class Failure(Verdict):
+    """A failure whose reason is still to be found: `seen` is the symptom, of which the catalogue is asked."""
+
+    seen: Observation | None = None
+
+
+def failed(expected: str, observed: str, why: Cause | Observation, evidence: Iterable[str] = ()) -> Verdict:
+    """The learner's code does not meet the criterion; `why` is the symptom that was seen."""
+    if isinstance(why, Cause):
+        mistake = why.name.replace(" ", "-").lower()
+        return Verdict(Status.FAILED, expected, observed, str(why), why.hint, tuple(evidence), mistake)
+    return Failure(Status.FAILED, expected, observed, evidence=tuple(evidence), seen=why)
 
 
 def skipped(because: str) -> Verdict:
@@ -106,6 +125,6 @@ def skipped(because: str) -> Verdict:
     return Verdict(Status.SKIPPED, cause=because)
 
 
-def fault(what: str, hint: str, evidence: Iterable[str] = ()) -> Verdict:
-    """The tool or the machine could not judge the criterion: `what` went wrong, and `hint` says how to fix it."""
-    return Verdict(Status.ERROR, cause=what, hint=hint, evidence=tuple(evidence))
+def fault(what: str, step: str, evidence: Iterable[str] = ()) -> Verdict:
+    """The tool or the machine could not judge the criterion: `what` went wrong, and `step` says how to fix it."""
+    return Verdict(Status.ERROR, cause=what, step=step, evidence=tuple(evidence))

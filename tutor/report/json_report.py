@@ -34,6 +34,10 @@ def _exercise(exercise: ExerciseResult) -> dict[str, Any]:
         "duration_s": round(exercise.duration_s, 3),
         "submission": list(exercise.submission),
         "criteria": [_criterion(criterion) for criterion in exercise.criteria],
+        "remarks": [
+            {"mistake": each.mistake, "text": printable(each.text), "file": each.file, "line": each.line}
+            for each in exercise.remarks
+        ],
     }
 
 
@@ -47,7 +51,9 @@ def _criterion(criterion: CriterionResult) -> dict[str, Any]:
         "duration_s": round(criterion.duration_s, 3),
         "expected": printable(verdict.expected),
         "observed": printable(verdict.observed),
+        "mistake": verdict.mistake or None,
         "cause": printable(verdict.cause),
-        "hint": printable(verdict.hint),
+        "step": printable(verdict.step),
+        "same_as": verdict.same_as or None,
         "evidence": [printable(line) for line in verdict.evidence],
     }

@@ -54,7 +54,7 @@ def _exercise(exercise: ExerciseResult) -> Iterator[str]:
     yield f"## {exercise.id} {escape(exercise.title)}: {exercise.verdict.value}"
     yield ""
     if exercise.missing:
-        hint = exercise.criteria[0].verdict.hint
+        hint = exercise.criteria[0].verdict.step
         yield escape(f"{exercise.missing}; {hint}" if hint else exercise.missing)
         return
     yield f"{tally(exercise)}, {seconds(exercise.duration_s)}"

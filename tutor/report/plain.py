@@ -39,7 +39,7 @@ def details(verdict: Verdict) -> list[tuple[str, str]]:
         ("expected", verdict.expected),
         ("observed", verdict.observed),
         ("cause", verdict.cause),
-        ("next step", verdict.hint),
+        ("next step", verdict.step),
     )
     return [(label, printable(text).strip()) for label, text in pairs if text.strip()]
 

@@ -81,7 +81,7 @@ def _exercise(exercise: ExerciseResult) -> Iterator[RenderableType | _Step]:
 
 
 def _missing(exercise: ExerciseResult) -> RenderableType:
-    hint = exercise.criteria[0].verdict.hint
+    hint = exercise.criteria[0].verdict.step
     return Padding(Text(printable(f"{exercise.missing}; {hint}" if hint else exercise.missing), "yellow"), (0, 0, 0, 2))
 
 

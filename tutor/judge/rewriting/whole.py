@@ -157,12 +157,12 @@ def with_applicable_steps[**P](
     def judge_with_step(*args: P.args, **kwargs: P.kwargs) -> Verdict:
         verdict = judge(*args, **kwargs)
         trace = next((each for each in found(*args, **kwargs) if each.sources), None)
-        if verdict.status is not Status.FAILED or trace is None or is_applicable(verdict.hint, trace.sources):
+        if verdict.status is not Status.FAILED or trace is None or is_applicable(verdict.step, trace.sources):
             return verdict
         hint = step(trace)
         if not hint:
             return verdict
-        words = verdict.hint if "\n" not in verdict.hint else ""
-        return replace(verdict, hint=hint, cause="; ".join(each for each in (verdict.cause, words) if each))
+        words = verdict.step if "\n" not in verdict.step else ""
+        return replace(verdict, step=hint, cause="; ".join(each for each in (verdict.cause, words) if each))
 
     return judge_with_step

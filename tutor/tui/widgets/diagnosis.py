@@ -115,7 +115,7 @@ class Diagnosis(VerticalScroll):
         self._unfolded = False
         self._fill(
             partial(self._finding_head, finding, findings),
-            step=verdict.hint if verdict else "",
+            step=verdict.step if verdict else "",
             expected=verdict.expected if verdict else "",
             observed=verdict.observed if verdict else "",
             cause=verdict.cause if verdict else "",

@@ -1,0 +1,112 @@
+"""Judge recordings again, without ROS, and show what has changed.
+
+    uv run python -m tests.recordings.replay FOLDER [EXERCISE[/right|wrong[/NAME]] ...] [--accept] [--reports]
+
+Prints each criterion whose status, mistake or place differs from what the recording holds, and how many do not.
+`--accept` writes today's outcomes into the recordings; `--reports` prints every failing report as a learner reads it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from tests.recordings.recording import JudgeCall, Outcome, Recording, outcome, read_all, scenario_name, write
+from tutor.content import load_course
+from tutor.engine.explanation import explain
+from tutor.engine.modules import load_check
+from tutor.judge.check import Check
+from tutor.judge.result import CriterionResult, tell_roots_once
+from tutor.judge.verdict import Status, Verdict, bounded, skipped
+
+
+def judge_again(recording: Recording, check: Check) -> dict[str, Outcome]:
+    """Judge the recorded facts with the judges of today: outcomes by criterion.
+
+    A criterion that was not judged (it was skipped) keeps its outcome.
+    """
+    verdicts: dict[str, Verdict] = {}
+    calls = {call.criterion: call for call in recording.calls}
+    for criterion in check.criteria:
+        if criterion.id not in calls:
+            continue
+        blocking = next((d for d in criterion.after if d in verdicts and not verdicts[d].passed), None)
+        if blocking is not None:
+            verdicts[criterion.id] = skipped(f"not judged, because `{blocking}` did not pass")
+        else:
+            verdicts[criterion.id] = bounded(explain(_judge(check, calls[criterion.id]), check))
+    results = [CriterionResult(c.id, c.id, c.bonus, verdicts[c.id], 0.0) for c in check.criteria if c.id in verdicts]
+    told = {each.id: outcome(each.verdict) for each in tell_roots_once(results)}
+    return {**recording.outcomes, **told}
+
+
+def _judge(check: Check, call: JudgeCall) -> Verdict:
+    criterion = next(each for each in check.criteria if each.id == call.criterion)
+    if not call.scenario:
+        return criterion.judge(*call.facts)
+    early = {scenario_name(scenario): judge for scenario, judge in criterion.early}
+    verdict = early[call.scenario](*call.facts)
+    assert verdict is not None, f"{check.exercise} {call.criterion}: its early judge no longer fails this"
+    return verdict
+
+
+def differences(before: Mapping[str, Outcome], now: Mapping[str, Outcome]) -> list[str]:
+    """What differs, a line for each criterion; statuses first."""
+    lines = []
+    for criterion, old in before.items():
+        new = now.get(criterion, Outcome("none"))
+        if old.status != new.status:
+            lines.append(f"! {criterion}: {old.status}, now {new.status}: {new.observed} | {new.cause}")
+        elif old.status == Status.FAILED.value and _slug(old.mistake) != _slug(new.mistake) and not new.same_as:
+            lines += [f"  {criterion}: {old.mistake or old.cause}", f"      now {new.cause}", f"      step {new.step}"]
+    return lines
+
+
+def _print_reports(case: str, outcomes: Mapping[str, Outcome]) -> None:
+    for criterion, told in outcomes.items():
+        if told.status == Status.FAILED.value:
+            print(f"{case} {criterion}", f"observed  {told.observed}", f"why       {told.cause}", sep="\n    ")
+            print(f"    step      {told.step}")
+
+
+def _slug(mistake: str) -> str:
+    return mistake.lower().replace(" ", "-")
+
+
+def main() -> int:
+    """Return exit code 1 if a status has changed."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("wanted", nargs="*")
+    parser.add_argument("--accept", action="store_true", help="write today's outcomes into the recordings")
+    parser.add_argument("--reports", action="store_true", help="print every failing report")
+    arguments = parser.parse_args()
+    course = load_course(None)
+    checks: dict[str, Check] = {}
+    counts: Counter[str] = Counter()
+    for recording in read_all(arguments.folder, arguments.wanted):
+        if recording.exercise not in checks:
+            checks[recording.exercise] = load_check(course.find(recording.exercise))
+        now = judge_again(recording, checks[recording.exercise])
+        lines = differences(recording.outcomes, now)
+        if lines:
+            print(f"{recording.case}\n  " + "\n  ".join(lines))
+        if arguments.reports:
+            _print_reports(recording.case, now)
+        counts["submissions"] += 1
+        counts["criteria"] += len(now)
+        counts["failed"] += sum(each.status == Status.FAILED.value for each in now.values())
+        counts["other status"] += sum(line.startswith("!") for line in lines)
+        counts["other mistake"] += sum(line.startswith("  ") and not line.startswith("    ") for line in lines)
+        if arguments.accept:
+            write(replace(recording, outcomes=now), arguments.folder)
+    print(", ".join(f"{count} {what}" for what, count in counts.items()))
+    return 1 if counts["other status"] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

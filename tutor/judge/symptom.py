@@ -1,0 +1,69 @@
+"""Symptoms: what a criterion saw go wrong, as data from which the catalogue of mistakes finds out why."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any
+
+from tutor.judge.trace import Trace
+from tutor.judge.tracebacks import Frame
+
+
+class Symptom(Enum):
+    """The kinds of failures, as seen from outside; the value says it in words."""
+
+    ENDED = "the program ended by itself, or made no node"
+    NO_ANSWER = "the node is up and answers no request"
+    NO_MESSAGES = "no message was published"
+    NOTHING_RECEIVED = "what we published had no effect"
+    WRONG_VALUES = "the values published are wrong"
+    WRONG_RATE = "messages come at another rate than asked for"
+    CHANGE_IGNORED = "a parameter's value has no effect"
+    NOT_DECLARED = "a parameter is missing, or has another type or default"
+    REFUSED = "a good value of a parameter is refused"
+    BAD_VALUE_ACCEPTED = "a bad value of a parameter is accepted"
+    NOT_LOGGED = "something is missing from the log"
+    WRONG_LOG = "the log says something that is not so"
+    SERVICE_MISSING = "a service is missing"
+    WRONG_ANSWER = "a service's answer is wrong"
+    CALLS_MISSING = "a client does not make its calls, or not all"
+    STANDS_STILL = "a callback keeps others from running"
+    DOES_NOT_END = "the program does not end on Ctrl+C"
+    ENDS_BADLY = "the program ends on Ctrl+C, but not cleanly"
+    NOT_LAUNCHED = "a launch does not start what it should"
+    WRONG_NAMES = "nodes or topics of a launch have other names than asked for"
+    NOT_CONNECTED = "nodes of a launch do not reach each other"
+
+    def seen(
+        self,
+        trace: Trace,
+        *,
+        stuck: tuple[Frame, ...] = (),
+        answers: bool = True,
+        says: str = "",
+        do: str = "",
+        **about: Any,
+    ) -> Observation:
+        """An observation of this symptom in a run; see `Observation`."""
+        return Observation(self, trace, tuple(stuck), answers, says, do, about)
+
+
+@dataclass(frozen=True, slots=True)
+class Observation:
+    """One symptom, seen in one run.
+
+    `stuck`: a stack dump of the node's threads while it answered nothing, innermost frame first. `answers`: whether the
+    node has answered a request in this run. `says` and `do`: what the symptom itself says, and the next step, in words,
+    where no mistake of the catalogue explains it. `about`: what else was seen, by name, such as `topic`, `type`,
+    `parameter`, `service`, `wanted` and `found`; mistakes that need more than the run ask for it.
+    """
+
+    symptom: Symptom
+    trace: Trace
+    stuck: tuple[Frame, ...] = ()
+    answers: bool = True
+    says: str = ""
+    do: str = ""
+    about: Mapping[str, Any] = field(default_factory=dict)

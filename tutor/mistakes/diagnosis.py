@@ -1,0 +1,97 @@
+"""Why a criterion failed: the surest mistake that explains its symptom."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from tutor.judge.check import Check
+from tutor.judge.result import Remark
+from tutor.judge.symptom import Observation, Symptom
+from tutor.judge.trace import Trace
+from tutor.judge.verdict import Failure, Status, Verdict
+from tutor.mistakes.entry import CATALOGUE, Case, Catalogue, Found, Mistake
+
+MAX_REMARKS = 2
+
+MAX_CODE_CHARACTERS = 100
+"""A line of the learner's code is cut to this length in a sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """A mistake as it was found in one run: `cause` and `step` in words, `file` and `line` ("" and 0 if none)."""
+
+    mistake: str
+    cause: str
+    step: str
+    file: str = ""
+    line: int = 0
+
+
+def why(seen: Observation, catalogues: Sequence[Catalogue]) -> Diagnosis:
+    """The surest mistake that explains what was seen; the symptom itself, at last.
+
+    `catalogues`: those of the exercise and the course come before ours.
+    """
+    case = Case(seen)
+    for entry in _asked(case, catalogues):
+        for occurrence in entry.find(case):
+            return describe(entry, occurrence, case)
+    raise LookupError(f"no mistake stands for the symptom {seen.symptom.name}")
+
+
+def _asked(case: Case, catalogues: Sequence[Catalogue]) -> Iterator[Mistake]:
+    entries = [entry for catalogue in catalogues for entry in catalogue.entries.values()]
+    yield from sorted((e for e in entries if case.symptom in e.explains), key=lambda entry: entry.evidence)
+
+
+def describe(entry: Mistake, occurrence: Found, case: Case) -> Diagnosis:
+    """The mistake in words, with the learner's own names."""
+    place = f"line {occurrence.line}"
+    if occurrence.file and (len(case.trace.sources) > 1 or occurrence.file != case.trace.file):
+        place = f"{occurrence.file}, {place}"
+    code = occurrence.code
+    if len(code) > MAX_CODE_CHARACTERS:
+        code = f"{code[: MAX_CODE_CHARACTERS - 3]}..."
+    words = {"line": place, "code": code, "nodes": case.nodes, **occurrence.words}
+    cause = f"{entry.title}: {entry.says.format(**words)}"
+    return Diagnosis(entry.id, cause, entry.do.format(**words), occurrence.file, occurrence.line)
+
+
+def catalogues_of(check: Check) -> tuple[Catalogue, ...]:
+    """The catalogues to ask about a check's submissions: the exercise's own, if it has one, then ours."""
+    own = [importlib.import_module(check.mistakes).CATALOGUE] if check.mistakes else []
+    return (*own, CATALOGUE)
+
+
+def explain(failure: Failure, check: Check) -> Verdict:
+    """The verdict that says why: the failure with the mistake that explains what was seen."""
+    assert failure.seen is not None
+    found = why(failure.seen, catalogues_of(check))
+    return Verdict(
+        Status.FAILED,
+        failure.expected,
+        failure.observed,
+        found.cause,
+        found.step,
+        failure.evidence,
+        found.mistake,
+        f"{found.file}:{found.line}" if found.line else "",
+    )
+
+
+def remarks(sources: Mapping[str, str], check: Check) -> tuple[Remark, ...]:
+    """What works in these files (name to text), but will bite: at most `MAX_REMARKS`, in the catalogue's order."""
+    told: list[Remark] = []
+    for name in sources:
+        case = Case(Symptom.ENDED.seen(Trace(name, sources={name: sources[name]})))
+        for entry in (entry for catalogue in catalogues_of(check) for entry in catalogue.entries.values()):
+            if not entry.remark or any(remark.mistake == entry.id for remark in told):
+                continue
+            for occurrence in entry.find(case):
+                words = {"line": f"line {occurrence.line}", "code": occurrence.code, **occurrence.words}
+                told.append(Remark(entry.id, entry.remark.format(**words), name, occurrence.line))
+                break
+    return tuple(told[:MAX_REMARKS])

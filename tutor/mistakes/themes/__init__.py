@@ -1,0 +1,8 @@
+"""The entries of the catalogue, by theme; imported in the order in which they are asked.
+
+Among entries with the same kind of evidence, the earlier one is asked first.
+"""
+
+from tutor.mistakes.themes import timers as timers  # isort: split
+
+from tutor.mistakes.themes import symptoms as symptoms

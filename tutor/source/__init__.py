@@ -1,0 +1,32 @@
+"""A learner's source, read for the wording of a diagnosis, never for a verdict."""
+
+from tutor.source.file import (
+    Function,
+    SourceFile,
+    called_name,
+    calls_in,
+    is_abstract,
+    last_name,
+    values_of,
+)
+from tutor.source.node import NodeFile, node_file
+from tutor.source.patterns import Holes, argument, fill, find, match
+from tutor.source.program import Program
+
+__all__ = [
+    "Function",
+    "Holes",
+    "NodeFile",
+    "Program",
+    "SourceFile",
+    "argument",
+    "called_name",
+    "calls_in",
+    "fill",
+    "find",
+    "is_abstract",
+    "last_name",
+    "match",
+    "node_file",
+    "values_of",
+]
