@@ -35,7 +35,7 @@ def test_it_is_found_in_its_bad_example_and_says_so(entry: Mistake) -> None:
         told = describe(entry, found, case)
         assert len(f"{told.cause} {told.step}".split()) <= MAX_WORDS
         assert "\n" not in told.step
-        assert told.step.endswith((".", ")", "'", '"')) or entry.slip
+        assert told.step.endswith((".", "?", ")", "'", '"')) or entry.slip
 
 
 def test_it_is_not_found_in_its_good_example(entry: Mistake) -> None:

@@ -1,24 +1,88 @@
-"""What each symptom says where no mistake of the catalogue explains it: what to look at next, and how."""
+"""What each symptom says where no mistake of the catalogue explains it: what to look at next, and how.
+
+The criterion's own words come first (`Observation.says` and `.do`); these are for criteria that have none.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 
+symptom = partial(mistake, evidence=Evidence.SYMPTOM, says="{says}", do="{do}")
 
-def _own_words(case: Case, says: str, do: str) -> Iterator[Found]:
+
+def in_words(case: Case, says: str, do: str) -> Iterator[Found]:
     """The criterion's own words, or else these."""
     yield Found({"says": case.seen.says or says, "do": case.seen.do or do})
 
 
-@mistake("no-messages", explains=[Symptom.NO_MESSAGES], evidence=Evidence.SYMPTOM, says="{says}", do="{do}")
+@symptom("ended", explains=[Symptom.ENDED])
+def ended(case: Case) -> Iterator[Found]:
+    """A program ends by itself, or makes no node.
+
+    A node lives as long as something runs it: rclpy.spin() returns only on Ctrl+C. A program that gets past it, or
+    never gets to it, ends, and its node is gone with it.
+
+    Bad:
+
+        def main():
+            rclpy.init()
+            node = Doorbell()
+
+    Good:
+
+        def main():
+            rclpy.init()
+            node = Doorbell()
+            rclpy.spin(node)
+
+    See it: `ros2 node list` while the program should be running, and the last lines of its output.
+    """
+    return in_words(
+        case,
+        f"{case.nodes} is gone, or never was there",
+        "Read the last lines of the output, then follow main() from its first line to see where it ends.",
+    )
+
+
+@symptom("no-answer", explains=[Symptom.NO_ANSWER])
+def no_answer(case: Case) -> Iterator[Found]:
+    """A node is up and answers nothing.
+
+    Requests, also those for parameters, are answered by callbacks, which run only while an executor spins and no
+    other callback holds it up. A node that is in the graph and does not answer is not spinning, or is busy.
+
+    Bad:
+
+        def count_down(self):
+            while self.left:
+                time.sleep(1.0)
+                self.left -= 1
+
+    Good:
+
+        def count_down(self):
+            if self.left:
+                self.left -= 1
+
+    See it: `ros2 param list NODE` waits in vain, though `ros2 node list` shows the node.
+    """
+    return in_words(
+        case,
+        f"{case.nodes} is up and answers no request",
+        "Find out where the program stays: it should be in spin(), and each callback should return soon.",
+    )
+
+
+@symptom("no-messages", explains=[Symptom.NO_MESSAGES])
 def no_messages(case: Case) -> Iterator[Found]:
     """Nothing arrives on a topic.
 
-    A message is on its way only while publish() is called, and a node calls it from a callback: most often a timer's. A
-    publisher that exists is not enough, and neither is a method that nothing calls.
+    A message is on its way only while publish() is called, and a node calls it from a callback: most often a timer's.
+    A publisher that exists is not enough, and neither is a method that nothing calls.
 
     Bad:
 
@@ -32,8 +96,214 @@ def no_messages(case: Case) -> Iterator[Found]:
     See it: `ros2 topic info -v TOPIC` shows who publishes and who listens; `ros2 topic hz TOPIC` what arrives.
     """
     topic = case.about("topic", "the topic")
-    return _own_words(
+    return in_words(
         case,
         f"{case.nodes} sends nothing on {topic}",
         "Publish from a callback that runs again and again, and see in Live what it sends.",
+    )
+
+
+@symptom("nothing-received", explains=[Symptom.NOTHING_RECEIVED])
+def nothing_received(case: Case) -> Iterator[Found]:
+    """Messages are sent, and the node does nothing with them.
+
+    A subscription calls its callback for each message that reaches it: same name, same type, compatible QoS, and an
+    executor that spins. What the callback then does is up to the node.
+
+    Bad:
+
+        self.create_subscription(Bool, 'horn', lambda message: None, 10)
+
+    Good:
+
+        self.create_subscription(Bool, 'horn', self.on_horn, 10)
+
+    See it: `ros2 topic info -v TOPIC` shows both ends with their types and QoS; `ros2 topic pub TOPIC ...` sends one.
+    """
+    topic = case.about("topic", "the topic")
+    return in_words(
+        case,
+        f"messages on {topic} reach the node, and have no effect that could be seen",
+        "Check the callback that create_subscription gets, and what it does with the message.",
+    )
+
+
+@symptom("wrong-values", explains=[Symptom.WRONG_VALUES])
+def wrong_values(case: Case) -> Iterator[Found]:
+    """The right messages, with the wrong content.
+
+    Name, type and rate are right; the numbers or texts in the fields are not what was asked for. ROS checks a field's
+    type, never its sense.
+
+    Bad:
+
+        message.data = random.random() * 100.0
+
+    Good:
+
+        message.data = random.uniform(5.0, 9.0)
+
+    See it: `ros2 topic echo TOPIC` for a while, or the plot in Live.
+    """
+    return in_words(
+        case,
+        "the values are not what was asked for",
+        "Look at some values in Live, and follow one back to the line that computes it.",
+    )
+
+
+@symptom("wrong-rate", explains=[Symptom.WRONG_RATE])
+def wrong_rate(case: Case) -> Iterator[Found]:
+    """Messages come faster or slower than they should.
+
+    A timer takes its period in seconds when it is made, and keeps it. A rate in hertz is one divided by the period; a
+    value that is read later changes nothing by itself.
+
+    Bad:
+
+        self.create_timer(blinks_per_second, self.blink)
+
+    Good:
+
+        self.create_timer(1.0 / blinks_per_second, self.blink)
+
+    See it: `ros2 topic hz TOPIC`, at two settings of the rate.
+    """
+    return in_words(
+        case,
+        "the rate is not what was asked for",
+        "Follow the value of the rate from the parameter to the timer that uses it, and measure again in Live.",
+    )
+
+
+@symptom("parameter-ignored", explains=[Symptom.CHANGE_IGNORED])
+def parameter_ignored(case: Case) -> Iterator[Found]:
+    """A parameter is set, and nothing changes.
+
+    Setting a parameter changes the value that get_parameter() returns from then on. A copy made earlier, or a timer
+    made from it, keeps the old one unless a callback brings it up to date.
+
+    Bad:
+
+        def __init__(self):
+            self.greeting = self.get_parameter('greeting').value
+
+        def greet(self):
+            self.get_logger().info(self.greeting)
+
+    Good:
+
+        def greet(self):
+            self.get_logger().info(self.get_parameter('greeting').value)
+
+    See it: `ros2 param set NODE NAME VALUE`, then `ros2 param get NODE NAME`, and what the node does.
+    """
+    name = case.about("parameter", "the parameter")
+    return in_words(
+        case,
+        f"{name} is set, and has no effect",
+        "Find the line that uses its value, and see when that value was read.",
+    )
+
+
+@symptom("parameter-not-declared", explains=[Symptom.NOT_DECLARED])
+def parameter_not_declared(case: Case) -> Iterator[Found]:
+    """A node has no such parameter.
+
+    A node has the parameters that it declares, with the type of the default that it gives. What is not declared
+    cannot be set, neither at start-up nor later.
+
+    Bad:
+
+        self.volume = 7
+
+    Good:
+
+        self.declare_parameter('volume', 7)
+
+    See it: `ros2 param list NODE`, and `ros2 param describe NODE NAME` for its type.
+    """
+    name = case.about("parameter", "the parameter")
+    return in_words(
+        case,
+        f"the node does not have {name} as it should be",
+        "Declare it where the node is set up, with a default of the right type.",
+    )
+
+
+@symptom("good-value-refused", explains=[Symptom.REFUSED])
+def good_value_refused(case: Case) -> Iterator[Found]:
+    """A node refuses a good value.
+
+    A set is refused by a callback that returns successful=False, by a range in the descriptor, by read_only, or
+    because the value has another type than the parameter.
+
+    Bad:
+
+        def check(self, parameters):
+            return SetParametersResult(successful=False)
+
+    Good:
+
+        def check(self, parameters):
+            return SetParametersResult(successful=all(p.value != '' for p in parameters))
+
+    See it: `ros2 param set NODE NAME VALUE` prints the reason.
+    """
+    name = case.about("parameter", "the parameter")
+    return in_words(
+        case,
+        f"{name} cannot be set to a good value",
+        "Read the reason of the refusal, and let the value through where it comes from.",
+    )
+
+
+@symptom("no-validation", explains=[Symptom.BAD_VALUE_ACCEPTED])
+def no_validation(case: Case) -> Iterator[Found]:
+    """A bad value is accepted.
+
+    A parameter takes any value of its type unless a callback registered with add_on_set_parameters_callback refuses
+    it, or its descriptor has a range. Both decide before the value is stored.
+
+    Bad:
+
+        self.declare_parameter('volume', 7)
+
+    Good:
+
+        self.declare_parameter('volume', 7)
+        self.add_on_set_parameters_callback(self.refuse_bad_volumes)
+
+    See it: `ros2 param set NODE NAME BAD_VALUE` should say why not.
+    """
+    name = case.about("parameter", "the parameter")
+    return in_words(
+        case,
+        f"nothing refuses a bad value of {name}",
+        "Look at every new value before it is stored, and refuse a bad one with a reason.",
+    )
+
+
+@symptom("not-logged", explains=[Symptom.NOT_LOGGED])
+def not_logged(case: Case) -> Iterator[Found]:
+    """Something is not in the log.
+
+    The node's logger sends its messages to the terminal and to /rosout, where other programs see them, if their level
+    is high enough. What is printed goes to the terminal only.
+
+    Bad:
+
+        print('door open')
+
+    Good:
+
+        self.get_logger().info('door open')
+
+    See it: `ros2 topic echo /rosout`, or the log in the app.
+    """
+    what = case.about("what", "what was asked for")
+    return in_words(
+        case,
+        f"{what} is in no log message",
+        "Log it with the node's own logger, at a level that is shown, when it happens.",
     )
