@@ -1,4 +1,4 @@
-"""What each symptom says where no mistake of the catalogue explains it: those of services, of the end, and of launch files.
+"""What each symptom of services, endings and launch files says where no mistake of the catalogue explains it.
 
 The criterion's own words come first (`Observation.says` and `.do`); these are for criteria that have none.
 """
@@ -6,6 +6,7 @@ The criterion's own words come first (`Observation.says` and `.do`); these are f
 from __future__ import annotations
 
 from collections.abc import Iterator
+
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Found
 from tutor.mistakes.themes.symptoms import in_words, symptom
