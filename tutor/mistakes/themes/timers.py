@@ -1,45 +1,299 @@
-"""Timers: their period, how many there are, and what becomes of an old one."""
+"""Timers: how many there are, which of them run, and what becomes of an old one."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from itertools import pairwise, takewhile
 
+from tutor.judge.rates import Rate
 from tutor.judge.symptom import Symptom
-from tutor.mistakes.entry import Case, Found, found, mistake
-from tutor.source import NodeFile, argument, match, values_of
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.source import NodeFile, argument, values_of
 
-
-def periods(file: NodeFile) -> Iterator[ast.expr]:
-    """The expressions of timers' periods: the arguments, and what is assigned to them."""
-    for timer in file.timers:
-        if (period := argument(timer, "timer_period_sec")) is not None:
-            yield from (period, *values_of(ast.unparse(period), file.tree))
+_TOO_MANY = (Symptom.WRONG_RATE, Symptom.BAD_VALUE_ACCEPTED)
+_TOO_FEW = (Symptom.NO_MESSAGES, Symptom.WRONG_RATE, Symptom.STANDS_STILL, Symptom.CHANGE_IGNORED)
 
 
 @mistake(
-    "whole-number-period",
-    explains=[Symptom.WRONG_RATE, Symptom.NO_MESSAGES],
-    says="{line} throws away the decimals of the timer's period: {code}",
-    do="Compute the period with decimals, by a plain division and without int() or round().",
+    "old-timer-kept",
+    explains=(*_TOO_MANY, Symptom.CHANGE_IGNORED),
+    says="{line} makes a new timer, and nothing cancels the one before it, so both go on: {code}",
+    do="Cancel the old timer before you make the new one.",
 )
-def whole_number_period(case: Case) -> Iterator[Found]:
-    """A timer's period is cut to whole seconds.
+def old_timer_kept(case: Case) -> Iterator[Found]:
+    """A timer that is replaced runs on until it is cancelled.
 
-    A period is a number of seconds, and most rates give a fraction of one. Whole-number division and int() throw the
-    fraction away, and a period of 0 makes a timer fire as fast as it can.
+    The node keeps every timer that it has made; giving the name to another one does not stop the first. Their messages
+    add up: a forgotten timer of 1 Hz beside a new one of 10 Hz measures 11 Hz.
 
     Bad:
 
-        self.create_timer(1 // blinks_per_second, self.blink)
+        class Lamp(Node):
+            def __init__(self):
+                self.timer = self.create_timer(1.0, self.blink)
+                self.add_post_set_parameters_callback(self.follow)
+
+            def follow(self, parameters):
+                self.timer = self.create_timer(1.0 / parameters[0].value, self.blink)
 
     Good:
 
-        self.create_timer(1 / blinks_per_second, self.blink)
+        class Lamp(Node):
+            def __init__(self):
+                self.timer = self.create_timer(1.0, self.blink)
+                self.add_post_set_parameters_callback(self.follow)
 
-    See it: `ros2 topic hz TOPIC`, once at a rate of 0.7 and once at 5.
+            def follow(self, parameters):
+                self.timer.cancel()
+                self.timer = self.create_timer(1.0 / parameters[0].value, self.blink)
+
+    See it: `ros2 topic hz TOPIC` after lowering the rate: the old beat goes on beside the new one.
     """
     for file in case.files:
-        for period in periods(file):
-            if any(match(pattern, period) for pattern in ("$_ // $_", "int($_)", "round($_)")):
-                yield found(file, period)
+        for registration in file.calls("add_on_set_parameters_callback", "add_post_set_parameters_callback"):
+            function = file.function(argument(registration, "callback"))
+            inside = file.reachable_from(function) if function is not None else []
+            ends = file.calls("cancel", "destroy_timer", "destroy")
+            if any(file.function_around(call) in inside for call in ends):
+                continue
+            yield from (found(file, call) for call in file.timers if file.function_around(call) in inside)
+
+
+@mistake(
+    "two-timers",
+    explains=(*_TOO_MANY, Symptom.STANDS_STILL),
+    says="{line} makes a timer, and line {other} another one with the same callback: both call it",
+    do="Keep one of the two timers.",
+)
+def two_timers(case: Case) -> Iterator[Found]:
+    """Two timers call one callback.
+
+    Each create_timer makes a timer that runs from then on. A second one with the same callback doubles the rate, or
+    mixes a fixed one with the one that was asked for; the timer of a tutorial is easily left behind.
+
+    Bad:
+
+        def __init__(self):
+            self.create_timer(0.5, self.blink)
+            self.create_timer(1.0 / self.rate, self.blink)
+
+    Good:
+
+        def __init__(self):
+            self.create_timer(1.0 / self.rate, self.blink)
+
+    See it: `ros2 topic hz TOPIC`: more than asked for, and uneven.
+    """
+    for file in case.files:
+        for call, other in pairwise(file.timers):
+            if all(_same(argument(call, name), argument(other, name)) for name in ("timer_period_sec", "callback")):
+                yield found(file, call, other=other.lineno)
+        at_start = file.reachable_from(file.setup) if file.setup is not None else []
+        made = [call for call in file.timers if file.function_around(call) in at_start]
+        fixed = [call for call in made if _is_fixed(file, argument(call, "timer_period_sec"))]
+        for call in fixed:
+            for other in made:
+                if other not in fixed and _same(argument(call, "callback"), argument(other, "callback")):
+                    yield found(file, call, other=other.lineno)
+
+
+@mistake(
+    "several-timers",
+    explains=_TOO_MANY,
+    says="the loop in line {loop} makes a timer each time, and each of them calls the callback at the full rate",
+    do="Make one timer, outside the loop.",
+)
+def several_timers(case: Case) -> Iterator[Found]:
+    """A loop makes several timers.
+
+    A timer made for each room, sensor or name calls its callback at the whole rate. One timer whose callback goes
+    through them all keeps the rate that was asked for.
+
+    Bad:
+
+        def __init__(self):
+            for room in self.rooms:
+                self.create_timer(1.0, self.blink)
+
+    Good:
+
+        def __init__(self):
+            self.create_timer(1.0, self.blink)
+
+    See it: `ros2 topic hz TOPIC` gives a multiple of the rate.
+    """
+    for file in case.files:
+        if (timer := file.first_timer) is None:
+            continue
+        function = file.function_around(timer)
+        within = takewhile(lambda around, end=function: around is not end, file.ancestors(timer))  # type: ignore[misc]
+        for loop in within:
+            if isinstance(loop, ast.For):
+                yield found(file, timer, loop=loop.lineno)
+
+
+@mistake(
+    "messages-in-bursts",
+    explains=[Symptom.WRONG_RATE],
+    evidence=Evidence.SYMPTOM,
+    says="several messages are sent at once, then none for a while: that is no rate",
+    do="Send one message in each call of the timer's callback.",
+    example=in_run(Symptom.WRONG_RATE, rate=Rate(5.0, 10, 1.8, 0.001)),
+)
+def bursts(case: Case) -> Iterator[Found]:
+    """Messages are sent in bursts.
+
+    A rate of 5 Hz means a message every 0.2 seconds, not five at the beginning of each second. Bursts overflow queues
+    of small depth, and whoever listens sees nothing in between.
+
+    Bad:
+
+        def blink(self):
+            for _ in range(5):
+                self.lamp.publish(Bool(data=True))
+
+    Good:
+
+        def blink(self):
+            self.lamp.publish(Bool(data=True))
+
+    See it: `ros2 topic hz TOPIC`: the smallest gap is next to zero.
+    """
+    rate = case.about("rate")
+    if rate is not None and rate.in_bursts:
+        yield Found()
+
+
+@mistake(
+    "timer-not-started",
+    explains=_TOO_FEW,
+    says="{line} makes a timer that does not start by itself (autostart is False), and nothing starts it",
+    do="Let the timer start by itself, or call its reset() when it should begin.",
+)
+def timer_not_started(case: Case) -> Iterator[Found]:
+    """A timer is made with autostart=False, and nothing starts it.
+
+    Such a timer waits until its reset() is called. It is meant for timers that are made early and needed later.
+
+    Bad:
+
+        self.lamp = self.create_timer(0.5, self.blink, autostart=False)
+
+    Good:
+
+        self.lamp = self.create_timer(0.5, self.blink, autostart=False)
+        self.lamp.reset()
+
+    See it: the callback never logs a thing.
+    """
+    for file in case.files:
+        resets = {ast.unparse(call.func) for call in file.calls("reset")}
+        for call in file.timers:
+            match argument(call, "autostart"):
+                case ast.Constant(value=False) if f"{file.assigned_to(call)}.reset" not in resets:
+                    yield found(file, call)
+
+
+@mistake(
+    "timer-cancelled",
+    explains=_TOO_FEW,
+    says="{line} ends the timer from its own callback: {code}",
+    do="Let the timer run for as long as the node does.",
+)
+def self_cancelling(case: Case) -> Iterator[Found]:
+    """A timer ends itself.
+
+    cancel() and destroy_timer() stop a timer for good. In its own callback they make a timer that fires once, or a few
+    times.
+
+    Bad:
+
+        def __init__(self):
+            self.lamp = self.create_timer(0.5, self.blink)
+
+        def blink(self):
+            self.lamp.cancel()
+
+    Good:
+
+        def __init__(self):
+            self.lamp = self.create_timer(0.5, self.blink)
+
+        def blink(self):
+            self.switch()
+
+    See it: `ros2 topic echo TOPIC` stops after a few messages.
+    """
+    for file in case.files:
+        for timer in file.timers:
+            callback, name = file.function(argument(timer, "callback")), file.assigned_to(timer)
+            reached = file.reachable_from(callback) if callback is not None and name else []
+            for call in file.calls("cancel", "destroy_timer"):
+                owner = [call.func.value] if isinstance(call.func, ast.Attribute) else []
+                if file.function_around(call) in reached and name in map(ast.unparse, (*call.args, *owner)):
+                    yield found(file, call)
+
+
+@mistake(
+    "simulated-time",
+    explains=_TOO_FEW,
+    says="{line} sets use_sim_time, so timers wait for a simulator's /clock, and there is none",
+    do="Leave use_sim_time off where no simulator runs.",
+)
+def simulated_time(case: Case) -> Iterator[Found]:
+    """Timers wait for the clock of a simulator.
+
+    With the parameter use_sim_time, a node takes its time from the topic /clock. While nobody publishes there, its time
+    stands still at 0, and no timer is ever due.
+
+    Bad:
+
+        super().__init__('lamp', parameter_overrides=[Parameter('use_sim_time', value=True)])
+
+    Good:
+
+        super().__init__('lamp')
+
+    See it: `ros2 param get NODE use_sim_time`, `ros2 topic echo /clock`.
+    """
+    for file in case.files:
+        for name in file.nodes:
+            if isinstance(name, ast.Constant) and name.value == "use_sim_time" and _is_set(file, name):
+                yield found(file, name)
+
+
+def _is_set(file: NodeFile, name: ast.Constant) -> bool:
+    """Whether True is given with a name: as its value in a dict, or in the innermost expression that has one."""
+    for around in file.ancestors(name):
+        match around:
+            case ast.Dict(keys=keys, values=values) if name in keys:
+                nodes: list[ast.AST] = [values[keys.index(name)]]
+            case _:
+                nodes = list(ast.walk(around))
+        if any(_is_true(file, node) for node in nodes):
+            return True
+        if isinstance(around, ast.stmt):
+            return False
+    return False
+
+
+def _is_true(file: NodeFile, node: ast.AST) -> bool:
+    if isinstance(node, ast.Name):
+        given = values_of(node.id, file.tree)
+        return len(given) == 1 and isinstance(given[0], ast.Constant) and given[0].value is True
+    return isinstance(node, ast.Constant) and node.value is True
+
+
+def _is_fixed(file: NodeFile, period: ast.expr | None) -> bool:
+    if isinstance(period, ast.BinOp):
+        return _is_fixed(file, period.left) and _is_fixed(file, period.right)
+    if period is None or isinstance(period, ast.Constant):
+        return period is not None
+    values = values_of(ast.unparse(period), file.tree)
+    return bool(values) and all(isinstance(value, ast.Constant) for value in values)
+
+
+def _same(one: ast.expr | None, other: ast.expr | None) -> bool:
+    return one is not None and other is not None and ast.unparse(one) == ast.unparse(other)

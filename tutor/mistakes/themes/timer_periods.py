@@ -1,0 +1,274 @@
+"""A timer's period: its unit, its decimals, and what keeps a timer from being called when it is due."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.source import NodeFile, argument, calls_in, last_name, match, values_of
+
+_RATES = (Symptom.WRONG_RATE, Symptom.NO_MESSAGES, Symptom.CHANGE_IGNORED)
+_NO_SUCH_ATTRIBUTES = (
+    "period", "timer_period", "timer_period_sec", "timer_period_s", "interval", "period_sec", "rate",
+)  # fmt: skip
+_CLOCKS = ("time", "monotonic", "perf_counter", "now", "time_ns", "monotonic_ns")
+
+MIN_MILLISECONDS = 50.0
+"""A timer's period from this number on is in milliseconds: nobody waits so many seconds in an exercise."""
+
+
+def periods(file: NodeFile) -> Iterator[ast.expr]:
+    """The expressions of timers' periods: the arguments, and what is assigned to them."""
+    for timer in file.timers:
+        if (period := argument(timer, "timer_period_sec")) is not None:
+            yield from (period, *values_of(ast.unparse(period), file.tree))
+
+
+@mistake(
+    "rate-used-as-a-period",
+    explains=[Symptom.WRONG_RATE],
+    evidence=Evidence.RUN,
+    says="{name} is a rate in Hz, but the timer waits that many seconds: a higher rate gives fewer messages",
+    do="Give the timer the period that belongs to the rate; look at its unit in create_timer's documentation.",
+    example=in_run(Symptom.WRONG_RATE, parameter="blinks_per_second", unit="Hz", inverted=True),
+)
+def rate_as_period(case: Case) -> Iterator[Found]:
+    """A rate in Hz is given to a timer, which takes seconds.
+
+    create_timer takes a period: the time between two calls, in seconds. A rate says how many calls fit into a second.
+    One is 1 divided by the other, so at 1 Hz nobody sees the difference, and at 5 Hz the timer fires every 5 seconds.
+
+    Bad:
+
+        self.create_timer(self.blinks_per_second, self.blink)
+
+    Good:
+
+        self.create_timer(1.0 / self.blinks_per_second, self.blink)
+
+    See it: `ros2 topic hz TOPIC`, once at a rate of 2 and once at 10.
+    """
+    if case.about("inverted") and case.about("unit", "Hz") == "Hz":
+        yield Found({"name": case.about("parameter", "the rate")})
+
+
+@mistake(
+    "period-used-as-a-rate",
+    explains=[Symptom.WRONG_RATE],
+    evidence=Evidence.RUN,
+    says="{name} is a period, but the node publishes that many times a second: a longer period gives more messages",
+    do="Give the timer this period as it is, in seconds.",
+    example=in_run(Symptom.WRONG_RATE, parameter="seconds_between_blinks", unit="s", inverted=True),
+)
+def period_as_rate(case: Case) -> Iterator[Found]:
+    """A period is treated as if it were a rate.
+
+    The name of the parameter promises a time between two messages, and the node divides by it once too often. At 1
+    second nobody sees the difference.
+
+    Bad:
+
+        self.create_timer(1.0 / self.seconds_between_blinks, self.blink)
+
+    Good:
+
+        self.create_timer(self.seconds_between_blinks, self.blink)
+
+    See it: `ros2 topic hz TOPIC`, once with 0.5 seconds and once with 2.
+    """
+    if case.about("inverted") and case.about("unit", "Hz") != "Hz":
+        yield Found({"name": case.about("parameter", "the period")})
+
+
+@mistake(
+    "period-made-a-whole-number",
+    explains=_RATES,
+    says="{line} throws away the decimals of the timer's period: {code}",
+    do="Compute the period with decimals: a plain division, and no rounding.",
+)
+def whole_number_period(case: Case) -> Iterator[Found]:
+    """A timer's period is cut to whole seconds.
+
+    A period is a number of seconds, and most rates give a fraction of one. Whole-number division and int() throw the
+    fraction away, and a period of 0 makes a timer fire as fast as it can.
+
+    Bad:
+
+        self.create_timer(1 // blinks_per_second, self.blink)
+
+    Good:
+
+        self.create_timer(1 / blinks_per_second, self.blink)
+
+    See it: `ros2 topic hz TOPIC`, once at a rate of 0.7 and once at 5.
+    """
+    for file in case.files:
+        for period in periods(file):
+            if any(match(pattern, period) for pattern in ("$_ // $_", "int($_)", "round($_)")):
+                yield found(file, period)
+
+
+@mistake(
+    "wrong-timer-period",
+    explains=_RATES,
+    says="{line}: create_timer takes seconds, and this is {what}",
+    do="Give the period in seconds there.",
+)
+def period_in_another_unit(case: Case) -> Iterator[Found]:
+    """A timer's period is in milliseconds, or in another unit.
+
+    create_timer takes seconds, as a number with decimals. rclcpp's 500ms and other libraries' milliseconds become 0.5.
+    Only the attribute timer_period_ns of a timer is in nanoseconds, of which a second has 1,000,000,000.
+
+    Bad:
+
+        self.create_timer(500, self.blink)
+
+    Good:
+
+        self.create_timer(0.5, self.blink)
+
+    See it: `ros2 topic hz TOPIC`, or the time stamps of the log.
+    """
+    for file in case.files:
+        for period in periods(file):
+            match period:
+                case ast.BinOp(left=ast.Constant(value=int() | float() as number), op=ast.Div()) if number != 1:
+                    yield found(file, period, what=f"{number:g} divided by the rate")
+                case ast.Constant(value=int() | float() as number) if number >= MIN_MILLISECONDS:
+                    yield found(file, period, what=f"a period of {number:g} seconds")
+        for node in file.nodes:
+            if isinstance(node, ast.Assign) and "timer_period_ns" in map(last_name, node.targets):
+                numbers = [each.value for each in ast.walk(node.value) if isinstance(each, ast.Constant)]
+                large = [number for number in numbers if isinstance(number, int | float) and number >= 1000]
+                if len(large) == 1 and large[0] != 1e9:
+                    yield found(file, node, what=f"nanoseconds, but computed with {large[0]:g} to the second")
+
+
+@mistake(
+    "no-such-attribute-of-a-timer",
+    explains=_RATES,
+    says="{line} sets an attribute that a timer does not have, so Python makes a new one that nothing reads: {code}",
+    do="Cancel the timer and make one with the new period, or set the attribute that a timer does have.",
+)
+def period_attribute(case: Case) -> Iterator[Found]:
+    """The period of a timer is set by an attribute that it does not have.
+
+    A timer's period is timer_period_ns, a whole number of nanoseconds. Python lets any other attribute be assigned, and
+    keeps it where nobody looks.
+
+    Bad:
+
+        self.lamp = self.create_timer(1.0, self.blink)
+        self.lamp.period = 0.2
+
+    Good:
+
+        self.lamp = self.create_timer(1.0, self.blink)
+        self.lamp.timer_period_ns = 200_000_000
+
+    See it: `ros2 topic hz TOPIC` before and after.
+    """
+    for file in case.files:
+        timers = {file.assigned_to(timer) for timer in file.timers} - {""}
+        for node in file.nodes:
+            match node:
+                case ast.Assign(targets=[ast.Attribute(value=timer, attr=name)]) if name in _NO_SUCH_ATTRIBUTES:
+                    if ast.unparse(timer) in timers:
+                        yield found(file, node)
+
+
+@mistake(
+    "callback-sleeps",
+    explains=[Symptom.WRONG_RATE, Symptom.STANDS_STILL],
+    says="{line} makes the timer's callback sleep, and until it returns the timer is not called again: {code}",
+    do="Let the callback do its work and return at once; the timer does the waiting.",
+)
+def callback_sleeps(case: Case) -> Iterator[Found]:
+    """A timer's callback sleeps.
+
+    A timer is called when it is due and its last call has returned. Time that a callback sleeps is added to the period,
+    and no other callback of the node runs meanwhile.
+
+    Bad:
+
+        def __init__(self):
+            self.create_timer(0.5, self.blink)
+
+        def blink(self):
+            self.switch()
+            time.sleep(0.5)
+
+    Good:
+
+        def __init__(self):
+            self.create_timer(0.5, self.blink)
+
+        def blink(self):
+            self.switch()
+
+    See it: `ros2 topic hz TOPIC` stays below what was asked for.
+    """
+    wanted_hz = case.about("wanted_hz", 10.0)
+    for file in case.files:
+        called = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
+        for call in file.calls("sleep"):
+            seconds = call.args[0] if call.args else None
+            is_loop_period = not file.timers and not isinstance(seconds, ast.Constant)
+            if file.function_around(call) in called and not is_loop_period and not _is_short(file, call, wanted_hz):
+                yield found(file, call)
+
+
+def _is_short(file: NodeFile, call: ast.Call, hz: float) -> bool:
+    """Whether a sleep lasts less than a tenth of the period, and is not repeated in a loop."""
+    match call.args:
+        case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s < 0.1 / hz:
+            function = file.function_around(call)
+            inside = [around for around in file.ancestors(call) if isinstance(around, ast.For)]
+            return not (file.timers and any(file.function_around(loop) is function for loop in inside))
+    return False
+
+
+@mistake(
+    "ticks-dropped",
+    explains=[Symptom.WRONG_RATE],
+    says="{line} drops each tick that comes a little early: {code}",
+    do="Leave the waiting to the timer, and take this test out of its callback.",
+)
+def ticks_dropped(case: Case) -> Iterator[Found]:
+    """A timer's callback returns if it was called a moment too early.
+
+    Timers are due at fixed times, but are called a little before or after. A callback that compares clocks with the
+    exact period drops every tick that is a millisecond early, so that the rate falls by a third or more.
+
+    Bad:
+
+        def __init__(self):
+            self.create_timer(0.5, self.blink)
+
+        def blink(self):
+            if time.monotonic() - self.last < 0.5:
+                return
+            self.switch()
+
+    Good:
+
+        def __init__(self):
+            self.create_timer(0.5, self.blink)
+
+        def blink(self):
+            self.switch()
+
+    See it: `ros2 topic hz TOPIC`: the largest gap is twice the smallest.
+    """
+    for file in case.files:
+        for function in file.reachable_from(file.timer_callback) if file.timer_callback is not None else ():
+            for node in ast.walk(function):
+                match node:
+                    case ast.If(
+                        test=ast.Compare(left=elapsed, ops=[ast.Lt() | ast.LtE()]), body=[ast.Return()], orelse=[]
+                    ) if calls_in(elapsed, *_CLOCKS):
+                        yield found(file, node)
