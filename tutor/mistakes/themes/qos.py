@@ -1,0 +1,93 @@
+"""Quality of service: endpoints that are not connected."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.ros_model import Graph, QoS, TopicEndpoint, incompatible_policies
+
+
+def _mismatches(case: Case) -> Iterable[str]:
+    ours = case.about("ours")
+    topic = case.about("topic", ours.topic if ours else None)
+    graph = case.trace.graph
+    publishers = [ours] if ours else [each for each in graph.publishers if each.topic == topic]
+    for publisher in publishers:
+        for subscription in (each for each in graph.subscriptions if each.topic == publisher.topic):
+            for mismatch in incompatible_policies(publisher.qos, subscription.qos):
+                yield f"on {publisher.topic}, {mismatch}"
+
+
+@mistake(
+    "incompatible-qos",
+    name="incompatible QoS",
+    explains=(Symptom.NOTHING_RECEIVED, Symptom.NOT_CONNECTED),
+    evidence=Evidence.RUN,
+    says="{mismatch}",
+    do="Let the subscription ask for no more than the publisher offers; a plain depth in place of a QoSProfile does.",
+    example=in_run(
+        Symptom.NOTHING_RECEIVED,
+        graph=Graph(
+            ("/node",),
+            (TopicEndpoint("/horn", "std_msgs/msg/Bool", "/driver", QoS(reliability="best_effort")),),
+            (TopicEndpoint("/horn", "std_msgs/msg/Bool", "/node", QoS(reliability="reliable")),),
+        ),
+        topic="/horn",
+    ),
+)
+def incompatible_qos(case: Case) -> Iterator[Found]:
+    """Publisher and subscription have incompatible QoS.
+
+    A publisher offers a quality of service, a subscription requests one. If it requests more than is offered (reliable
+    from a best-effort publisher, old messages from a volatile one), the two are not connected, and nothing arrives.
+
+    Bad:
+
+        self.create_subscription(Bool, 'horn', self.on_horn, QoSProfile(depth=5))
+
+    Good:
+
+        self.create_subscription(Bool, 'horn', self.on_horn, qos_profile_sensor_data)
+
+    See it: `ros2 topic info -v TOPIC` shows the QoS of both ends; rclpy warns of "incompatible QoS" in the log.
+    """
+    yield from (Found({"mismatch": mismatch}) for mismatch in _mismatches(case))
+
+
+@mistake(
+    "not-a-ros-topic",
+    explains=(Symptom.NO_MESSAGES, Symptom.NOTHING_RECEIVED),
+    says="{line} leaves out the prefix by which ROS nodes find topics in DDS, so no other ROS node sees this one",
+    do="Leave avoid_ros_namespace_conventions off.",
+)
+def bare_topic_names(case: Case) -> Iterator[Found]:
+    """A QoS profile hides a topic from ROS.
+
+    ROS gives its topics a prefix in DDS. With avoid_ros_namespace_conventions the prefix is left out, so that programs
+    without ROS can join; nodes that do not do the same never meet it.
+
+    Bad:
+
+        quiet = QoSProfile(depth=5, avoid_ros_namespace_conventions=True)
+
+    Good:
+
+        quiet = QoSProfile(depth=5)
+
+    See it: `ros2 topic info -v TOPIC`: the publisher is not listed.
+    """
+    for file in case.files:
+        for node in file.nodes:
+            match node:
+                case ast.keyword(arg=str(name), value=ast.Constant(value=True) as value):
+                    pass
+                case ast.Assign(targets=[ast.Attribute(attr=name)], value=ast.Constant(value=True) as value):
+                    pass
+                case _:
+                    continue
+            if name == "avoid_ros_namespace_conventions":
+                yield found(file, value)

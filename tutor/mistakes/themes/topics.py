@@ -1,0 +1,219 @@
+"""Topics: names and types of publishers and subscriptions, and what never publishes."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator, Sequence
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.ros_model import Graph, TopicEndpoint
+
+_MISSING = (Symptom.NO_MESSAGES, Symptom.NOTHING_RECEIVED)
+
+
+def _endpoints(case: Case) -> Sequence[TopicEndpoint]:
+    """The learner's endpoints of the kind that is missing."""
+    graph = case.trace.graph
+    return graph.publishers if case.symptom is Symptom.NO_MESSAGES else graph.subscriptions
+
+
+def _creator(case: Case) -> str:
+    return "create_publisher" if case.symptom is Symptom.NO_MESSAGES else "create_subscription"
+
+
+def _place(case: Case, creator: str, text: str) -> Found:
+    """The call that makes an endpoint: the one with this text, else the only one; without a place if unknown."""
+    creators = (creator, creator.replace("_", "_lifecycle_", 1))
+    calls = [(file, call) for file in case.files for call in file.calls(*creators)]
+    named = [(file, call) for file, call in calls if text in file.line(call.lineno)]
+    for file, call in named or (calls if len(calls) == 1 else []):
+        return found(file, call)
+    return Found()
+
+
+def _endpoint_graph(*, topic: str = "/horn", type: str = "std_msgs/msg/Bool") -> Graph:
+    return Graph(("/node",), publishers=(TopicEndpoint(topic, type, "/node"),))
+
+
+@mistake(
+    "wrong-type",
+    explains=_MISSING,
+    evidence=Evidence.RUN,
+    says="{topic} has the type {given}, not {wanted}",
+    do="Give {creator} the type that is asked for, and import it from its package.",
+    example=in_run(Symptom.NO_MESSAGES, graph=_endpoint_graph(), topic="/horn", type="std_msgs/msg/String"),
+)
+def wrong_type(case: Case) -> Iterator[Found]:
+    """The right topic, with another type.
+
+    A publisher and a subscription meet only if their types are the same: package and name. Types with equal fields, or
+    equal names in two packages, are still different types.
+
+    Bad:
+
+        self.horn = self.create_publisher(Bool, 'horn', 10)
+
+    Good:
+
+        self.horn = self.create_publisher(String, 'horn', 10)
+
+    See it: `ros2 topic list -t`; two types on one topic are shown side by side.
+    """
+    topic, wanted = case.about("topic"), case.about("type")
+    here = [endpoint for endpoint in _endpoints(case) if endpoint.topic == topic]
+    if here and wanted and all(endpoint.type != wanted for endpoint in here):
+        at = _place(case, _creator(case), topic.rpartition("/")[2])
+        words = {"topic": topic, "given": here[0].type, "wanted": wanted, "creator": _creator(case)}
+        yield Found(words, at.file, at.line, at.code)
+
+
+@mistake(
+    "wrong-topic",
+    explains=_MISSING,
+    evidence=Evidence.RUN,
+    says="there is {given}, not {wanted}: {difference}",
+    do="Use exactly the name {wanted} where the {endpoint} is made.",
+    example=in_run(Symptom.NO_MESSAGES, graph=_endpoint_graph(topic="/horns"), topic="/horn", type="std_msgs/msg/Bool"),
+)
+def wrong_topic(case: Case) -> Iterator[Found]:
+    """The right type, under another name.
+
+    Names are compared letter by letter. Without a slash in front, a name is relative: the node's namespace comes before
+    it; with a ~ in front, the node's name as well. Two names that differ are two topics, and ROS does not complain.
+
+    Bad:
+
+        self.horn = self.create_publisher(Bool, 'horns', 10)
+
+    Good:
+
+        self.horn = self.create_publisher(Bool, 'horn', 10)
+
+    See it: `ros2 topic list`, and `ros2 node info NODE` for the names that a node uses.
+    """
+    topic, wanted_type = case.about("topic"), case.about("type")
+    endpoints = _endpoints(case)
+    if not topic or any(endpoint.topic == topic for endpoint in endpoints):
+        return
+    near = [each for each in endpoints if difflib.get_close_matches(each.topic, [topic], cutoff=0.6)]
+    names = {endpoint.topic for endpoint in endpoints if endpoint.type == wanted_type} or {each.topic for each in near}
+    if names:
+        given = max(sorted(names), key=lambda name: difflib.SequenceMatcher(None, name, topic).ratio())
+        at = _place(case, _creator(case), given.rpartition("/")[2])
+        endpoint = "publisher" if case.symptom is Symptom.NO_MESSAGES else "subscription"
+        words = {"given": given, "wanted": topic, "difference": name_difference(given, topic), "endpoint": endpoint}
+        yield Found(words, at.file, at.line, at.code)
+
+
+def name_difference(given: str, wanted: str) -> str:
+    """How the name of a topic or service differs from the one that is wanted, in words."""
+    if given.endswith(wanted):
+        return "a namespace or the node's name is in front, as of a name that begins with ~ or without a slash"
+    if given.replace("/", "").replace("_", "") == wanted.replace("/", "").replace("_", ""):
+        return "the slash between its parts is missing, or there is one too many"
+    if wanted.endswith(given):
+        return "the first part of the name is missing"
+    if given.casefold() == wanted.casefold():
+        return "upper and lower case make different names"
+    return "it is spelled differently"
+
+
+@mistake(
+    "no-publisher",
+    explains=[Symptom.NO_MESSAGES],
+    evidence=Evidence.SYMPTOM,
+    says="{nodes} is up, but has no publisher on {topic}",
+    do="Create a publisher for {topic} where the node is set up.",
+    example=in_run(Symptom.NO_MESSAGES, topic="/horn"),
+)
+def no_publisher(case: Case) -> Iterator[Found]:
+    """A node has no publisher on the topic.
+
+    A topic exists once somebody publishes or subscribes. create_publisher has to be called, with the type and the name,
+    while the node is set up.
+
+    Bad:
+
+        def __init__(self):
+            super().__init__('driver')
+
+    Good:
+
+        def __init__(self):
+            super().__init__('driver')
+            self.horn = self.create_publisher(Bool, 'horn', 10)
+
+    See it: `ros2 node info NODE` lists what it publishes.
+    """
+    topic = case.about("topic")
+    if topic and case.trace.graph.nodes and not any(each.topic == topic for each in case.trace.graph.publishers):
+        yield Found({"topic": topic})
+
+
+@mistake(
+    "no-subscription",
+    explains=[Symptom.NOTHING_RECEIVED],
+    evidence=Evidence.SYMPTOM,
+    says="{nodes} is up, but has no subscription on {topic}",
+    do="Create a subscription to {topic} where the node is set up.",
+    example=in_run(Symptom.NOTHING_RECEIVED, topic="/horn"),
+)
+def no_subscription(case: Case) -> Iterator[Found]:
+    """A node has no subscription to the topic.
+
+    Messages reach only nodes that have called create_subscription with the same type and name.
+
+    Bad:
+
+        def __init__(self):
+            super().__init__('listener')
+
+    Good:
+
+        def __init__(self):
+            super().__init__('listener')
+            self.create_subscription(Bool, 'horn', self.on_horn, 10)
+
+    See it: `ros2 node info NODE` lists what it subscribes to.
+    """
+    topic = case.about("topic")
+    if topic and case.trace.graph.nodes and not any(each.topic == topic for each in case.trace.graph.subscriptions):
+        yield Found({"topic": topic})
+
+
+@mistake(
+    "nothing-calls-publish",
+    explains=[Symptom.NO_MESSAGES],
+    says="{line} makes a publisher, and {what}: {code}",
+    do="Let a timer call a method that publishes, again and again.",
+)
+def unused_publisher(case: Case) -> Iterator[Found]:
+    """A publisher is made, and never used.
+
+    create_publisher only announces that messages may come. Each message takes a call of publish(), and something has to
+    make that call: a timer, a subscription, a service.
+
+    Bad:
+
+        def __init__(self):
+            self.horn = self.create_publisher(Bool, 'horn', 10)
+
+    Good:
+
+        def __init__(self):
+            self.horn = self.create_publisher(Bool, 'horn', 10)
+            self.create_timer(2.0, self.sound)
+
+        def sound(self):
+            self.horn.publish(Bool(data=True))
+
+    See it: `ros2 topic info TOPIC` counts one publisher; `ros2 topic echo TOPIC` shows nothing.
+    """
+    for file in case.files:
+        for call in file.calls("create_publisher", "create_lifecycle_publisher"):
+            if not case.program.calls("publish"):
+                yield found(file, call, what="nothing calls its publish()")
+            elif not case.program.calls("create_timer") and not case.program.calls("create_subscription"):
+                yield found(file, call, what="no timer calls what publishes")
