@@ -10,5 +10,9 @@ from tutor.mistakes.themes import qos as qos
 from tutor.mistakes.themes import topics as topics
 from tutor.mistakes.themes import timer_periods as timer_periods
 from tutor.mistakes.themes import timers as timers
+from tutor.mistakes.themes import parameter_declarations as parameter_declarations
+from tutor.mistakes.themes import parameter_values as parameter_values
+from tutor.mistakes.themes import parameter_refusals as parameter_refusals
+from tutor.mistakes.themes import parameter_callbacks as parameter_callbacks
 from tutor.mistakes.themes import more_symptoms as more_symptoms
 from tutor.mistakes.themes import symptoms as symptoms
