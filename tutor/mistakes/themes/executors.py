@@ -1,0 +1,256 @@
+"""Executors: which nodes they serve, and which they never get to."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Found, found, mistake
+from tutor.source import NodeFile, called_name, calls_in, last_name
+
+EXECUTORS = ("SingleThreadedExecutor", "MultiThreadedExecutor", "EventsExecutor")
+
+_NODE_LISTS = tuple(f"self._{each}" for each in ("timers", "subscriptions", "services", "clients", "guards"))
+_UNSERVED = (
+    Symptom.NO_ANSWER,
+    Symptom.NO_MESSAGES,
+    Symptom.NOTHING_RECEIVED,
+    Symptom.WRONG_ANSWER,
+    Symptom.CALLS_MISSING,
+    Symptom.STANDS_STILL,
+    Symptom.NOT_LOGGED,
+)
+
+
+@mistake(
+    "attribute-of-node-overwritten",
+    explains=(*_UNSERVED, Symptom.SERVICE_MISSING, Symptom.WRONG_RATE),
+    says="{line} overwrites {name}, by which rclpy's Node knows what it has to serve: {code}",
+    do="Give the attribute another name.",
+)
+def overwritten_attribute(case: Case) -> Iterator[Found]:
+    """A node overwrites an attribute of rclpy's Node.
+
+    Names with an underscore in front belong to the base class. Node keeps its timers, subscriptions, services and
+    clients in lists of that kind, and an executor looks into them for what is to be served.
+
+    Bad:
+
+        class Doorbell(Node):
+            def __init__(self):
+                super().__init__('doorbell')
+                self._timers = {}
+
+    Good:
+
+        class Doorbell(Node):
+            def __init__(self):
+                super().__init__('doorbell')
+                self.my_timers = {}
+
+    See it: the callbacks are never called, though everything is in the graph.
+    """
+    for file in case.files:
+        for node in file.nodes:
+            if isinstance(node, ast.Assign | ast.AnnAssign) and file.node_method(node) is not None:
+                targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+                for name in map(ast.unparse, targets):
+                    if name in _NODE_LISTS:
+                        yield found(file, node, name=name)
+
+
+@mistake(
+    "another-node-spun",
+    explains=_UNSERVED,
+    says="{line} runs the callbacks of {spun}, not those of {other}: {code}",
+    do="Let one executor spin all nodes that have callbacks.",
+)
+def another_node_spun(case: Case) -> Iterator[Found]:
+    """One node is spun, and another one has the callbacks.
+
+    rclpy.spin(node) serves this one node. Any other node of the program is in the graph, and does nothing, unless it is
+    added to an executor that spins.
+
+    Bad:
+
+        class Bell(Node):
+            def __init__(self):
+                super().__init__('bell')
+                self.create_timer(1.0, self.ring)
+
+        def main():
+            helper = rclpy.create_node('helper')
+            bell = Bell()
+            rclpy.spin(helper)
+
+    Good:
+
+        class Bell(Node):
+            def __init__(self):
+                super().__init__('bell')
+                self.create_timer(1.0, self.ring)
+
+        def main():
+            bell = Bell()
+            rclpy.spin(bell)
+
+    See it: `ros2 param list` answers for one node only.
+    """
+    for file in case.files:
+        yield from _other_spun(file)
+    yield from _inner_node(case)
+
+
+def _other_spun(file: NodeFile) -> Iterator[Found]:
+    spins = [call for call in file.calls("spin") if len(call.args) == 1 and isinstance(call.args[0], ast.Name)]
+    if len(spins) != 1 or file.calls("add_node") or not isinstance(file.statement(spins[0]), ast.Expr):
+        return
+    function, spun = file.function_around(spins[0]), ast.unparse(spins[0].args[0])
+    made = [call for call in file.calls(*file.node_classes) if _has_callbacks(file, call)]
+    nodes = [file.assigned_to(call) for call in made if file.function_around(call) is function]
+    left_out = [node for node in nodes if node != spun]
+    helpers = {file.assigned_to(call) for call in file.calls("create_node", "Node")}
+    if left_out and "" not in nodes and (spun in nodes or spun in helpers):
+        yield found(file, spins[0], spun=spun, other=" and ".join(left_out))
+
+
+def _inner_node(case: Case) -> Iterator[Found]:
+    """A node that creates another one, where only the outer one is spun."""
+    nodes = {name for file in case.files for name in file.node_classes}
+    spins = ("add_node", "spin", "spin_once", "spin_until_future_complete")
+    served = {last_name(given) for call in case.program.calls(*spins) for given in call.args}
+    for file in case.files:
+        for call in file.calls(*nodes):
+            outer, inner = file.class_of(call), file.assigned_to(call)
+            if outer is None or outer.name not in nodes or not inner.startswith("self.") or inner[5:] in served:
+                continue
+            if any(_has_callbacks(each, call) for each in case.files):
+                yield found(file, call, spun=outer.name, other=called_name(call))
+
+
+def _has_callbacks(file: NodeFile, made: ast.Call) -> bool:
+    """Whether the class of this node creates anything that an executor has to serve."""
+    creators = ("create_subscription", "create_timer", "create_service", "create_client")
+    return any(
+        bool(calls_in(node, *creators))
+        for node in file.nodes
+        if isinstance(node, ast.ClassDef) and node.name == called_name(made)
+    )
+
+
+@mistake(
+    "node-taken-from-its-executor",
+    explains=_UNSERVED,
+    says="{line} moves the node to an executor of its own, and takes it out of {executor}: {code}",
+    do="Let {executor} do this spin, too.",
+)
+def node_taken(case: Case) -> Iterator[Found]:
+    """rclpy.spin_once() takes a node out of its executor.
+
+    A node is in one executor at a time. rclpy.spin_once(node) and rclpy.spin_until_future_complete(node, …) add it to
+    the global one, which removes it from the one that it was added to before.
+
+    Bad:
+
+        executor.add_node(bell)
+        rclpy.spin_once(bell)
+        executor.spin()
+
+    Good:
+
+        executor.add_node(bell)
+        executor.spin_once()
+        executor.spin()
+
+    See it: nothing happens after the first call.
+    """
+    for file in case.files:
+        owners = {
+            ast.unparse(call.args[0]): call
+            for call in file.calls("add_node")
+            if len(call.args) == 1 and isinstance(call.func, ast.Attribute)
+        }
+        for call in file.calls("spin_once", "spin_until_future_complete"):
+            added = owners.get(ast.unparse(call.args[0])) if call.args else None
+            if added is None or added.lineno > call.lineno:
+                continue
+            if file.function_around(added) is file.function_around(call) and isinstance(added.func, ast.Attribute):
+                yield found(file, call, executor=ast.unparse(added.func.value))
+
+
+@mistake(
+    "second-spin",
+    explains=_UNSERVED,
+    says="{line} is never reached, because line {first} spins until the program ends: {code}",
+    do="Add all nodes to one executor, and spin it once.",
+)
+def second_spin(case: Case) -> Iterator[Found]:
+    """One spin comes after another.
+
+    spin() returns when the program ends. A second one below it, or the next round of a loop around it, is never
+    reached.
+
+    Bad:
+
+        rclpy.spin(bell)
+        rclpy.spin(door)
+
+    Good:
+
+        executor.add_node(bell)
+        executor.add_node(door)
+        executor.spin()
+
+    See it: only the first node answers `ros2 param list`.
+    """
+    for file in case.files:
+        spins = [call for call in file.calls("spin") if isinstance(file.statement(call), ast.Expr)]
+        for first in spins:
+            block = file.block_of(file.statement(first))
+            for later in spins:
+                if later is not first and file.statement(later) in block and later.lineno > first.lineno:
+                    if ast.unparse(later) != ast.unparse(first):
+                        yield found(file, later, first=first.lineno)
+        for loop in (node for node in file.nodes if isinstance(node, ast.For)):
+            for call in spins:
+                if file.statement(call) in loop.body:
+                    yield found(file, call, first=call.lineno)
+
+
+@mistake(
+    "another-executor-for-each-node",
+    explains=_UNSERVED,
+    says="{line} makes an executor for each node, and line {spin} spins only the last: {code}",
+    do="Make one executor above the loop.",
+)
+def executor_for_each(case: Case) -> Iterator[Found]:
+    """A loop makes an executor for each node.
+
+    Each executor serves the nodes that were added to it. Where the loop makes a new one each time, the one that is spun
+    afterwards has only the last node.
+
+    Bad:
+
+        for node in nodes:
+            executor = SingleThreadedExecutor()
+            executor.add_node(node)
+        executor.spin()
+
+    Good:
+
+        executor = SingleThreadedExecutor()
+        for node in nodes:
+            executor.add_node(node)
+        executor.spin()
+
+    See it: only the last node answers `ros2 param list`.
+    """
+    for file in case.files:
+        for loop in (node for node in file.nodes if isinstance(node, ast.For)):
+            for made in calls_in(loop, *EXECUTORS):
+                name = file.assigned_to(made)
+                added = [call for call in calls_in(loop, "add_node") if ast.unparse(call.func) == f"{name}.add_node"]
+                spun = [call for call in file.calls("spin") if ast.unparse(call.func) == f"{name}.spin"]
+                if added and spun and not any(call in ast.walk(loop) for call in spun):
+                    yield found(file, made, spin=spun[0].lineno)
