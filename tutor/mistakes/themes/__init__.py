@@ -5,6 +5,9 @@ Among entries with the same kind of evidence, the earlier one is asked first.
 
 # ruff: noqa: I001
 from tutor.mistakes import exceptions as exceptions
+from tutor.mistakes.themes import process as process
+from tutor.mistakes.themes import no_node as no_node
+from tutor.mistakes.themes import setting_up as setting_up
 from tutor.mistakes.themes import blocked_callbacks as blocked_callbacks
 from tutor.mistakes.themes import spinning as spinning
 from tutor.mistakes.themes import executors as executors

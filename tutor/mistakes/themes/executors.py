@@ -209,9 +209,9 @@ def second_spin(case: Case) -> Iterator[Found]:
         for first in spins:
             block = file.block_of(file.statement(first))
             for later in spins:
-                if later is not first and file.statement(later) in block and later.lineno > first.lineno:
-                    if ast.unparse(later) != ast.unparse(first):
-                        yield found(file, later, first=first.lineno)
+                below = file.statement(later) in block and later.lineno > first.lineno
+                if below and ast.unparse(later) != ast.unparse(first):
+                    yield found(file, later, first=first.lineno)
         for loop in (node for node in file.nodes if isinstance(node, ast.For)):
             for call in spins:
                 if file.statement(call) in loop.body:

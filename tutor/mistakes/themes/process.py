@@ -1,0 +1,294 @@
+"""The process as such: programs that end by themselves, are killed, or never make a node."""
+
+from __future__ import annotations
+
+import ast
+import signal
+from collections.abc import Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.judge.trace import Exit
+from tutor.judge.tracebacks import last_traceback
+from tutor.mistakes.entry import EVERY_SYMPTOM, Case, Evidence, Found, found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.mistakes.themes.spinning import SPINS, SPINS_ONCE
+from tutor.ros_model import Graph
+from tutor.source import NodeFile, called_name
+
+_EXITS = ("exit", "_exit", "quit")
+_SHUTDOWNS = ("shutdown", "try_shutdown")
+_AFTER_CTRL_C = (Symptom.DOES_NOT_END, Symptom.ENDS_BADLY)
+_WHILE_RUNNING = tuple(symptom for symptom in EVERY_SYMPTOM if symptom not in _AFTER_CTRL_C)
+_TORN_THREAD = ("terminate called without an active exception", "FATAL: exception not rethrown")
+"""Messages of C++ and glibc when Python, at interpreter exit, stops a thread that is inside rclpy."""
+
+
+def _ended(case: Case) -> Exit | None:
+    """How the process ended by itself; None if it still runs, or if a traceback says more."""
+    return case.trace.exit if case.trace.exit is not None and last_traceback(case.trace) is None else None
+
+
+def _words(ended: Exit) -> str:
+    return f"the program ends by itself after {ended.after_s:.1f} s with {ended}"
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+@mistake(
+    "no-main-call",
+    explains=_WHILE_RUNNING,
+    evidence=Evidence.PROCESS,
+    says="{ended}: {what}",
+    do="End the file with the usual two lines that call main() when it is run as a program.",
+    example=in_run(Symptom.ENDED, exit=Exit(0, None, 0.2), graph=Graph()),
+)
+def no_main_call(case: Case) -> Iterator[Found]:
+    """main() is defined, and nothing calls it.
+
+    Python runs a file from top to bottom; a def only makes a function. What runs it is a call at the end of the file,
+    under a test of the variable __name__, which is "__main__" in the file that was started.
+
+    Bad:
+
+        def main():
+            ring_the_bell()
+
+    Good:
+
+        def main():
+            ring_the_bell()
+
+        if __name__ == '__main__':
+            main()
+
+    See it: the program ends at once, without a word.
+    """
+    if (ended := _ended(case)) is None:
+        return
+    file = case.file
+    for node in file.nodes:
+        match node:
+            case ast.If(
+                test=ast.Compare(left=ast.Name("__name__"), comparators=[ast.Constant(value=str() as text)])
+            ) if text != "__main__":
+                yield found(file, node, ended=_words(ended), what=f"__name__ is never {text!r} (line {node.lineno})")
+    defined = [node for node in file.tree.body if isinstance(node, ast.FunctionDef) and node.name == "main"]
+    if defined and not any(isinstance(node, ast.Name) and node.id == "main" for node in file.nodes):
+        yield found(file, defined[0], ended=_words(ended), what="main() is defined, but nothing calls it")
+
+
+@mistake(
+    "thread-still-running",
+    explains=EVERY_SYMPTOM,
+    evidence=Evidence.PROCESS,
+    says="the program ended while one of its threads was still spinning, which aborts it with {ended}",
+    do="End that thread first: shut rclpy or its executor down, then join the thread, also if it is a daemon.",
+    example=in_run(Symptom.ENDED, exit=Exit(None, 6, 1.0), output=["terminate called without an active exception"]),
+)
+def torn_thread(case: Case) -> Iterator[Found]:
+    """The program ends while a thread is still inside rclpy.
+
+    When the main thread is done, Python stops the daemon threads wherever they are. One that is inside rclpy's C++ code
+    cannot be stopped there, and the whole process aborts.
+
+    Bad:
+
+        thread = Thread(target=rclpy.spin, args=(node,), daemon=True)
+        thread.start()
+
+    Good:
+
+        thread = Thread(target=rclpy.spin, args=(node,), daemon=True)
+        thread.start()
+        rclpy.shutdown()
+        thread.join()
+
+    See it: "terminate called without an active exception" in the output.
+    """
+    ending = case.about("ending")
+    ended = ending.exit if ending is not None else case.trace.exit
+    output = ending.output if ending is not None else case.trace.output
+    torn = any(message in line.text for line in output for message in _TORN_THREAD)
+    if torn and ended is not None and ended.signal == signal.SIGABRT:
+        yield Found({"ended": ended})
+
+
+@mistake(
+    "killed",
+    explains=_WHILE_RUNNING,
+    evidence=Evidence.PROCESS,
+    says="{ended} ({signal})",
+    do="See the last lines of its output; if it is the same each time, look for what sends that signal.",
+    example=in_run(Symptom.ENDED, exit=Exit(None, 11, 1.0)),
+)
+def killed(case: Case) -> Iterator[Found]:
+    """A signal ended the program.
+
+    The system, another program or the program itself ended it: SIGSEGV is a crash in C or C++ code, often by an object
+    that was destroyed while another thread used it; SIGKILL comes from outside, or from os.kill in the code.
+
+    Bad:
+
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    Good:
+
+        rclpy.try_shutdown()
+
+    See it: `echo $?` after the program: 128 and the number of the signal.
+    """
+    ended = _ended(case)
+    if ended is not None and ended.signal is not None:
+        yield Found({"ended": _words(ended), "signal": _signal_name(ended.signal)})
+
+
+@mistake(
+    "arguments-refused",
+    explains=_WHILE_RUNNING,
+    evidence=Evidence.PROCESS,
+    says="{ended}: {what}",
+    do="Leave the arguments that begin with --ros-args to rclpy: parse only those before it, or none.",
+    example=in_run(
+        Symptom.ENDED, exit=Exit(2, None, 0.2), output=["node.py: error: unrecognized arguments: --ros-args"]
+    ),
+)
+def arguments_refused(case: Case) -> Iterator[Found]:
+    """A program refuses the arguments that ROS gives it.
+
+    ROS starts a node with arguments of its own, such as --ros-args -p volume:=7. A parser that does not know them
+    ends the program, and so does a test of their number.
+
+    Bad:
+
+        options = parser.parse_args()
+
+    Good:
+
+        options, _ = parser.parse_known_args()
+
+    See it: start it with `--ros-args -p volume:=7`.
+    """
+    if (ended := _ended(case)) is None:
+        return
+    errors = [line.text for line in case.trace.output if line.stream == "stderr" and " error: " in line.text]
+    if ended.code == 2 and errors:
+        yield Found({"ended": _words(ended), "what": errors[-1].rpartition(" error: ")[2]})
+    for file in case.files:
+        used = [ast.unparse(node) for node in file.nodes if isinstance(node, ast.Subscript)]
+        if any(code.startswith("sys.argv[") and code != "sys.argv[0]" for code in used):
+            continue
+        for node in file.nodes:
+            if isinstance(node, ast.If) and not node.orelse and "len(sys.argv)" in ast.unparse(node.test):
+                last = node.body[-1]
+                ends = isinstance(last, ast.Raise | ast.Return) or any(
+                    isinstance(call, ast.Call) and called_name(call) in _EXITS for call in ast.walk(last)
+                )
+                if ends:
+                    what = f"line {node.lineno} counts its arguments, and ROS passes some of its own"
+                    yield found(file, node, ended=_words(ended), what=what)
+
+
+@mistake(
+    "ended-by-a-callback",
+    explains=_WHILE_RUNNING,
+    evidence=Evidence.PROCESS,
+    says="{ended}: {line}, in {function}, ends it: {code}",
+    do="Let the callback return, and the program run until Ctrl+C.",
+    example=in_run(Symptom.ENDED, exit=Exit(0, None, 1.2)),
+)
+def exit_in_callback(case: Case) -> Iterator[Found]:
+    """A callback ends the program.
+
+    A callback that calls sys.exit() or rclpy.shutdown() ends the node with the first message or tick.
+
+    Bad:
+
+        def __init__(self):
+            self.create_timer(1.0, self.ring)
+
+        def ring(self):
+            sys.exit()
+
+    Good:
+
+        def __init__(self):
+            self.create_timer(1.0, self.ring)
+
+        def ring(self):
+            self.get_logger().info('ding')
+
+    See it: the node is gone after its first callback.
+    """
+    if (ended := _ended(case)) is None:
+        return
+    for file in case.files:
+        for function in file.callbacks("create_timer", "create_subscription", "create_service"):
+            for node in ast.walk(function):
+                match node:
+                    case ast.Raise(exc=ast.expr() as raised) if "SystemExit" in ast.unparse(raised):
+                        yield found(file, node, ended=_words(ended), function=function.name)
+                    case ast.Expr(value=ast.Call() as call) if called_name(call) in (*_EXITS, *_SHUTDOWNS):
+                        yield found(file, node, ended=_words(ended), function=function.name)
+
+
+@mistake(
+    "exit-at-once",
+    explains=_WHILE_RUNNING,
+    evidence=Evidence.PROCESS,
+    says="{ended}: {what}",
+    do="Spin the node until Ctrl+C, once everything is set up.",
+    example=in_run(Symptom.ENDED, exit=Exit(0, None, 0.4)),
+)
+def exit_at_once(case: Case) -> Iterator[Found]:
+    """The program runs to its end.
+
+    A node lives as long as its program. rclpy.spin(node) keeps it running until Ctrl+C; spin_once() handles one
+    callback and returns; without either, main() is done in a moment.
+
+    Bad:
+
+        def main():
+            rclpy.init()
+            node = Doorbell()
+            rclpy.spin_once(node)
+
+    Good:
+
+        def main():
+            rclpy.init()
+            node = Doorbell()
+            rclpy.spin(node)
+
+    See it: `ros2 node list` a second after the start.
+    """
+    if (ended := _ended(case)) is None or ended.code is None:
+        return
+    yield from _without_spin(case, _words(ended))
+    yield Found({"ended": _words(ended), "what": "nothing keeps it running"})
+
+
+def _without_spin(case: Case, ended: str) -> Iterator[Found]:
+    """Where the source shows that the program spins only once, or not at all."""
+    if case.trace.exit is None or case.trace.exit.code != 0 or case.program.calls("spin"):
+        return
+    for file in case.files:
+        loops = [node for node in file.nodes if isinstance(node, ast.While | ast.For)]
+        once = [call for call in file.calls(*SPINS_ONCE) if not any(call in ast.walk(loop) for loop in loops)]
+        for call in once:
+            what = f"line {call.lineno} handles one callback at most, and then the program is done"
+            yield found(file, call, ended=ended, what=what)
+    if not case.program.calls(*SPINS):
+        for file in case.files:
+            for call in file.calls(*file.node_classes, "Node", "create_node"):
+                if _is_made_by_program(file, call):
+                    what = f"it makes a node in line {call.lineno}, and never spins it"
+                    yield found(file, call, ended=ended, what=what)
+
+
+def _is_made_by_program(file: NodeFile, call: ast.Call) -> bool:
+    return file.class_of(call) is None
