@@ -10,7 +10,7 @@ from typing import Any
 
 from tests.recordings.recording import JudgeCall, Recording, outcome, scenario_name, write
 from tutor.engine import __main__ as engine
-from tutor.engine import modules
+from tutor.engine import modules, run_check
 from tutor.judge.check import Check, Criterion
 from tutor.judge.result import ExerciseResult, Report
 from tutor.judge.verdict import Status, Verdict
@@ -60,7 +60,6 @@ def main() -> int:
     calls: Calls = []
     load = modules.load_check
     modules.load_check = lambda lesson: recorded(load(lesson), calls)
-    run_check = engine.run_check
 
     async def run_and_keep(*given: Any, **named: Any) -> Report:
         report = await run_check(*given, **named)
@@ -68,7 +67,7 @@ def main() -> int:
         return report
 
     results: list[ExerciseResult] = []
-    engine.run_check = run_and_keep
+    vars(engine)["run_check"] = run_and_keep
     sys.argv[1:] = arguments
     code = engine.main()
     for result in results:

@@ -89,7 +89,7 @@ def write(recording: Recording, folder: Path) -> Path:
 def read(file: Path, moved: Mapping[str, str] | None = None) -> Recording:
     """Read a recording. `moved`: where classes of facts are now, "module:Class" to "module:Class"."""
     document = msgspec.msgpack.decode(zlib.decompress(file.read_bytes()))
-    facts = [_facts(*each, moved or {}) for each in document["facts"]]
+    facts = [_facts(name, value, moved or {}) for name, value in document["facts"]]
     calls = (
         JudgeCall(criterion, scenario, tuple(facts[at] for at in used))
         for criterion, scenario, used in document["calls"]

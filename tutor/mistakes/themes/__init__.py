@@ -20,5 +20,6 @@ from tutor.mistakes.themes import parameter_declarations as parameter_declaratio
 from tutor.mistakes.themes import parameter_values as parameter_values
 from tutor.mistakes.themes import parameter_refusals as parameter_refusals
 from tutor.mistakes.themes import parameter_callbacks as parameter_callbacks
+from tutor.mistakes.themes import logging as logging
 from tutor.mistakes.themes import more_symptoms as more_symptoms
 from tutor.mistakes.themes import symptoms as symptoms
