@@ -20,6 +20,10 @@ from tutor.mistakes.themes import parameter_declarations as parameter_declaratio
 from tutor.mistakes.themes import parameter_values as parameter_values
 from tutor.mistakes.themes import parameter_refusals as parameter_refusals
 from tutor.mistakes.themes import parameter_callbacks as parameter_callbacks
+from tutor.mistakes.themes import attributes as attributes
+from tutor.mistakes.themes import python as python
 from tutor.mistakes.themes import logging as logging
+from tutor.mistakes.themes import ending as ending
+from tutor.mistakes.themes import exit_codes as exit_codes
 from tutor.mistakes.themes import more_symptoms as more_symptoms
 from tutor.mistakes.themes import symptoms as symptoms

@@ -1,0 +1,209 @@
+"""Attributes that are set where nobody reads them, and comparisons that never hold."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Found, found, mistake
+
+_DECISIONS = (
+    Symptom.CHANGE_IGNORED,
+    Symptom.WRONG_RATE,
+    Symptom.BAD_VALUE_ACCEPTED,
+    Symptom.REFUSED,
+    Symptom.NOT_LOGGED,
+    Symptom.WRONG_VALUES,
+    Symptom.WRONG_LOG,
+    Symptom.WRONG_ANSWER,
+)
+_TRUTHS = {"true", "1", "on", "false", "0", "off"}
+
+
+@mistake(
+    "wrong-attribute-set",
+    explains=_DECISIONS,
+    says="{line}: setattr does not follow dots, so {attribute} stays as it is: {code}",
+    do="Give setattr the object that has the attribute, and the attribute's own name.",
+)
+def dotted_attribute(case: Case) -> Iterator[Found]:
+    """Setattr is given a name with a dot.
+
+    setattr(node, 'config.volume', 7) makes an attribute whose name contains a dot; it does not go into node.config.
+
+    Bad:
+
+        setattr(self, 'config.' + name, value)
+
+    Good:
+
+        setattr(self.config, name, value)
+
+    See it: log self.config afterwards.
+    """
+    for file in case.files:
+        for call in file.calls("setattr"):
+            match call.args:
+                case [_, ast.BinOp(left=ast.Constant(value=str() as path), op=ast.Add()), _] if path.endswith("."):
+                    pass
+                case [_, ast.Constant(value=str() as path), _]:
+                    pass
+                case [_, ast.JoinedStr(values=[ast.Constant(value=str() as path), ast.FormattedValue()]), _] if (
+                    path.endswith(".")
+                ):
+                    pass
+                case _:
+                    continue
+            if "." in path:
+                yield found(file, call, attribute=path.rpartition(".")[0])
+
+
+@mistake(
+    "class-attribute-set",
+    explains=_DECISIONS,
+    says="{line} sets the attribute of the class, and the node's own one of that name hides it: {code}",
+    do="Set the attribute of the node, self.",
+)
+def class_attribute(case: Case) -> Iterator[Found]:
+    """The class gets the new value, and the node keeps the old one.
+
+    An attribute of an object hides the one of its class. Where __init__ has set self.volume, a later Bell.volume = 7
+    changes nothing that the object reads.
+
+    Bad:
+
+        class Bell(Node):
+            def __init__(self):
+                self.volume = 5
+
+            def follow(self, parameters):
+                Bell.volume = parameters[0].value
+
+    Good:
+
+        class Bell(Node):
+            def __init__(self):
+                self.volume = 5
+
+            def follow(self, parameters):
+                self.volume = parameters[0].value
+
+    See it: log self.volume afterwards.
+    """
+    for file in case.files:
+        stored = [node for node in file.nodes if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store)]
+        own = {ast.unparse(node) for node in stored}
+        for node in stored:
+            of_class = ast.unparse(node.value) in file.node_classes and file.node_method(node) is not None
+            if of_class and f"{file.node}.{node.attr}" in own:
+                yield found(file, node)
+
+
+@mistake(
+    "types-never-equal",
+    explains=_DECISIONS,
+    says="{line} compares a Parameter.Type with a number of ParameterType, and they are never equal: {code}",
+    do="Compare with the Parameter.Type of that name, or compare its .value.",
+)
+def compared_types(case: Case) -> Iterator[Found]:
+    """Two kinds of type constants are compared.
+
+    parameter.type_ is a Parameter.Type; the message ParameterType has plain numbers of the same meaning. One never
+    equals the other.
+
+    Bad:
+
+        if parameter.type_ == ParameterType.PARAMETER_DOUBLE:
+            self.volume = parameter.value
+
+    Good:
+
+        if parameter.type_ == Parameter.Type.DOUBLE:
+            self.volume = parameter.value
+
+    See it: log the comparison.
+    """
+    for file in case.files:
+        for node in file.nodes:
+            if isinstance(node, ast.Compare) and isinstance(node.left, ast.Attribute):
+                constants = [ast.unparse(each) for each in node.comparators]
+                if node.left.attr in ("type_", "type") and any("PARAMETER_" in each for each in constants):
+                    yield found(file, node)
+
+
+@mistake(
+    "compared-with-a-text",
+    explains=_DECISIONS,
+    says="{line} compares a parameter that is true or false with the text {text}, which it never equals: {code}",
+    do="Use the value itself as the condition.",
+)
+def bool_with_text(case: Case) -> Iterator[Found]:
+    """A boolean is compared with a text.
+
+    A parameter declared with True or False has such a value, not the text "true". The comparison is always false.
+
+    Bad:
+
+        if self.get_parameter('muted').value == 'true':
+            return
+
+    Good:
+
+        if self.get_parameter('muted').value:
+            return
+
+    See it: log the value and its type.
+    """
+    for file in case.files:
+        for node in file.nodes:
+            match node:
+                case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[right]):
+                    compared, literal = (left, right) if isinstance(right, ast.Constant) else (right, left)
+                case _:
+                    continue
+            text = literal.value if isinstance(literal, ast.Constant) else None
+            if isinstance(text, str) and text.lower() in _TRUTHS and _is_value(compared):
+                yield found(file, node, text=repr(text))
+
+
+def _is_value(expression: ast.expr) -> bool:
+    """Whether this is `x.value` or `str(x.value)`; comparing `str(x.value).lower()` is correct."""
+    match expression:
+        case ast.Call(func=ast.Name(id="str"), args=[inner]):
+            return _is_value(inner)
+        case ast.Attribute(attr="value" | "bool_value"):
+            return True
+    return False
+
+
+@mistake(
+    "never-the-same-object",
+    explains=_DECISIONS,
+    slip=True,
+    says="{line} asks with `is` whether two values are one object, which equal ones need not be: {code}",
+    do="Compare them with == there (or != in place of `is not`).",
+)
+def identity(case: Case) -> Iterator[Found]:
+    """Values are compared with `is`.
+
+    `is` asks whether both sides are the same object in memory. Two equal texts or numbers may be two objects.
+
+    Bad:
+
+        if parameter.name is 'volume':
+            self.volume = parameter.value
+
+    Good:
+
+        if parameter.name == 'volume':
+            self.volume = parameter.value
+
+    See it: Python warns of "is" with a literal.
+    """
+    for file in case.files:
+        for node in file.nodes:
+            match node:
+                case ast.Compare(ops=[ast.Is() | ast.IsNot()], comparators=[ast.Constant(value=value)]):
+                    if type(value) in (str, int, float):
+                        yield found(file, node)
