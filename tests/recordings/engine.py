@@ -47,9 +47,7 @@ def make_recording(case: str, calls: Calls, result: ExerciseResult) -> Recording
             for call, verdict in calls
             if call.criterion == criterion.id and verdict is not None and verdict.status is criterion.verdict.status
         ]
-        same = [
-            call for call, verdict in mine if verdict is not None and verdict.observed == criterion.verdict.observed
-        ]
+        same = [call for call, verdict in mine if verdict.observed == criterion.verdict.observed]
         kept += (same or [call for call, _ in mine])[-1:]
     return Recording(case, tuple(kept), {each.id: outcome(each.verdict) for each in result.criteria})
 

@@ -95,13 +95,13 @@ class Found:
     code: str = ""
 
 
-def found(file: SourceFile, node: ast.AST, **words: object) -> Found:
+def found(file: SourceFile, node: ast.AST, /, **words: object) -> Found:
     """A mistake at a node of a file's syntax tree."""
     line = getattr(node, "lineno", 0)
     return Found(words, file.name, line, file.line(line))
 
 
-def found_at(frame: Frame | None, **words: object) -> Found:
+def found_at(frame: Frame | None, /, **words: object) -> Found:
     """A mistake at a frame of a traceback or stack dump; without a place if there is none."""
     return Found(words, frame.name, frame.line, frame.code) if frame is not None else Found(words)
 
