@@ -20,6 +20,9 @@ from tutor.mistakes.themes import parameter_declarations as parameter_declaratio
 from tutor.mistakes.themes import parameter_values as parameter_values
 from tutor.mistakes.themes import parameter_refusals as parameter_refusals
 from tutor.mistakes.themes import parameter_callbacks as parameter_callbacks
+from tutor.mistakes.themes import services as services
+from tutor.mistakes.themes import callback_groups as callback_groups
+from tutor.mistakes.themes import threads as threads
 from tutor.mistakes.themes import attributes as attributes
 from tutor.mistakes.themes import python as python
 from tutor.mistakes.themes import logging as logging

@@ -1,0 +1,227 @@
+"""Callback groups: what makes one callback wait for another one that takes its time."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Sequence
+
+from tutor.judge import tracebacks
+from tutor.judge.symptom import Symptom
+from tutor.judge.tracebacks import Frame
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.source import NodeFile
+from tutor.source.callback_groups import (
+    GROUPS,
+    group_of,
+    is_set_after,
+    timers_sharing_group,
+)
+
+_STILL = (Symptom.STANDS_STILL,)
+
+
+def in_worker(stuck: Sequence[Frame]) -> bool:
+    """Whether a stack dump shows the threads of a MultiThreadedExecutor at work."""
+    return any(frame.path.endswith("concurrent/futures/thread.py") for frame in stuck)
+
+
+def _in_pool(source: str) -> Sequence[Frame]:
+    return (
+        Frame("/ws/node.py", 1, "open_the_door", source.splitlines()[0], 1),
+        Frame("/lib/python3.12/concurrent/futures/thread.py", 1, "run", "", 1),
+    )
+
+
+def one_at_a_time(case: Case) -> bool:
+    """Whether calls that were made at once were served one after the other (`ratio`: how long, in calls)."""
+    return case.about("ratio") is not None
+
+
+def _services(file: NodeFile) -> list[ast.Call]:
+    return file.calls("create_service")
+
+
+@mistake(
+    "callback-group-set-too-late",
+    explains=_STILL,
+    says="{line} is made before line {later} sets its callback group, which is still None then: {code}",
+    do="Make the groups before super().__init__() runs what uses them, or set everything up after it.",
+)
+def set_too_late(case: Case) -> Iterator[Found]:
+    """A callback group is set after it was used.
+
+    A base class whose constructor makes timers and services uses the groups that there are at that moment. None stands
+    for the node's default group, which is mutually exclusive: everything in it waits for everything else.
+
+    Bad:
+
+        class Door(Base):
+            def __init__(self):
+                super().__init__()
+                self.group = ReentrantCallbackGroup()
+
+            def set_up(self):
+                self.create_timer(1.0, self.blink, callback_group=self.group)
+
+    Good:
+
+        class Door(Base):
+            def __init__(self):
+                super().__init__()
+                self.group = ReentrantCallbackGroup()
+                self.set_up()
+
+            def set_up(self):
+                self.create_timer(1.0, self.blink, callback_group=self.group)
+
+    See it: log the group where the timer is made.
+    """
+    for file in case.files:
+        for made in file.timers:
+            group, creator = group_of(made), file.function_around(made)
+            groups = [call for call in file.calls(*GROUPS) if group and file.assigned_to(call) == group]
+            if len(groups) == 1 and creator is not None and is_set_after(file, groups[0], creator):
+                yield found(file, made, later=groups[0].lineno)
+
+
+@mistake(
+    "same-callback-group",
+    explains=_STILL,
+    says="{line} puts the timer into {group}, where it waits for the service: {code}",
+    do="Give timer and service different callback groups, or a reentrant one.",
+    example=in_run(Symptom.STANDS_STILL),
+)
+def same_group(case: Case) -> Iterator[Found]:
+    """Two callbacks are in one mutually exclusive group.
+
+    Callbacks of one MutuallyExclusiveCallbackGroup never run at the same time, however many threads there are. Without
+    callback_group, everything is in the node's default group, which is of that kind.
+
+    Bad:
+
+        self.create_service(Trigger, 'open_door', self.open_the_door)
+        self.create_timer(1.0, self.blink)
+
+    Good:
+
+        self.create_service(Trigger, 'open_door', self.open_the_door)
+        self.create_timer(1.0, self.blink, callback_group=MutuallyExclusiveCallbackGroup())
+
+    See it: the log stands still while the service works.
+
+    Lesson: i2.3, on callback groups.
+    """
+    if one_at_a_time(case):
+        return
+    for file in case.files:
+        for service in _services(file):
+            for timer in timers_sharing_group(file, service):
+                group = group_of(timer)
+                named = f"the service's group {group}" if group else "the node's default group, as the service is"
+                yield found(file, timer, group=named)
+
+
+@mistake(
+    "one-call-at-a-time",
+    explains=_STILL,
+    evidence=Evidence.SOURCE,
+    says="{line} puts the service into a group in which its calls wait for each other: {code}",
+    do="Put the service into a reentrant callback group.",
+    example=in_run(Symptom.STANDS_STILL, ratio=3.0),
+)
+def one_call_at_a_time(case: Case) -> Iterator[Found]:
+    """The calls of one service wait for each other.
+
+    A service's callback may run several times at once only in a ReentrantCallbackGroup. In the node's default group,
+    or in another mutually exclusive one, each call waits until the one before it has been answered.
+
+    Bad:
+
+        self.create_service(Trigger, 'open_door', self.open_the_door)
+
+    Good:
+
+        self.create_service(Trigger, 'open_door', self.open_the_door, callback_group=ReentrantCallbackGroup())
+
+    See it: start two `ros2 service call` at once, and look at the times in the log.
+    """
+    if one_at_a_time(case):
+        for file in case.files:
+            reentrant = {file.assigned_to(call) for call in file.calls("ReentrantCallbackGroup")} - {""}
+            for service in _services(file):
+                group = group_of(service)
+                if "Reentrant" not in group and group not in reentrant:
+                    yield found(file, service)
+
+
+@mistake(
+    "callback-group-not-used",
+    explains=(Symptom.WRONG_RATE, Symptom.STANDS_STILL),
+    says="{line} makes a callback group, and no callback is in it: {code}",
+    do="Name the group where the timers and services are made.",
+    example=in_run(Symptom.WRONG_RATE),
+)
+def unused_group(case: Case) -> Iterator[Found]:
+    """A callback group is made, and nothing is in it.
+
+    A group matters for the callbacks that are made with callback_group=…; all others are in the node's default group,
+    where each waits for the others.
+
+    Bad:
+
+        self.group = ReentrantCallbackGroup()
+        self.create_timer(1.0, self.blink)
+        self.create_timer(0.1, self.look)
+        executor = MultiThreadedExecutor()
+
+    Good:
+
+        self.group = ReentrantCallbackGroup()
+        self.create_timer(1.0, self.blink, callback_group=self.group)
+        self.create_timer(0.1, self.look, callback_group=self.group)
+        executor = MultiThreadedExecutor()
+
+    See it: the callbacks never overlap in the log.
+    """
+    for file in case.files:
+        for made in file.calls(*GROUPS):
+            name = file.assigned_to(made)
+            if name.startswith("self.") and len(re.findall(rf"\b{re.escape(name[5:])}\b", file.text)) == 1:
+                yield found(file, made)
+
+
+@mistake(
+    "timer-waits-for-the-service",
+    explains=_STILL,
+    evidence=Evidence.SYMPTOM,
+    says="the timer stops while the service works{where}, although several threads run the callbacks",
+    do="Give the timer a callback group of its own, and no lock that the service holds while it works.",
+    example=in_run(Symptom.STANDS_STILL, stuck_at=_in_pool),
+)
+def waits_in_worker(case: Case) -> Iterator[Found]:
+    """A timer waits for a service in spite of several threads.
+
+    Threads help only callbacks of different groups, or of a reentrant one. A lock that both take, or a computation that
+    keeps Python's own lock, also makes one wait for the other.
+
+    Bad:
+
+        def open_the_door(self, request, response):
+            with self.lock:
+                time.sleep(3.0)
+
+    Good:
+
+        def open_the_door(self, request, response):
+            time.sleep(3.0)
+            with self.lock:
+                self.opened += 1
+
+    See it: the log stands still while the service works.
+    """
+    if case.stuck and in_worker(case.stuck) and not one_at_a_time(case):
+        own = tracebacks.own_frame(case.stuck, case.trace.folder)
+        where = f" (line {own.line} of {own.name})" if own is not None else ""
+        yield Found({"where": where}, own.name if own else "", own.line if own else 0, own.code if own else "")
