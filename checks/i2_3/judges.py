@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from checks.i2_3 import causes as why
-from checks.i2_3 import steps
 from checks.i2_3.facts import (
     CALLS,
     EXCUSED_S,
@@ -17,6 +16,7 @@ from checks.i2_3.facts import (
     SHORTEST_S,
     TYPE,
     WORK_S,
+    CallBatch,
     ConcurrentCalls,
     IdleRun,
     Interrupted,
@@ -29,14 +29,18 @@ from checks.i2_3.facts import (
 )
 from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series, best_series
-from tutor.judge import causes, ending
-from tutor.judge.causes import names, slips
+from tutor.judge import ending
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.node import file_calling, find_in_files, started_node
-from tutor.judge.step_parsing import NotAnEdit, apply_step
+from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import CallAnswer, Trace
-from tutor.judge.verdict import Cause, Status, Undecided, Verdict, failed, passed, skipped, undecided
-from tutor.judge.wording import counted
+from tutor.judge.verdict import Undecided, Verdict, failed, passed, skipped, undecided
+from tutor.judge.wording import counted, describe_no_answer, output_tail, shape
+
+BLOCKED_SHARE = 0.75
+"""A timer that pauses for less than this share of a call is not blocked by the whole call."""
+
+MIN_REPEATS = 4
+"""At least this many lines of the same shape are taken for a timer's."""
 
 
 def judge_blocks(seen: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
@@ -48,25 +52,12 @@ def judge_blocks(seen: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
         answered = (each for batch in concurrent.batches for each in batch.answers if each.response is not None)
         quick = next((each for each in answered if each.took_s < SHORTEST_S), None)
         verdict = _fail_too_quick(quick, seen.trace, verdict.expected) if quick is not None else verdict
-    return _with_applicable_step(verdict, seen.trace)
+    return verdict
 
 
 def judge_blocks_so_far(seen: SingleCalls) -> Verdict | None:
     """Judge `blocks` by the calls so far, if any was answered."""
-    return _with_applicable_step(_judge_answer(seen), seen.trace) if seen.quickest is not None else None
-
-
-def _with_applicable_step(verdict: Verdict, trace: Trace) -> Verdict:
-    """The verdict with a hint that is an edit: a hint in prose is replaced by one that rewrites everything relevant."""
-    if verdict.status is not Status.FAILED:
-        return verdict
-    try:
-        apply_step(verdict.step, trace.sources)
-    except NotAnEdit:
-        files = started_node(trace), file_calling(trace, "create_service")
-        step = next((step for each in files if (step := steps.rewrite_everything(each))), "")
-        return replace(verdict, step=step or verdict.step)
-    return verdict
+    return _judge_answer(seen) if seen.quickest is not None else None
 
 
 def _judge_both_calls(seen: SingleCalls, judge: Callable[[SingleCalls], Verdict]) -> Verdict:
@@ -83,47 +74,56 @@ def _judge_both_calls(seen: SingleCalls, judge: Callable[[SingleCalls], Verdict]
 
 
 def _judge_answer(seen: SingleCalls) -> Verdict:
-    verdict = _judge_answer_alone(seen)
-    if verdict.status is Status.FAILED and (raised := why.diagnose_exception(seen.trace)) is not None:
-        return replace(verdict, cause=str(raised), step=raised.hint)
-    return verdict
-
-
-def _judge_answer_alone(seen: SingleCalls) -> Verdict:
     expected = f"{SERVICE} ({TYPE}) answers with the sum after {WORK_S:g} s ({SHORTEST_S:g} to {LONGEST_S:g} s)"
     if not seen.calls:
-        return failed(
-            expected,
-            f"there is no {SERVICE} of this type",
-            why.diagnose_no_service(seen.trace),
-            causes.output_tail(seen.trace),
-        )
+        missing = Symptom.SERVICE_MISSING.seen(seen.trace, service=SERVICE, type=TYPE)
+        return failed(expected, f"there is no {SERVICE} of this type", missing, output_tail(seen.trace))
     best = seen.quickest
     if best is None:
-        observed = causes.describe_no_answer(seen.trace, max(call.answer.took_s for call in seen.calls))
-        return failed(expected, observed, why.diagnose_no_answer(seen), causes.output_tail(seen.trace))
+        observed = describe_no_answer(seen.trace, max(call.answer.took_s for call in seen.calls))
+        return failed(expected, observed, _no_answer(seen), output_tail(seen.trace))
     for call in seen.calls:
         answer = call.answer
         if answer.response is not None and answer.response["sum"] != right_sum(answer):
-            return failed(expected, _describe_answer(answer), why.diagnose_wrong_sum(answer, seen.trace))
-    source = file_calling(seen.trace, "create_service")
-    observed, took = _describe_answer(best.answer), f"the work takes {best.answer.took_s:.1f} s"
+            return failed(expected, _describe_answer(answer), _wrong_sum(answer, seen.trace))
     if best.answer.took_s < SHORTEST_S:
         return _fail_too_quick(best.answer, seen.trace, expected)
     if not best.in_time:
         if best.nearly_in_time and all(call.busy for call in seen.calls):
             return undecided("to time the service")
-        step = steps.fix_work_time(source) or "let the callback wait 3 s once, then answer"
-        return failed(expected, observed, Cause("too slow", took, step))
-    return passed(expected, observed)
+        return failed(expected, _describe_answer(best.answer), _wrong_time(best.answer, seen.trace, "too slow"))
+    return passed(expected, _describe_answer(best.answer))
+
+
+def _no_answer(seen: SingleCalls) -> Observation:
+    return Symptom.NO_ANSWER.seen(seen.trace, stuck=seen.stuck, answers=seen.spins, service=SERVICE, type=TYPE)
+
+
+def _wrong_sum(answer: CallAnswer, trace: Trace) -> Observation:
+    assert answer.response is not None
+    return Symptom.WRONG_ANSWER.seen(
+        trace,
+        service=SERVICE,
+        answer=answer,
+        wanted=right_sum(answer),
+        early=answer.took_s < SHORTEST_S,
+        says=f"the sum is {answer.response['sum']} instead of {right_sum(answer)}",
+        do="Look at what the callback adds, and where it puts the result.",
+    )
+
+
+def _wrong_time(answer: CallAnswer, trace: Trace, how: str) -> Observation:
+    return Symptom.WRONG_ANSWER.seen(
+        trace,
+        service=SERVICE,
+        early=answer.took_s < SHORTEST_S,
+        says=f"{how}: the work takes {answer.took_s:.1f} s and not {WORK_S:g} s",
+        do="Look at how long the callback waits, and in which unit, before it answers.",
+    )
 
 
 def _fail_too_quick(answer: CallAnswer, trace: Trace, expected: str) -> Verdict:
-    source = file_calling(trace, "create_service")
-    step = steps.fix_work_time(source) or "let the callback wait: time.sleep(3.0), then answer"
-    slip = find_in_files(trace, slips.diagnose_xor, steps.diagnose_early_answer)
-    cause = slip or Cause("too quick", f"the work takes {answer.took_s:.1f} s", step)
-    return failed(expected, _describe_answer(answer), cause)
+    return failed(expected, _describe_answer(answer), _wrong_time(answer, trace, "too quick"))
 
 
 def _describe_answer(answer: CallAnswer) -> str:
@@ -134,7 +134,7 @@ def _describe_answer(answer: CallAnswer) -> str:
 
 
 def judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
-    return _with_applicable_step(_judge_both_calls(seen, partial(_judge_timer, idle)), idle.trace)
+    return _judge_both_calls(seen, partial(_judge_timer, idle))
 
 
 def judge_idle_timer(idle: IdleRun) -> Verdict | None:
@@ -142,16 +142,26 @@ def judge_idle_timer(idle: IdleRun) -> Verdict | None:
     likely = best_series(idle.series)
     if likely is None or likely.is_10_hz:
         return None
-    return _with_applicable_step(_judge_timer(idle, SingleCalls(idle.trace)), idle.trace)
+    return _judge_timer(idle, SingleCalls(idle.trace))
 
 
 def judge_timer_so_far(seen: SingleCalls) -> Verdict | None:
     """Judge `timer` by the first call and its repetitions, unless the stack dump is still needed for the cause."""
     if seen.idle is None or seen.quickest is None:
         return None
-    verdict = _judge_timer(seen.idle, seen)
     # For a blocked timer, `call_singly` is about to take a stack dump.
-    return None if verdict.cause.startswith(names.BLOCKED_EXECUTOR) else _with_applicable_step(verdict, seen.idle.trace)
+    return None if _is_blocked(seen.idle, seen) else _judge_timer(seen.idle, seen)
+
+
+def _is_blocked(idle: IdleRun, seen: SingleCalls) -> bool:
+    """Whether the timer stops for most of a call, so that a stack dump will show why."""
+    right = [series for series in idle.series if series.is_10_hz]
+    paces = [timer_during_call(series, seen.trace.logs, call) for call in seen.calls for series in right]
+    return bool(paces) and seen.trace.exit is None and all(map(_stops, paces))
+
+
+def _stops(pace: TimerPace) -> bool:
+    return pace.fault is Fault.GAP and not (pace.count > 1 and pace.longest_s < BLOCKED_SHARE * pace.for_s)
 
 
 def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
@@ -164,10 +174,9 @@ def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
         if idle.excused:
             return undecided("to measure the timer")
         observed = f"outside a call: {likely}" if likely else "outside a call, the node logs nothing repeatedly"
-        evidence = [tick.text for tick in likely.ticks[:4]] if likely else causes.output_tail(idle.trace)
+        evidence = [tick.text for tick in likely.ticks[:4]] if likely else output_tail(idle.trace)
         silent = likely is None and bool(seen.calls) and not seen.spins
-        cause = why.diagnose_no_answer(seen) if silent else why.diagnose_other_pace(idle, likely)
-        return failed(expected, observed, cause, evidence)
+        return failed(expected, observed, _no_answer(seen) if silent else _other_pace(idle, likely), evidence)
     if not seen.calls:
         return skipped("not judged, because there was no call to listen during: `blocks` did not pass")
     right = [series for series in idle.series if series.is_10_hz]
@@ -181,12 +190,12 @@ def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
     observed = f"outside: {series}; {_describe_pace(pace, series)}"
     if seen.trace.exit is not None:
         observed = f"{observed}; then the process ended by itself with {seen.trace.exit}"
-        return failed(expected, observed, why.diagnose_disturbed_timer(seen, pace), causes.output_tail(seen.trace))
+        return failed(expected, observed, _disturbed(seen, pace), output_tail(seen.trace))
     if pace.fault is None:
         return passed(expected, observed, texts[:6])
     if is_excused(seen.trace.logs, calls[-1], right):
         return undecided("to listen to the timer")
-    return failed(expected, observed, why.diagnose_disturbed_timer(seen, pace), texts[-6:])
+    return failed(expected, observed, _disturbed(seen, pace), texts[-6:])
 
 
 def _describe_pace(pace: TimerPace, series: Series) -> str:
@@ -194,6 +203,57 @@ def _describe_pace(pace: TimerPace, series: Series) -> str:
     return (
         f"during the call of {pace.for_s:.1f} s: {counted(pace.count, 'message')}{rate}, "
         f"the longest pause {pace.longest_s:.2f} s (outside {series.longest_s:.2f} s)"
+    )
+
+
+def _other_pace(idle: IdleRun, likely: Series | None) -> Observation:
+    """No 10 Hz timer was seen while nobody called."""
+    if likely is None:
+        at_end = idle.ending.output if idle.ending else ()
+        repeated = Counter(shape(line.text) for line in (*idle.trace.output, *at_end))
+        return Symptom.NOT_LOGGED.seen(
+            idle.trace,
+            what="the timer's message",
+            recognise=lambda text: repeated[shape(text)] >= MIN_REPEATS,
+            at_end=at_end,
+            says="no log message comes again and again while nobody calls",
+            do="Let a timer of 10 Hz log at INFO, every tenth tick with its number at least.",
+        )
+    unnumbered = "" if likely.numbered or likely.hz > HZ else ", and no number in them counts the ticks"
+    return Symptom.WRONG_RATE.seen(
+        idle.trace,
+        wanted_hz=HZ,
+        found_hz=likely.hz,
+        says=f"the timer's messages come {likely.hz:.1f} times a second, not {HZ:g} times{unnumbered}",
+        do="Look at the period that the timer gets, and at which ticks it logs.",
+    )
+
+
+def _disturbed(seen: SingleCalls, pace: TimerPace) -> Observation:
+    """The timer does not keep its pace during a call."""
+    how = {
+        Fault.FAST: (
+            "ticks in a burst: around a call, more ticks are logged than the timer makes",
+            "Log ticks in the timer's callback only, and do not make up for missed ones.",
+        ),
+        Fault.SLOW: (
+            "the timer ticks during a call, but not as often as outside one",
+            "Let the service's callback sleep rather than compute, and the two callbacks share nothing.",
+        ),
+        Fault.GAP: (
+            f"the timer goes on during a call, but pauses for {pace.longest_s:.1f} s of it",
+            "Let the two callbacks share no lock, and neither of them wait for the other.",
+        ),
+    }
+    says, do = ("", "") if pace.fault is None or _stops(pace) else how[pace.fault]
+    return Symptom.STANDS_STILL.seen(
+        seen.trace,
+        stuck=seen.stuck,
+        service=SERVICE,
+        says=says,
+        do=do,
+        stops=_stops(pace),
+        fast=pace.fault is Fault.FAST,
     )
 
 
@@ -208,12 +268,33 @@ def judge_concurrent(seen: ConcurrentCalls, single: SingleCalls | None = None) -
     answered = [answer for answer in batch.answers if answer.response is not None]
     observed = f"{batch.correct_count} of {CALLS} right, {CALLS - len(answered)} not answered"
     never_answers = single is not None and bool(single.calls) and single.quickest is None and not answered
-    cause = (
-        why.diagnose_no_answer(single)
-        if single is not None and never_answers and seen.trace.exit is None
-        else why.diagnose_lost_calls(seen.trace, batch, answered)
+    why = _no_answer(single) if single and never_answers and seen.trace.exit is None else _lost_calls(seen.trace, batch)
+    return failed(expected, observed, why, answers)
+
+
+def _lost_calls(trace: Trace, batch: CallBatch) -> Observation:
+    """Some of three calls at once did not get their own sum."""
+    answered = [answer for answer in batch.answers if answer.response is not None]
+    lost = len(batch.answers) - len(answered)
+    if lost:
+        return Symptom.NO_ANSWER.seen(
+            trace,
+            service=SERVICE,
+            says=f"{lost} of {len(batch.answers)} calls made at once got no answer",
+            do="Let every call wait its turn or work beside the others, and return its response; refuse none.",
+        )
+    sums = [answer.response["sum"] for answer in answered if answer.response is not None]
+    wrong = next(answer for answer in answered if answer.response and answer.response["sum"] != right_sum(answer))
+    return Symptom.WRONG_ANSWER.seen(
+        trace,
+        service=SERVICE,
+        answer=wrong,
+        wanted=right_sum(wrong),
+        early=any(answer.took_s < SHORTEST_S for answer in answered),
+        shared=any(sums.count(right_sum(answer)) > 1 for answer in answered),
+        says=f"the sums of three calls at once are {', '.join(map(str, sums))}",
+        do="Answer every call with its own a and b, also while another one is being worked on.",
     )
-    return _with_applicable_step(failed(expected, observed, cause, answers), seen.trace)
 
 
 def judge_concurrent_so_far(seen: ConcurrentCalls) -> Verdict | None:
@@ -233,13 +314,8 @@ def judge_parallel(single: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
         return passed(expected, observed)
     if not concurrent.is_conclusive(one_s):
         return undecided("to time three calls at once")
-    cause = Cause(
-        "one call at a time",
-        "the calls wait for each other",
-        steps.allow_overlap(file_calling(concurrent.trace, "create_service"))
-        or "put the service into a ReentrantCallbackGroup, and give the executor threads enough: num_threads=8",
-    )
-    return failed(expected, observed, cause)
+    waiting = Symptom.STANDS_STILL.seen(concurrent.trace, service=SERVICE, ratio=best.took_s / one_s)
+    return failed(expected, observed, waiting)
 
 
 def judge_shutdown(seen: IdleRun) -> Verdict:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from tutor.judge.trace import Trace
+
 
 def counted(number: int, noun: str) -> str:
     """A number of things in words: "1 line", "3 lines"."""
@@ -13,3 +15,15 @@ def counted(number: int, noun: str) -> str:
 def shape(text: str) -> str:
     """A message with its numbers blanked out: messages of the same shape likely come from the same line of code."""
     return re.sub(r"-?\d+(\.\d+)?", "#", text)
+
+
+def output_tail(trace: Trace, max_lines: int = 6) -> tuple[str, ...]:
+    """The last non-empty lines that the process wrote, as evidence."""
+    return tuple(line.text for line in trace.output if line.text.strip())[-max_lines:]
+
+
+def describe_no_answer(trace: Trace, waited_s: float) -> str:
+    """Say that a request got no answer within this time, or because the process had already ended."""
+    if trace.exit is None:
+        return f"no answer in {waited_s:.2g} s"
+    return f"no answer: the process ended by itself, {trace.exit.after_s:.1f} s after its start, with {trace.exit}"

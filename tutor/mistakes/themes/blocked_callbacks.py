@@ -18,7 +18,6 @@ _SILENT = (
     Symptom.NOTHING_RECEIVED,
     Symptom.WRONG_ANSWER,
     Symptom.CALLS_MISSING,
-    Symptom.STANDS_STILL,
     Symptom.WRONG_RATE,
 )
 _LOCK = re.compile(
@@ -134,7 +133,7 @@ def spin_inside_callback(case: Case) -> Iterator[Found]:
 
 @mistake(
     "waits-for-a-lock",
-    explains=_SILENT,
+    explains=(*_SILENT, Symptom.STANDS_STILL),
     evidence=Evidence.RUN,
     says="{line} waits for {lock}, {why}: {code}",
     do="Hold a lock only while shared data changes, never while you wait, and release it on every way out.",

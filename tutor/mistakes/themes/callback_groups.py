@@ -34,6 +34,11 @@ def _in_pool(source: str) -> Sequence[Frame]:
     )
 
 
+def stops(case: Case) -> bool:
+    """Whether everything else stops while one callback runs, and does not only pause or come in a burst."""
+    return bool(case.about("stops", True)) and not one_at_a_time(case)
+
+
 def one_at_a_time(case: Case) -> bool:
     """Whether calls that were made at once were served one after the other (`ratio`: how long, in calls)."""
     return case.about("ratio") is not None
@@ -78,7 +83,7 @@ def set_too_late(case: Case) -> Iterator[Found]:
 
     See it: log the group where the timer is made.
     """
-    for file in case.files:
+    for file in case.files if stops(case) else ():
         for made in file.timers:
             group, creator = group_of(made), file.function_around(made)
             groups = [call for call in file.calls(*GROUPS) if group and file.assigned_to(call) == group]
@@ -113,9 +118,7 @@ def same_group(case: Case) -> Iterator[Found]:
 
     Lesson: i2.3, on callback groups.
     """
-    if one_at_a_time(case):
-        return
-    for file in case.files:
+    for file in case.files if stops(case) else ():
         for service in _services(file):
             for timer in timers_sharing_group(file, service):
                 group = group_of(timer)
@@ -221,7 +224,7 @@ def waits_in_worker(case: Case) -> Iterator[Found]:
 
     See it: the log stands still while the service works.
     """
-    if case.stuck and in_worker(case.stuck) and not one_at_a_time(case):
+    if case.stuck and in_worker(case.stuck) and stops(case):
         own = tracebacks.own_frame(case.stuck, case.trace.folder)
         where = f" (line {own.line} of {own.name})" if own is not None else ""
         yield Found({"where": where}, own.name if own else "", own.line if own else 0, own.code if own else "")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import cast
 
 from tutor.judge import tracebacks
 from tutor.judge.symptom import Symptom
@@ -29,11 +30,12 @@ _NOT_THE_LEARNERS = re.compile(
 _ROS_LOGGER = re.compile(r"^(?:rcl|rclcpp|rmw_\w+)(?:\.|$)")
 
 
-def _pattern(case: Case) -> re.Pattern[str] | None:
-    """What recognises the text that should have been logged: `pattern`, or the `value`."""
-    if case.about("pattern") is not None:
-        return re.compile(case.about("pattern"), re.IGNORECASE)
-    return re.compile(re.escape(str(case.about("value")))) if case.about("value") is not None else None
+def _recognise(case: Case) -> Callable[[str], object] | None:
+    """What recognises the text that should have been logged: the function `recognise`, or the text `value`."""
+    if (recognise := case.about("recognise")) is not None:
+        return cast("Callable[[str], object]", recognise)
+    value = case.about("value")
+    return (lambda text: str(value) in text) if value is not None else None
 
 
 def _printed(output: Sequence[OutputLine]) -> list[str]:
@@ -77,11 +79,11 @@ def printed(case: Case) -> Iterator[Found]:
 
     Lesson: i1.1, on log messages.
     """
-    pattern, what = _pattern(case), case.about("what", "it")
-    if pattern is None:
+    is_it, what = _recognise(case), case.about("what", "it")
+    if is_it is None:
         return
     for text in _printed(case.trace.output):
-        if pattern.search(text):
+        if is_it(text):
             logging = find_python_logging(case.program, text)
             call = logging or find_print(case.program, text)
             where = f" (line {call[1].lineno})" if call is not None else ""
@@ -118,21 +120,21 @@ def held_back(case: Case) -> Iterator[Found]:
 
     See it: `python3 node.py | cat`.
     """
-    pattern = _pattern(case)
-    if pattern is not None:
+    is_it = _recognise(case)
+    if is_it is not None:
         for text in _printed(tuple(case.about("at_end", ()))):
-            if pattern.search(text):
+            if is_it(text):
                 yield _place(case, find_print(case.program, text), what=case.about("what", "it"))
 
 
 def _logged_elsewhere(case: Case) -> list[re.Match[str]]:
     """The log lines on the terminal with the text that are not on /rosout."""
-    pattern = _pattern(case)
-    if pattern is None:
+    is_it = _recognise(case)
+    if is_it is None:
         return []
     seen = tuple(log.text for log in case.trace.logs)
     matches = [matched for line in case.trace.output if (matched := _LOG_LINE.match(line.text)) is not None]
-    own = [each for each in matches if pattern.search(each.string) and not _ROS_LOGGER.match(each["logger"])]
+    own = [each for each in matches if is_it(each.string) and not _ROS_LOGGER.match(each["logger"])]
     return [each for each in own if not each.string.endswith(seen)] if seen else own
 
 

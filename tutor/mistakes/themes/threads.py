@@ -9,7 +9,7 @@ from tutor.judge.symptom import Symptom
 from tutor.judge.tracebacks import Frame
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.callback_groups import in_worker, one_at_a_time
+from tutor.mistakes.themes.callback_groups import in_worker, one_at_a_time, stops
 from tutor.source.callback_groups import MULTI_THREADED, threads_of
 
 _STILL = (Symptom.STANDS_STILL,)
@@ -54,7 +54,7 @@ def one_thread(case: Case) -> Iterator[Found]:
     if one_at_a_time(case):
         if not case.program.calls(MULTI_THREADED) and case.program.calls("spin"):
             yield Found({"where": ""})
-    elif stuck and not in_worker(stuck):
+    elif stuck and stops(case) and not in_worker(stuck):
         own = tracebacks.own_frame(stuck, case.trace.folder)
         where = f" (line {own.line} of {own.name})" if own is not None else ""
         yield Found({"where": where}, own.name if own else "", own.line if own else 0, own.code if own else "")
@@ -94,5 +94,5 @@ def too_few_threads(case: Case) -> Iterator[Found]:
                 if number == 1:
                     threads = "one thread"
                 yield found(file, made, threads=threads, what=f"the calls took {ratio:.1f} times as long as one")
-        elif number == 1:
+        elif number == 1 and stops(case):
             yield found(file, made, threads="one thread", what="the service takes it for as long as it works")

@@ -183,7 +183,7 @@ def period_attribute(case: Case) -> Iterator[Found]:
 
 @mistake(
     "callback-sleeps",
-    explains=[Symptom.WRONG_RATE, Symptom.STANDS_STILL],
+    explains=[Symptom.WRONG_RATE],
     says="{line} makes the timer's callback sleep, and until it returns the timer is not called again: {code}",
     do="Let the callback do its work and return at once; the timer does the waiting.",
 )
