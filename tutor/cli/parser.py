@@ -14,6 +14,7 @@ from tutor.cli import (
     completion,
     diff,
     doctor,
+    explain,
     help_command,
     hint,
     list_exercises,
@@ -76,6 +77,7 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     add("diff", diff.run, diff.add_arguments, "compare your file with the skeleton, or with our solution")
     add("reset", reset.run, reset.add_arguments, "put the skeleton back; your file is kept beside it")
     add("hint", hint.run, hint.add_arguments, "show the next hint for an exercise")
+    add("explain", explain.run, explain.add_arguments, "explain a mistake that a report names, or list all")
     add("solution", solution.run, solution.add_arguments, "print our solution of an exercise")
     add("checklist", checklist.run, checklist.add_arguments, "show, tick or export the self-assessment checklist")
     add("serve", serve.run, serve.add_arguments, "open the app in a browser, on this machine only")

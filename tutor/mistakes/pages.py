@@ -1,0 +1,71 @@
+"""Pages of the catalogue: found by id or by words, and written as Markdown or plain text."""
+
+from __future__ import annotations
+
+import difflib
+import importlib.util
+import pkgutil
+from collections.abc import Iterable, Mapping, Sequence
+
+from tutor.mistakes.entry import CATALOGUE, Catalogue, Mistake
+
+THEMES = "tutor.mistakes.themes"
+
+
+def every_mistake(catalogues: Sequence[Catalogue] = ()) -> Mapping[str, Mistake]:
+    """All mistakes by id, those of other catalogues (an exercise's, a course's) first."""
+    found: dict[str, Mistake] = {}
+    for catalogue in (*catalogues, CATALOGUE):
+        for entry in catalogue.entries.values():
+            found.setdefault(entry.id, entry)
+    return found
+
+
+def exercise_catalogues() -> list[Catalogue]:
+    """The catalogues of the exercises of our own course."""
+    import checks
+
+    modules = [f"checks.{each.name}.mistakes" for each in pkgutil.iter_modules(checks.__path__)]
+    return [importlib.import_module(name).CATALOGUE for name in modules if importlib.util.find_spec(name) is not None]
+
+
+def search(words: str, mistakes: Iterable[Mistake]) -> list[Mistake]:
+    """The mistakes whose id or page has all these words, those with the words in id or title first."""
+    wanted = [word.casefold() for word in words.replace("-", " ").split()]
+
+    def place(entry: Mistake) -> int:
+        name = f"{entry.id} {entry.title}".replace("-", " ").casefold()
+        texts = (name, f"{name} {entry.summary.casefold()}", f"{name} {entry.page.casefold()}")
+        return next((at for at, text in enumerate(texts) if all(word in text for word in wanted)), len(texts))
+
+    ranked = [(place(entry), entry) for entry in mistakes]
+    return [entry for at, entry in sorted(ranked, key=lambda pair: pair[0]) if at < 3]
+
+
+def nearest(id: str, mistakes: Mapping[str, Mistake]) -> list[str]:
+    """The ids that are spelled nearly like this one."""
+    return difflib.get_close_matches(id.lower().replace(" ", "-"), mistakes, n=3)
+
+
+def text_of(entry: Mistake) -> str:
+    """The page as plain text: its name in the first line, each paragraph on one line, code indented."""
+    paragraphs = entry.page.partition("\n")[2].strip("\n").split("\n\n")
+    joined = (each if each.startswith("    ") else " ".join(each.splitlines()) for each in paragraphs)
+    return f"{entry.id}: {entry.summary}\n\n" + "\n\n".join(joined) + "\n"
+
+
+def markdown_of(entry: Mistake) -> str:
+    """The page as Markdown, with its name as a heading of level 2."""
+    lines = [f"## {entry.id}", "", f"**{entry.summary}**", ""]
+    block: list[str] = []
+    for line in [*entry.page.splitlines()[2:], ""]:
+        if line.startswith("    ") or (block and not line.strip()):
+            block.append(line[4:])
+            continue
+        if block:
+            while block and not block[-1].strip():
+                block.pop()
+            lines += ["```python", *block, "```", ""]
+            block = []
+        lines.append(line)
+    return "\n".join(lines).rstrip("\n") + "\n"
