@@ -47,4 +47,5 @@ CHECK = Check(
     ),
     expected_s=6.3,
     expected_reason="two calls of 3 s, one after the other",
+    mistakes="checks.i2_3.mistakes",
 )

@@ -91,7 +91,7 @@ def _judge_answer(seen: SingleCalls) -> Verdict:
     if not best.in_time:
         if best.nearly_in_time and all(call.busy for call in seen.calls):
             return undecided("to time the service")
-        return failed(expected, _describe_answer(best.answer), _wrong_time(best.answer, seen.trace, "too slow"))
+        return failed(expected, _describe_answer(best.answer), _wrong_time(best.answer, seen.trace))
     return passed(expected, _describe_answer(best.answer))
 
 
@@ -112,18 +112,13 @@ def _wrong_sum(answer: CallAnswer, trace: Trace) -> Observation:
     )
 
 
-def _wrong_time(answer: CallAnswer, trace: Trace, how: str) -> Observation:
-    return Symptom.WRONG_ANSWER.seen(
-        trace,
-        service=SERVICE,
-        early=answer.took_s < SHORTEST_S,
-        says=f"{how}: the work takes {answer.took_s:.1f} s and not {WORK_S:g} s",
-        do="Look at how long the callback waits, and in which unit, before it answers.",
-    )
+def _wrong_time(answer: CallAnswer, trace: Trace) -> Observation:
+    early = answer.took_s < SHORTEST_S
+    return Symptom.WRONG_ANSWER.seen(trace, service=SERVICE, early=early, took_s=answer.took_s, wanted_s=WORK_S)
 
 
 def _fail_too_quick(answer: CallAnswer, trace: Trace, expected: str) -> Verdict:
-    return failed(expected, _describe_answer(answer), _wrong_time(answer, trace, "too quick"))
+    return failed(expected, _describe_answer(answer), _wrong_time(answer, trace))
 
 
 def _describe_answer(answer: CallAnswer) -> str:
@@ -231,29 +226,14 @@ def _other_pace(idle: IdleRun, likely: Series | None) -> Observation:
 
 def _disturbed(seen: SingleCalls, pace: TimerPace) -> Observation:
     """The timer does not keep its pace during a call."""
-    how = {
-        Fault.FAST: (
-            "ticks in a burst: around a call, more ticks are logged than the timer makes",
-            "Log ticks in the timer's callback only, and do not make up for missed ones.",
-        ),
-        Fault.SLOW: (
-            "the timer ticks during a call, but not as often as outside one",
-            "Let the service's callback sleep rather than compute, and the two callbacks share nothing.",
-        ),
-        Fault.GAP: (
-            f"the timer goes on during a call, but pauses for {pace.longest_s:.1f} s of it",
-            "Let the two callbacks share no lock, and neither of them wait for the other.",
-        ),
-    }
-    says, do = ("", "") if pace.fault is None or _stops(pace) else how[pace.fault]
+    paces = {Fault.FAST: "fast", Fault.SLOW: "slow", Fault.GAP: "pauses"}
     return Symptom.STANDS_STILL.seen(
         seen.trace,
         stuck=seen.stuck,
         service=SERVICE,
-        says=says,
-        do=do,
         stops=_stops(pace),
-        fast=pace.fault is Fault.FAST,
+        pace="" if pace.fault is None or _stops(pace) else paces[pace.fault],
+        pause_s=pace.longest_s,
     )
 
 

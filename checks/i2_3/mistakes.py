@@ -1,0 +1,132 @@
+"""I2.3: the mistakes that only this exercise can know."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes import Case, Catalogue, Evidence, Found
+from tutor.mistakes.examples import in_run
+
+CATALOGUE = Catalogue()
+
+_SHORT, _LONG = 1.0, 5.0
+
+
+@CATALOGUE.mistake(
+    "ticks-in-a-burst",
+    explains=[Symptom.STANDS_STILL],
+    evidence=Evidence.RUN,
+    says="around a call, more ticks are logged than the timer makes",
+    do="Log ticks in the timer's callback only, and do not make up for missed ones.",
+    example=in_run(Symptom.STANDS_STILL, pace="fast", stops=False),
+)
+def burst(case: Case) -> Iterator[Found]:
+    """More ticks are logged than the timer makes.
+
+    A timer that could not run does not catch up: ticks that were missed are gone. Messages that make up for them, or that
+    other code logs in the timer's words, hide that the timer stood still.
+
+    Bad:
+
+        def after_the_work(self):
+            for _ in range(self.missed):
+                self.blink()
+
+    Good:
+
+        def after_the_work(self):
+            self.get_logger().info(f'{self.missed} blinks were missed')
+
+    See it: the time stamps of the log around a call.
+    """
+    if case.about("pace") == "fast":
+        yield Found()
+
+
+@CATALOGUE.mistake(
+    "slowed-timer",
+    explains=[Symptom.STANDS_STILL],
+    evidence=Evidence.RUN,
+    says="the timer ticks during a call, but not as often as outside one",
+    do="Let the service's callback sleep rather than compute, and share nothing with the timer while it does.",
+    example=in_run(Symptom.STANDS_STILL, pace="slow", stops=False),
+)
+def slowed(case: Case) -> Iterator[Found]:
+    """A timer loses ticks while other work goes on.
+
+    Python runs one thread at a time. Work that computes without a pause, or threads that take turns with the timer, leave
+    it fewer chances to run than it needs.
+
+    Bad:
+
+        while time.monotonic() < end:
+            pass
+
+    Good:
+
+        time.sleep(3.0)
+
+    See it: `ros2 topic hz TOPIC`, or the numbers in the log, during a call.
+    """
+    if case.about("pace") == "slow":
+        yield Found()
+
+
+@CATALOGUE.mistake(
+    "timer-pauses",
+    explains=[Symptom.STANDS_STILL],
+    evidence=Evidence.RUN,
+    says="the timer goes on during a call, but pauses for {pause_s:.1f} s of it",
+    do="Let the two callbacks share no lock, and neither of them wait for the other.",
+    example=in_run(Symptom.STANDS_STILL, pace="pauses", pause_s=1.2, stops=False),
+)
+def pauses(case: Case) -> Iterator[Found]:
+    """A timer pauses for a part of a call.
+
+    Two callbacks that may run side by side still wait for each other where they share a lock, or where one waits for what
+    the other does.
+
+    Bad:
+
+        with self.lock:
+            time.sleep(1.0)
+
+    Good:
+
+        time.sleep(1.0)
+        with self.lock:
+            self.opened += 1
+
+    See it: the time stamps of the log during a call.
+    """
+    if case.about("pace") == "pauses":
+        yield Found({"pause_s": case.about("pause_s")})
+
+
+@CATALOGUE.mistake(
+    "wrong-duration",
+    explains=[Symptom.WRONG_ANSWER],
+    evidence=Evidence.SYMPTOM,
+    says="the work takes {took_s:.1f} s, not {wanted_s:g} s",
+    do="Look at how long the callback waits before it answers, and in which unit.",
+    example=in_run(Symptom.WRONG_ANSWER, took_s=_SHORT, wanted_s=_LONG),
+)
+def wrong_duration(case: Case) -> Iterator[Found]:
+    """A callback takes another time than it should.
+
+    time.sleep() takes seconds. An Event that is already set returns from wait() at once; a loop of short naps takes a
+    little longer than their sum.
+
+    Bad:
+
+        time.sleep(500)
+
+    Good:
+
+        time.sleep(0.5)
+
+    See it: `time ros2 service call …`.
+    """
+    if case.about("took_s") is not None:
+        yield Found({"took_s": case.about("took_s"), "wanted_s": case.about("wanted_s")})
