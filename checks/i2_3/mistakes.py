@@ -24,8 +24,8 @@ _SHORT, _LONG = 1.0, 5.0
 def burst(case: Case) -> Iterator[Found]:
     """More ticks are logged than the timer makes.
 
-    A timer that could not run does not catch up: ticks that were missed are gone. Messages that make up for them, or that
-    other code logs in the timer's words, hide that the timer stood still.
+    A timer that could not run does not catch up: ticks that were missed are gone. Messages that make up for them, or
+    that other code logs in the timer's words, hide that the timer stood still.
 
     Bad:
 
@@ -55,8 +55,8 @@ def burst(case: Case) -> Iterator[Found]:
 def slowed(case: Case) -> Iterator[Found]:
     """A timer loses ticks while other work goes on.
 
-    Python runs one thread at a time. Work that computes without a pause, or threads that take turns with the timer, leave
-    it fewer chances to run than it needs.
+    Python runs one thread at a time. Work that computes without a pause, or threads that take turns with the timer,
+    leave it fewer chances to run than it needs.
 
     Bad:
 
@@ -84,8 +84,8 @@ def slowed(case: Case) -> Iterator[Found]:
 def pauses(case: Case) -> Iterator[Found]:
     """A timer pauses for a part of a call.
 
-    Two callbacks that may run side by side still wait for each other where they share a lock, or where one waits for what
-    the other does.
+    Two callbacks that may run side by side still wait for each other where they share a lock, or where one waits for
+    what the other does.
 
     Bad:
 
