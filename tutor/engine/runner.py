@@ -26,6 +26,7 @@ from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault
 from tutor.process.fork_link import ForkServerLink
 from tutor.ros.environment import RosEnvironment
+from tutor.workspace import digests_of
 
 OnEvent = Callable[[Event], None]
 
@@ -91,6 +92,7 @@ class Runner:
         exercise = self._check.exercise
         self._announce()
         self._started = time.monotonic()
+        digests = digests_of(self._submission.files)
         needed = _with_dependencies(self._check, self._shown)
         try:
             for criterion in needed:
@@ -109,6 +111,7 @@ class Runner:
             criteria=tuple(results),
             duration_s=self._elapsed_s(),
             unjudged=unjudged,
+            digests=digests,
         )
         self._on_event(ExerciseJudged(result))
         return result

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 
 from tutor.judge.verdict import Status, Verdict
 
@@ -23,7 +23,8 @@ class CriterionResult:
 class ExerciseResult:
     """One judged exercise. `submission` holds the names of the judged files; empty if there were none.
 
-    `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure.
+    `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure. `digests`: the
+    digest of each of these files when the check began (see `tutor.workspace.digests`).
     """
 
     id: str
@@ -32,6 +33,7 @@ class ExerciseResult:
     criteria: tuple[CriterionResult, ...]
     duration_s: float
     unjudged: tuple[str, ...] = ()
+    digests: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def missing(self) -> str:
