@@ -34,12 +34,15 @@ CHECK = Check(
         ),
         Criterion("timer", runtime.judge_timer, (changes.change_rate,)),
         Criterion(
-            "atomic", validation.judge_atomic, (bad_values.set_atomically, changes.switch_at_runtime), bonus=True
+            "atomic",
+            validation.judge_atomic,
+            (bad_values.set_atomically, changes.switch_at_runtime, changes.change_rate),
+            bonus=True,
         ),
         Criterion(
             "launch-validation",
             judges.judge_bad_launch,
-            (scenarios.plain_start, scenarios.launch_with_bad_rates),
+            (scenarios.plain_start, scenarios.launch_with_bad_rates, scenarios.start_with_parameters),
             bonus=True,
         ),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.plain_start,), bonus=True),

@@ -21,13 +21,12 @@ from checks.i2_1.facts import (
     text_of,
 )
 from tutor.judge.bench import Bench, Run
-from tutor.judge.rates import Rate
 from tutor.judge.trace import SetAnswer
 from tutor.judge.waiting import measure_steady_rate
 
 
 async def ask_for_bad_rates(bench: Bench) -> BadRates:
-    """Set bad rates, which must change nothing, on a node at a rate other than the default if it accepts one."""
+    """Set bad rates, which must change nothing, on a node at a rate other than the default if it takes effect."""
     return await _try_bad_rates(bench, VALIDATION_HZ)
 
 
@@ -48,19 +47,14 @@ async def _try_bad_rates(bench: Bench, from_hz: float | None) -> BadRates:
                 return refused
         if from_hz is None:
             return await _set_bad_rates_and_measure(bench, run, node, base_hz)
-        if (rate := await _set_good_rate(run, node, from_hz, base_hz)) is not None:
+        good = await run.set_parameters(node, {RATE: from_hz}, limit_s=ANSWER_S)
+        if good.answered and not good.successful:
+            return replace(refused, trace=run.trace(), set_good=good)
+        rate, _ = await measure_new_rate(run, good, from_hz, base_hz) if good.answered else (None, 0)
+        if rate is not None and rate.agrees_with(from_hz):
             return replace(await _set_bad_rates_and_measure(bench, run, node, from_hz), rate_before=rate)
-    # Accepting a good rate is judged elsewhere: a node that does not must still reject bad ones at its initial rate.
+    # The effect of a good rate is judged elsewhere: bad ones must be rejected at the initial rate all the same.
     return await _try_bad_rates(bench, None)
-
-
-async def _set_good_rate(run: Run, node: str, new_hz: float, old_hz: float) -> Rate | None:
-    """Set a rate; return the measured one, or None unless the node accepts it and publishes at it."""
-    answer = await run.set_parameters(node, {RATE: new_hz}, limit_s=ANSWER_S)
-    if not answer.answered or not answer.successful:
-        return None
-    rate, _ = await measure_new_rate(run, answer, new_hz, old_hz)
-    return rate if rate is not None and rate.agrees_with(new_hz) else None
 
 
 async def _set_bad_rates_and_measure(bench: Bench, run: Run, node: str, base_hz: float) -> BadRates:
@@ -89,7 +83,7 @@ async def _set_bad_rates(bench: Bench, run: Run, node: str, base_hz: float) -> B
 
 
 async def set_atomically(bench: Bench) -> AtomicRequests:
-    """Set a good prefix and a bad rate in one atomic request, once in either order."""
+    """Set a good prefix and a bad rate in one atomic request, once in either order; then a good prefix and rate."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=5.0) as run:
         node, answering = await wait_until_publishing(bench, run)
         if node is None:
@@ -109,4 +103,6 @@ async def set_atomically(bench: Bench) -> AtomicRequests:
             values.append(await read_parameters(run, (PREFIX, RATE)))
         rate, messages = await measure_steady_rate(run, TOPIC, base_hz, since=answers[-1].answered_at)
         shown = next((s for s in run.samples_on(TOPIC) if any(token in text_of(s) for token in tokens)), None)
-        return AtomicRequests(run.trace(), base_hz, tuple(answers), before, tuple(values), shown, rate, messages)
+        good = {PREFIX: "Whole1", RATE: VALIDATION_HZ}
+        seen = AtomicRequests(run.trace(), base_hz, tuple(answers), before, tuple(values), shown, rate, messages)
+        return replace(seen, set_good=await run.set_parameters(node, good, atomic=True, limit_s=ANSWER_S))

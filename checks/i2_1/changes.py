@@ -39,7 +39,7 @@ async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
     switching = asyncio.ensure_future(_switch_enabled(bench))
     try:
         prefixed = await _set_prefix(bench)
-        if prefixed.after_prefix is None:
+        if prefixed.after_prefix is None or not prefixed.went_on:
             return prefixed
         switched = await switching
     finally:
@@ -47,6 +47,7 @@ async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
         await asyncio.gather(switching, return_exceptions=True)
     return replace(
         switched,
+        set_true=prefixed.set_true,
         after_prefix=prefixed.after_prefix,
         before=prefixed.before,
         sent_after_rate=prefixed.sent_after_rate,
@@ -54,7 +55,7 @@ async def switch_at_runtime(bench: Bench) -> RuntimeChanges:
 
 
 async def _set_prefix(bench: Bench) -> RuntimeChanges:
-    """Set message_prefix while the node publishes; then publish_rate while `enabled` is off."""
+    """Set message_prefix, and `enabled` to true, while the node publishes; then publish_rate while `enabled` is off."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=3.0) as run:
         bench.report_progress(0.05, "waiting for it to publish")
         node, answering = await wait_until_publishing(bench, run)
@@ -69,7 +70,16 @@ async def _set_prefix(bench: Bench) -> RuntimeChanges:
             return replace(seen, trace=run.trace(), set_prefix=answer, stuck=await run.dump_stacks())
         if not answer.successful:
             return replace(seen, trace=run.trace(), set_prefix=answer)
+        set_true = await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
+        seen = replace(seen, set_prefix=answer, set_true=set_true)
+        if not set_true.answered:
+            return replace(seen, trace=run.trace(), stuck=await run.dump_stacks())
+        if not set_true.successful:
+            return replace(seen, trace=run.trace())
         due = answer.answered_at + seen.period_s + 0.1
+
+        def goes_on() -> bool:
+            return any(sample.source_time > set_true.answered_at for sample in run.samples_on(TOPIC))
 
         def with_new_prefix() -> Sample | None:
             since = answer.asked_at
@@ -81,12 +91,15 @@ async def _set_prefix(bench: Bench) -> RuntimeChanges:
             )
 
         await run.until(
-            lambda: with_new_prefix() is not None or overdue_with_old_prefix() is not None,
+            lambda: goes_on() and (with_new_prefix() is not None or overdue_with_old_prefix() is not None),
             2 * seen.period_s + 2,
             idle_s=IDLE_S,
         )
         before = measure(run.samples_on(TOPIC))
-        seen = replace(seen, set_prefix=answer, after_prefix=with_new_prefix(), before=before)
+        seen = replace(seen, after_prefix=with_new_prefix(), before=before, went_on=goes_on())
+        if not seen.went_on:
+            await run.set_parameters(node, {ENABLED: True}, limit_s=ANSWER_S)
+            return replace(seen, inverts=await run.until(goes_on, seen.period_s + 1, idle_s=IDLE_S), trace=run.trace())
         if seen.after_prefix is not None:
             bench.report_progress(0.6, f"setting {RATE} to {UP_HZ} while {ENABLED} is false")
             seen = replace(seen, sent_after_rate=await _set_rate_while_off(run, node, seen.period_s))

@@ -65,11 +65,15 @@ class PlainStart:
 
 @dataclass(frozen=True)
 class RatedStart:
-    """A start with a rate, and perhaps a prefix: the rate measured, and the number of messages it is based on."""
+    """A start with a rate, and perhaps a prefix: the rate measured, and the number of messages it is based on.
+
+    `took_rate`: whether the node took the given rate: it publishes at it, or reports it as the parameter's value.
+    """
 
     trace: Trace
     rate: Rate | None
     messages: int
+    took_rate: bool = False
 
 
 @dataclass(frozen=True)
@@ -98,6 +102,11 @@ class ParameterStarts:
     disabled: DisabledStart | None = None
 
     @property
+    def took_rate(self) -> bool:
+        """Whether the node took a good publish_rate at start-up."""
+        return any(start is not None and start.took_rate for start in (self.fast, self.slow))
+
+    @property
     def trace(self) -> Trace | None:
         """The trace of a start that has ended."""
         return next((each.trace for each in (self.fast, self.slow, self.disabled) if each is not None), None)
@@ -107,8 +116,10 @@ class ParameterStarts:
 class RuntimeChanges:
     """A plain start on which parameters are set: message_prefix to `prefix`, enabled off, `later`, enabled on again.
 
-    `after_prefix`, `before` and `sent_after_rate` come from another start: the first message with the new prefix, the
-    rate up to then, and the messages sent although enabled was off, after publish_rate was set.
+    Some facts come from another start. `set_true`: the answer to enabled set to true, which it was, right after the
+    prefix; `went_on`: whether messages came afterwards; `inverts`: they did not, but did once it was set to true again.
+    `after_prefix`: the first message with the new prefix; `before`: the rate up to then; `sent_after_rate`: the
+    messages sent although enabled was off, after publish_rate was set.
     `resumed`: the first message after `enabled` was on again. `after_resume`: the messages from then on or from a
     period later, with their `rate`.
     """
@@ -116,6 +127,9 @@ class RuntimeChanges:
     trace: Trace
     base_hz: float = DEFAULT_HZ
     set_prefix: SetAnswer | None = None
+    set_true: SetAnswer | None = None
+    went_on: bool = True
+    inverts: bool = False
     after_prefix: Sample | None = None
     set_off: SetAnswer | None = None
     sent_while_off: tuple[Sample, ...] = ()
@@ -143,6 +157,7 @@ class BadRates:
 
     `before`: the value of publish_rate before that, and `rate_before` the measured rate, if it had just been set.
     `rejected`: each answer with the value afterwards. `rate`, `messages`: what the node publishes then.
+    `set_good`: the answer to a good rate, if it was rejected; nothing is measured then.
     """
 
     trace: Trace
@@ -154,6 +169,7 @@ class BadRates:
     stuck: tuple[Frame, ...] = ()
     answering: bool = False
     rate_before: Rate | None = None
+    set_good: SetAnswer | None = None
 
 
 @dataclass(frozen=True)
@@ -171,9 +187,10 @@ class RateChanges:
 
 @dataclass(frozen=True)
 class AtomicRequests:
-    """A plain start with two atomic requests.
+    """A plain start with two atomic requests that must be rejected.
 
     `before`, `values`: the prefix and the rate before both, and after each. `shown`: a message with a rejected prefix.
+    `set_good`: the answer to an atomic request of good values, made last.
     """
 
     trace: Trace
@@ -186,6 +203,7 @@ class AtomicRequests:
     messages: int = 0
     stuck: tuple[Frame, ...] = ()
     answering: bool = False
+    set_good: SetAnswer | None = None
 
 
 def find_without_prefix(samples: Sequence[Sample], prefix: str) -> list[Sample]:

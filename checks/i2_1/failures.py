@@ -56,7 +56,7 @@ def fail_not_running(seen: RuntimeChanges | BadRates | RateChanges | AtomicReque
 
 def fail_not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence[Frame]) -> Verdict:
     """Fail a node that does not answer a parameter request, or rejects one that it should accept."""
-    what = ", ".join(f"{name} to {show(value)}" for name, value in answer.values.items())
+    what = _describe_values(answer)
     if not answer.answered:
         cause = diagnose_no_answer(trace, stuck, spins=True)
         observed = f"setting {what}: {causes.describe_no_answer(trace, answer.took_s)}"
@@ -68,6 +68,15 @@ def fail_not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence
     if "read-only" in answer.reason:
         cause = find_in_files(trace, parameter_slips.diagnose_read_only) or cause
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', cause)
+
+
+def describe_refusal(answer: SetAnswer) -> str:
+    """Say that good values were rejected, so that the rejection of bad ones shows nothing."""
+    return f'the node rejects good values, too (setting {_describe_values(answer)}: "{answer.reason}")'
+
+
+def _describe_values(answer: SetAnswer) -> str:
+    return ", ".join(f"{name} to {show(value)}" for name, value in answer.values.items())
 
 
 def diagnose_no_answer(trace: Trace, stuck: Sequence[Frame], *, spins: bool = False) -> Cause:

@@ -36,7 +36,7 @@ from tutor.judge.causes import callback_slips, names, parameter_slips, period_sl
 from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.trace import Level, Trace
-from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 from tutor.judge.wording import counted, shape
 from tutor.ros_model import Parameter
 
@@ -235,7 +235,11 @@ def _diagnose_ignored(name: str, trace: Trace, *others: str) -> Cause:
 
 
 @with_steps
-def judge_bad_launch(plain: PlainStart, seen: Sequence[Trace]) -> Verdict:
+def judge_bad_launch(plain: PlainStart, seen: Sequence[Trace], good: ParameterStarts) -> Verdict:
+    """Judge `launch-validation`. `good`: starts with a good rate."""
+    if not good.took_rate:
+        because = f"the node does not take a good {RATE} at start-up either: see `launch-params`"
+        return skipped(f"not judged, because {because}")
     expected = f"a start with {RATE}:=0.0 or {RATE}:=-1.0 gives a message that names {RATE}"
     ordinary = {_wording(line) for line in messages_naming_rate(plain.trace)}
     for trace in seen:

@@ -52,10 +52,12 @@ def judge_changes(seen: RuntimeChanges) -> Verdict:
     """Judge `runtime-params`, apart from a rate that differs afterwards: `timer` may show why."""
     if seen.set_prefix is None:
         return fail_not_running(seen, EXPECTED_CHANGES)
-    for answer in (seen.set_prefix, seen.set_off, seen.set_later, seen.set_on):
+    for answer in (seen.set_prefix, seen.set_true, seen.set_off, seen.set_later, seen.set_on):
         if answer is not None and not (answer.answered and answer.successful):
             return fail_not_set(EXPECTED_CHANGES, answer, seen.trace, seen.stuck)
     expected = EXPECTED_CHANGES
+    if not seen.went_on:
+        return _fail_silenced(seen)
     if seen.after_prefix is None:
         return failed(
             expected,
@@ -88,6 +90,24 @@ def judge_changes(seen: RuntimeChanges) -> Verdict:
         f'"{text_of(seen.after_prefix)}"; silence while false; resumed '
         f"{seen.resumed.source_time - seen.set_on.asked_at:.2f} s after true",
     )
+
+
+def _fail_silenced(seen: RuntimeChanges) -> Verdict:
+    """Fail a node that sends nothing more once `enabled` is set to true, which it was already."""
+    observed = f"{PREFIX} set to {seen.prefix}, and {ENABLED} to true, which it was already: no message since"
+    if seen.inverts:
+        cause = Cause(
+            "value inverted",
+            f"{ENABLED} set to true stops the messages, and set to true once more, it brings them back",
+            f"use the value that {ENABLED} is set to, not the opposite of the one before",
+        )
+    else:
+        cause = causes.diagnose_process(seen.trace) or Cause(
+            "messages stop",
+            f"neither a new {PREFIX} nor an {ENABLED} that stays true is a reason to stop",
+            steps.keep_timer_running(seen.trace),
+        )
+    return failed(EXPECTED_CHANGES, observed, cause, causes.output_tail(seen.trace))
 
 
 @with_steps

@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Mapping
 from typing import Any
 
-from checks.i2_1.access import dump_if_stuck, find_node, has_publisher
+from checks.i2_1.access import dump_if_stuck, find_node, has_publisher, read_parameters
 from checks.i2_1.facts import (
     ANSWER_S,
     BAD_RATES,
@@ -28,9 +28,9 @@ from checks.i2_1.facts import (
     find_without_prefix,
     messages_naming_rate,
 )
-from tutor.judge.bench import Bench
+from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.rates import measure
+from tutor.judge.rates import Rate, measure
 from tutor.judge.trace import Trace
 from tutor.judge.waiting import IDLE_S, measure_steady_rate, wait_for_message, wait_until_seen, window_s
 
@@ -70,15 +70,23 @@ async def _start_at_rate(bench: Bench, parameters: Mapping[str, Any]) -> RatedSt
         bench.report_progress(0.2, " ".join(f"{name}:={value}" for name, value in parameters.items()))
         # Longer than LAUNCH_HZ seconds, the period of a node that takes the rate for a period.
         if not await wait_for_message(run, TOPIC, TYPE, message_gap_s=LAUNCH_HZ + 1):
-            return RatedStart(run.trace(), None, 0)
+            return await _rated_start(run, hz, None, 0)
         since = run.samples_on(TOPIC)[0].source_time
         if PREFIX in parameters:
             await run.until(lambda: run.now() >= since + window_s(hz), window_s(hz) + 1.0, idle_s=IDLE_S)
             samples = run.samples_on(TOPIC)
             if find_without_prefix(samples, parameters[PREFIX]):  # it has failed, so a rough rate will do
-                return RatedStart(run.trace(), measure(samples), len(samples))
-        rate, messages = await measure_steady_rate(run, TOPIC, hz, since=since)
-        return RatedStart(run.trace(), rate, messages)
+                return await _rated_start(run, hz, measure(samples), len(samples))
+        return await _rated_start(run, hz, *await measure_steady_rate(run, TOPIC, hz, since=since))
+
+
+async def _rated_start(run: Run, hz: float, rate: Rate | None, messages: int) -> RatedStart:
+    """The facts of a start at `hz`, whose rate was measured; a node that publishes at another one is asked for it."""
+    trace = run.trace()
+    took_rate = rate is not None and rate.agrees_with(hz)
+    if not took_rate and run.exit is None and run.graph.parameter_nodes:
+        took_rate = await read_parameters(run, (RATE,)) == (hz,)
+    return RatedStart(trace, rate, messages, took_rate)
 
 
 async def _start_disabled(bench: Bench) -> DisabledStart:

@@ -9,10 +9,12 @@ from checks.i2_1.facts import (
     RATE,
     AtomicRequests,
     BadRates,
+    RateChanges,
     RuntimeChanges,
     text_of,
 )
 from checks.i2_1.failures import (
+    describe_refusal,
     fail_not_running,
     fail_not_set,
     rate_is_unchanged,
@@ -24,7 +26,7 @@ from tutor.judge.causes import parameter_callback_slips, period_slips, spinning
 from tutor.judge.rates import describe
 from tutor.judge.rewriting.node import find_in_files, started_node
 from tutor.judge.trace import Trace
-from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 
 @with_steps
@@ -35,6 +37,8 @@ def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
         return fail_not_running(seen, expected)
     if (accepted := _fail_if_not_refused(seen, expected)) is not None:
         return accepted
+    if seen.set_good is not None:
+        return skipped(f"not judged, because {describe_refusal(seen.set_good)}: see `timer`")
     if not rate_is_unchanged(seen.rate, seen.base_hz, switched, seen.rate_before):
         cause = causes.diagnose_process(seen.trace) if seen.trace.exit else None
         cause = cause or _diagnose_change(seen.trace, "the rate changes although the value was rejected")
@@ -111,11 +115,17 @@ def _diagnose_no_validation(trace: Trace, bad: float) -> Cause:
 
 
 @with_steps
-def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
+def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges, retimed: RateChanges) -> Verdict:
     """Judge `atomic`."""
     expected = f"an atomic set of a good {PREFIX} and a bad {RATE}, in either order, changes nothing at all"
     if not seen.answers:
         return fail_not_running(seen, expected)
+    if seen.set_good is not None and seen.set_good.answered and not seen.set_good.successful:
+        why = describe_refusal(seen.set_good)
+        set_rate = retimed.steps[0][0] if retimed.steps else None
+        each = (("runtime-params", switched.set_prefix), ("timer", set_rate))
+        alone = [name for name, answer in each if answer is not None and not answer.successful]
+        return skipped(f"not judged, because {why}{f': see `{alone[0]}`' if alone else ''}")
     unanswered = next((answer for answer in seen.answers if not answer.answered), None)
     if unanswered is not None:
         return _fail_if_crashed(BAD_RATES[1], expected, seen.trace) or fail_not_set(
@@ -127,8 +137,6 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges) -> Verdict:
             "the request was accepted",
             _diagnose_no_validation(seen.trace, BAD_RATES[1]),
         )
-    if "declared" in seen.answers[0].reason:
-        return fail_not_set(expected, seen.answers[0], seen.trace, seen.stuck)
     changed = next((held for held in seen.values if held != seen.before), None)
     partial = steps.check_all_first(seen.trace)
     if changed is not None or seen.shown is not None:

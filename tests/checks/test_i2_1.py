@@ -56,7 +56,7 @@ from tests.checks.builders import (
 from tests.judge.crashes import crash
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Sample, SetAnswer, Trace
-from tutor.judge.verdict import Verdict
+from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import Parameter
 
 PUBLISHING = graph(publishers={TOPIC: TYPE})
@@ -440,6 +440,13 @@ def test_a_custom_reason_may_contain_wording_from_rclpy(reason: str) -> None:
     assert_passed(judge_validation(refusing, WITHOUT_RATE_BEFORE))
 
 
+def test_validation_is_not_judged_where_a_good_rate_is_rejected() -> None:
+    verdict = judge_validation(bad_rates(set_good=refused({RATE: 3.0}, "not now")), WITHOUT_RATE_BEFORE)
+    assert verdict.status is Status.SKIPPED
+    assert "not now" in verdict.cause
+    assert "see `timer`" in verdict.cause
+
+
 def test_answers_that_are_right_so_far_pass() -> None:
     assert_passed(judge_validation_so_far(bad_rates(hz=None)))
     assert_passed(judge_validation_so_far(BadRates(RUNNING, rejected=REFUSED[:1])))
@@ -560,7 +567,7 @@ def test_a_rate_that_was_never_right_only_has_to_stay() -> None:
     # A node that never reads publish_rate fails other criteria.
     fixed = runtime_changes(before=rate(2.05))
     assert_passed(judge_validation(bad_rates(hz=2.0), fixed))
-    assert_passed(judge_atomic(atomic_requests(rate=rate(2.0)), fixed))
+    assert_passed(judge_atomic(atomic_requests(rate=rate(2.0)), fixed, RateChanges(RUNNING)))
     assert_failed(judge_validation(bad_rates(hz=5.0), fixed), "value changed all the same")
     assert_failed(judge_validation(bad_rates(hz=None), fixed), "value changed all the same")
     refused_at = [(answer, VALIDATION_HZ) for answer, _ in REFUSED]
@@ -569,8 +576,8 @@ def test_a_rate_that_was_never_right_only_has_to_stay() -> None:
 
 
 def test_atomic_passes() -> None:
-    assert_passed(judge_atomic(atomic_requests(), WITHOUT_RATE_BEFORE))
-    assert_passed(judge_atomic(atomic_requests(rate=rate(2.1), base_hz=2.0), WITHOUT_RATE_BEFORE))
+    for found in (atomic_requests(), atomic_requests(rate=rate(2.1), base_hz=2.0)):
+        assert_passed(judge_atomic(found, WITHOUT_RATE_BEFORE, RateChanges(RUNNING)))
 
 
 ACCEPTED, NO_ANSWER = answer({RATE: -1.0}), answer({RATE: -1.0}, answered=False)
@@ -585,7 +592,6 @@ NO = refused({RATE: -1.0})
         (atomic_requests(answers=(NO, NO_ANSWER)), "blocked executor", "no answer"),
         (atomic_requests(answers=(NO, ACCEPTED)), "no validation", "accepted"),
         (atomic_requests(answers=(ACCEPTED, NO)), "no validation", "accepted"),
-        (atomic_requests(answers=(refused(BAD, "x has not been declared"), NO)), "parameter not declared", ""),
         (atomic_requests(values=(("a", 1.0), BEFORE)), "partial change", "('a', 1.0)"),
         (atomic_requests(values=(BEFORE, ("Hello", -1.0))), "partial change", "-1.0"),
         (atomic_requests(shown=sample(TOPIC, "Partial1 3", 1005.0)), "partial change", "Partial1 3"),
@@ -594,10 +600,27 @@ NO = refused({RATE: -1.0})
     ],
 )
 def test_atomic_fails(found: AtomicRequests, cause: str, word: str) -> None:
-    assert_failed(judge_atomic(found, WITHOUT_RATE_BEFORE), cause, word)
+    assert_failed(judge_atomic(found, WITHOUT_RATE_BEFORE, RateChanges(RUNNING)), cause, word)
+
+
+@pytest.mark.parametrize(
+    ("prefix_set", "rate_set", "see"),
+    [(True, False, "see `timer`"), (False, False, "see `runtime-params`"), (True, True, "not judged")],
+)
+def test_atomic_is_not_judged_where_good_values_are_rejected(prefix_set: bool, rate_set: bool, see: str) -> None:
+    good = {PREFIX: "Whole1", RATE: 3.0}
+    found = atomic_requests(set_good=refused(good, WRONG_TYPE))
+    switched = runtime_changes(set_prefix=answer({PREFIX: "a"}, successful=prefix_set))
+    retimed = RateChanges(RUNNING, ((answer({RATE: 10.0}, successful=rate_set), None, 0),))
+    verdict = judge_atomic(found, switched, retimed)
+    assert verdict.status is Status.SKIPPED
+    assert WRONG_TYPE in verdict.cause
+    assert see in verdict.cause
+    assert_passed(judge_atomic(replace(found, set_good=answer(good)), switched, retimed))
 
 
 COMPLAINT = "publish_rate must be > 0"
+TOOK_RATE = ParameterStarts("Ahoy7", RatedStart(RUNNING, rate(LAUNCH_HZ), 10, took_rate=True))
 
 
 def start(bad: float, **more: Any) -> Trace:
@@ -619,7 +642,15 @@ def starts(**more: Any) -> list[Trace]:
     ],
 )
 def test_bad_launch_passes(seen: list[Trace]) -> None:
-    assert_passed(judge_bad_launch(plain_start(seen=trace(logs=[log("publish_rate: 1.0 Hz")])), seen))
+    plain = plain_start(seen=trace(logs=[log("publish_rate: 1.0 Hz")]))
+    assert_passed(judge_bad_launch(plain, seen, TOOK_RATE))
+
+
+def test_bad_launch_is_not_judged_where_a_good_rate_is_not_taken() -> None:
+    seen = starts(err=crash(f"raise ValueError('{COMPLAINT}')"), exit=exited(1))
+    verdict = judge_bad_launch(plain_start(), seen, parameter_starts())
+    assert verdict.status is Status.SKIPPED
+    assert "see `launch-params`" in verdict.cause
 
 
 @pytest.mark.parametrize(
@@ -647,7 +678,7 @@ def test_bad_launch_passes(seen: list[Trace]) -> None:
 )
 def test_bad_launch_fails(seen: list[Trace], cause: str, word: str) -> None:
     plain = plain_start(seen=trace(logs=[log("publish_rate: 1.0 Hz")]))
-    assert_failed(judge_bad_launch(plain, seen), cause, word)
+    assert_failed(judge_bad_launch(plain, seen, TOOK_RATE), cause, word)
 
 
 def test_messages_naming_the_rate() -> None:

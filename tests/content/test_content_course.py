@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 
 from tutor.content import Lesson, LessonFile, lint_course, load_course
+
+README = Path(__file__).parents[2] / "README.md"
 
 CRITERIA = {
     "i1.1": ("publishes range random echo rate sensor-name", "shutdown"),
@@ -111,3 +114,11 @@ def test_lines_of_skeletons_fit_the_code_page_of_the_app() -> None:
         if len(line) > 72
     ]
     assert not wide
+
+
+def test_texts_say_what_a_check_does_with_the_source() -> None:
+    # Reports quote lines, so it is read; it decides nothing.
+    for text in [lesson.body for lesson in lessons()] + [README.read_text(encoding="utf-8")]:
+        words = " ".join(text.split())
+        assert "never reads" not in words
+        assert re.search(r"never (decides )?by (the|your) source code, though a report may quote", words)

@@ -15,6 +15,7 @@ from tutor.errors import EngineError
 from tutor.judge.bench import Bench
 from tutor.judge.events import CheckStarted, CriterionJudged, ExerciseJudged, Progress
 from tutor.judge.verdict import Cause, Status, Verdict, failed, passed
+from tutor.workspace import digest_of_file
 
 CAUSE = Cause("no", "it does not", "do it")
 
@@ -64,6 +65,18 @@ async def test_facts_are_gathered_once_however_many_criteria_use_them(scene: Sce
     result = await scene.judge(criterion("a", first), criterion("b", first, second), criterion("c", second))
     assert sorted(ran) == ["first", "second"]
     assert [c.verdict.observed for c in result.criteria] == ["('one',)", "('one', 'oneone two')", "('oneone two',)"]
+
+
+async def test_a_result_has_the_digests_of_the_files_as_they_were_when_the_check_began(scene: Scene) -> None:
+    began: list[str] = []
+
+    async def edited_meanwhile(bench: Bench) -> None:
+        began.append(digest_of_file(scene.folder / FILE))
+        (scene.folder / FILE).write_text("# another version\n")
+
+    result = await scene.judge(criterion("a", edited_meanwhile))
+    assert result.digests == {FILE: began[0]}
+    assert began[0]
 
 
 async def test_criteria_that_depend_on_a_failure_are_skipped(scene: Scene) -> None:

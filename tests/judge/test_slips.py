@@ -443,15 +443,6 @@ def test_a_callback_made_in_a_loop_sees_the_values_of_the_last_iteration() -> No
     assert late_binding.diagnose_late_binding(node(text.replace("q, r:", "q, r, op=op:"))) is None
 
 
-def test_the_experimental_executor_is_replaced() -> None:
-    text = "from rclpy.experimental import EventsExecutor\nexecutor = EventsExecutor()"
-    found = slips.diagnose_events_executor(node_file(text))
-    assert found is not None
-    assert "executor = MultiThreadedExecutor()" in found.hint
-    assert "from rclpy.executors import MultiThreadedExecutor" in found.hint
-    assert slips.diagnose_events_executor(node_file("executor = SingleThreadedExecutor()")) is None
-
-
 @pytest.mark.parametrize(("number", "wrong"), [("100000000", True), ("1e9", False), ("1000000000", False)])
 def test_a_period_in_nanoseconds(number: str, wrong: bool) -> None:
     found = period_slips.diagnose_nanoseconds(node_file(f"self.t.timer_period_ns = {number} // rate"))

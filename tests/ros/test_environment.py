@@ -112,7 +112,8 @@ def test_a_learners_environment_is_clean(tmp_path: Path) -> None:
     )
     for name, value in unwanted.items():
         assert env.get(name) != value, name
-    assert env["PYTHONPATH"].split(":") == [str(package_root), str(bundled_interfaces.site_packages()), "/home/me/lib"]
+    ours = [str(bundled_interfaces.startup_folder()), str(bundled_interfaces.site_packages())]
+    assert env["PYTHONPATH"].split(":") == [str(package_root), *ours, "/home/me/lib"]
     assert env["AMENT_PREFIX_PATH"].split(":") == [str(bundled_interfaces.prefix()), sys.prefix]
     assert env["PATH"].split(":")[0] == str(Path(sys.prefix) / "bin")
     assert env["FASTRTPS_DEFAULT_PROFILES_FILE"] == env["FASTDDS_DEFAULT_PROFILES_FILE"] == str(discovery.PROFILE)

@@ -254,6 +254,53 @@ async def test_a_change_of_the_code_makes_verdicts_stale_and_a_save_replaces_the
         await me.until(lambda: me.main.model.progress.of("i1.1").best is Status.PASSED)
 
 
+async def test_what_is_said_of_the_code_is_true_of_every_file_on_disk_however_it_was_saved(learner: Any) -> None:
+    changed = "your code has changed since this check"
+    async with learner() as me:
+        await me.press("2")
+        await me.sees("the sensor is warm")
+
+        # Saved outside and checked at once: that version is the one that is judged.
+        me.file.write_text("# another version\n")
+        await me.start_check()
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
+        await me.sees("# another version", "Next step", "2 of 3 passed")
+        await me.end_check()
+        assert changed not in me.screen()
+
+        # A save that changes nothing leaves a running check alone, even if each save begins one.
+        await me.press("escape", "w")
+        await me.start_check()
+        await me.engine_emits(fakes.progress_event("rate", 0.3, "listening"))
+        await me.sees("listening")
+        checking = me.main.checks.running
+        await me.press("ctrl+s")
+        await me.sees("is saved")
+        assert me.main.checks.running is checking
+        assert not checking.cancelled
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
+        await me.end_check()
+        await me.press("w")
+
+        # The other file of an exercise counts, too, though it is not shown.
+        await me.press("n", "s")
+        await me.until(lambda: all(path.exists() for path in me.main.model.paths))
+        client = me.main.model.paths[1]
+        await me.press("c")
+        lesson = me.main.model.lesson
+        await me.engine_emits(*fakes.lesson_final_events(lesson, fakes.BAD))
+        await me.end_check()
+        assert changed not in me.screen()
+        was = client.read_text()
+        client.write_text("# another client\n")
+        await me.sees(changed)
+        client.write_text(was)
+        await me.sees_no(changed)
+        client.unlink()
+        await me.sees(changed)
+        assert len(me.main.query("CodeEditor")) == 2, "none for a file that was never shown"
+
+
 async def test_after_a_restart_the_last_check_is_shown_and_hints_begin_with_what_fails(tmp_path: Path) -> None:
     session = fakes.FakeSession(tmp_path / "learner")
     done = fakes.final_events(fakes.BAD)[-2]

@@ -161,6 +161,30 @@ async def test_a_parameter_is_set_in_the_table_and_the_nodes_response_is_kept(th
         await me.sees("serial is read-only")
 
 
+async def test_another_lesson_begins_without_the_parameters_and_outcomes_of_the_last(
+    thermometer_world: PrivateDomain,
+) -> None:
+    course = load_course()
+    first, second = course.find("i1.1"), course.find("i1.2")
+    async with watching(thermometer_world, (100, 24)) as me:
+        me.app.pane.set_lesson(first)
+        await me.sees("Parameters 5")
+        await me.open_tab("Parameters")
+        me.app.pane.focus_content()
+        await me.press("down", "down", "enter", "ctrl+u", *"99", "enter")
+        await me.sees("publish_rate = 99.0  rejected")
+        me.app.pane.set_lesson(second)
+        await me.sees_no("publish_rate")
+        await me.sees("From another exercise: /thermometer. u lists their parameters, too.")
+        await me.sees_no("Parameters 5")
+        await me.press("u")
+        await me.sees("/thermometer", "0.1 to 50")
+        await me.sees_no("From another exercise")
+        await me.press("u")
+        me.app.pane.set_lesson(first)
+        await me.sees("Parameters 5", "0.1 to 50")
+
+
 async def test_the_lessons_topic_and_service_are_selected_and_a_call_by_form_shows_the_response_and_its_time(
     thermometer_world: PrivateDomain,
 ) -> None:
@@ -186,6 +210,8 @@ async def test_the_lessons_topic_and_service_are_selected_and_a_call_by_form_sho
         await me.sees("✓", "/add a=4, b=38", "answered in", "sum: 42")
         await me.open_tab("Parameters")  # the node has changed one itself
         await me.until(lambda: calls_parameter() == before + 1)
+        me.app.pane.focus_content()
+        await me.press("u")  # the node is from another exercise
         await me.sees("calls")
 
 

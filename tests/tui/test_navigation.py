@@ -9,11 +9,12 @@ from typing import Any
 import pytest
 from textual.color import Color
 from textual.css.stylesheet import Stylesheet
-from textual.events import Paste
+from textual.events import AppBlur, Paste
 from textual.widgets._footer import FooterKey
 from textual.widgets.markdown import MarkdownBlock
 
 from tests.tui import fakes
+from tutor.tui.app import TutorApp
 from tutor.tui.commands import all_commands
 from tutor.tui.control.layout import Criteria, Layout, layout_for
 from tutor.tui.dialogs.help import KeyTable
@@ -160,6 +161,8 @@ async def test_every_command_has_a_handler_and_help_names_every_key(learner: Any
         assert "Stop everything and leave" in help
         assert not [key for key in ("Ctrl+F", "Ctrl+G", "Ctrl+A", "Ctrl+Home", "Ctrl+End", "Ctrl+Z") if key not in help]
         assert all(len(line) <= table.size.width for table in tables for line in str(table.render()).split("\n"))
+        left, right = tables
+        assert left.region.right < right.region.x, "a text and the key beside it would read as one word"
         await me.press("escape")
         await me.sees_no("Run your node in your own ROS domain")
 
@@ -181,6 +184,25 @@ async def test_the_palette_goes_to_a_lesson_and_to_a_line_in_one(learner: Any) -
         await me.press("up", "enter")
         await me.until(lambda: me.main.model.lesson.id == "i2.3", "the lesson is open")
         await me.sees("I2.3  Multi-Threaded Service", "Publish random values")
+
+
+async def test_a_page_in_a_browser_shows_the_keys_before_the_first_one(
+    learner: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(TutorApp, "is_web", True)
+    opened = TutorApp.get_default_screen
+
+    def opened_without_focus(self: TutorApp) -> Any:
+        self.post_message(AppBlur())  # as Textual's driver does
+        return opened(self)
+
+    monkeypatch.setattr(TutorApp, "get_default_screen", opened_without_focus)
+    async with learner() as me:
+        await me.sees("c Check", "q Quit")
+        assert me.app.focused is not None
+        me.app.post_message(AppBlur())
+        await me.until(lambda: not me.app.app_focus, "the page has lost the focus")
+        await me.sees("c Check", "q Quit")
 
 
 @pytest.mark.parametrize("theme", [DARK, LIGHT], ids=lambda theme: theme.name)

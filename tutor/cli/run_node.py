@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1; ends with Ctrl+C")
     parser.add_argument("file", metavar="FILE", nargs="?", help="which of its files (default: the first one)")
     parser.epilog = (
-        "Arguments after -- go to the node: -- --ros-args -p publish_rate:=2.0 (for a launch file: -- topic:=/x)"
+        "Arguments after -- go to the node: -- --ros-args -p publish_rate:=2.0 (for a launch file: -- topic:=my_topic)"
     )
     parser.set_defaults(rest=[])
 

@@ -29,6 +29,7 @@ from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault
 from tutor.process.fork_link import ForkServerLink
 from tutor.ros.environment import RosEnvironment
+from tutor.workspace import digests_of
 
 OnEvent = Callable[[Event], None]
 
@@ -94,6 +95,7 @@ class Runner:
         exercise = self._check.exercise
         self._announce()
         self._started = time.monotonic()
+        digests = digests_of(self._submission.files)
         needed = _with_dependencies(self._check, self._shown)
         try:
             for criterion in needed:
@@ -112,6 +114,7 @@ class Runner:
             criteria=tell_roots_once(results),
             duration_s=self._elapsed_s(),
             unjudged=unjudged,
+            digests=digests,
         )
         if result.verdict is Status.PASSED and not unjudged:
             result = replace(result, remarks=self._remarks())

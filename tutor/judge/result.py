@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from tutor.judge.verdict import Status, Verdict
 
@@ -36,8 +36,9 @@ class Remark:
 class ExerciseResult:
     """One judged exercise. `submission` holds the names of the judged files; empty if there were none.
 
-    `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure. `remarks`: at
-    most two, if everything required passed.
+    `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure. `digests`: the
+    digest of each of these files when the check began (see `tutor.workspace.digests`). `remarks`: at most two, if
+    everything required passed.
     """
 
     id: str
@@ -46,6 +47,7 @@ class ExerciseResult:
     criteria: tuple[CriterionResult, ...]
     duration_s: float
     unjudged: tuple[str, ...] = ()
+    digests: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[Remark, ...] = ()
 
     @property

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from tutor.content.plain_text import without_markup
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
 from tutor.judge.wording import counted
@@ -21,7 +22,6 @@ _STATUS_WORDS = {
 
 _HEADING = re.compile(r"#+\s+(.*)")
 _ITEM = re.compile(r"\s*(?:[-*+]|\d+\.)\s")
-_MARKUP = re.compile(r"`+([^`]+)`+|\*\*(.+?)\*\*|(?<![\w*])\*([^*\s][^*]*)\*(?![\w*])|\[([^\]]+)\]\([^)]*\)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ def _spoken_lines(markdown: str) -> Iterator[tuple[bool, str]]:
         heading = None if fenced else _HEADING.fullmatch(line)
         ends_paragraph = fence or fenced or heading is not None or not line.strip() or _ITEM.match(line) is not None
         if ends_paragraph and paragraph:
-            yield False, _plain(" ".join(paragraph))
+            yield False, without_markup(" ".join(paragraph))
             paragraph = []
         if fence:
             fenced = not fenced
@@ -63,13 +63,9 @@ def _spoken_lines(markdown: str) -> Iterator[tuple[bool, str]]:
             if line.strip():
                 yield False, line
         elif heading is not None:
-            yield True, _plain(heading[1])
+            yield True, without_markup(heading[1])
         elif line.strip():
             paragraph.append(line.strip())
-
-
-def _plain(text: str) -> str:
-    return _MARKUP.sub(lambda found: next(group for group in found.groups() if group is not None), text)
 
 
 def outcome(result: ExerciseResult) -> str:

@@ -32,6 +32,11 @@ def library_dir() -> Path:
     return prefix() / "lib"
 
 
+def startup_folder() -> Path:
+    """Return the folder to put on `PYTHONPATH` whose `sitecustomize` repairs what does not work in the ROS wheels."""
+    return Path(__file__).resolve().parent.parent / "bundled_ros" / "startup"
+
+
 def activate() -> None:
     """Make `import example_interfaces` work in this process. Does nothing if it already does.
 

@@ -175,7 +175,8 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
         env["LD_LIBRARY_PATH"] = prefixes.join_entries(
             [*prefixes.bundled_libraries(), *prefixes.without_ros(environ, "LD_LIBRARY_PATH")]
         )
-        python_path = [str(bundled_interfaces.site_packages()), *prefixes.without_ros(environ, "PYTHONPATH")]
+        ours = (bundled_interfaces.startup_folder(), bundled_interfaces.site_packages())
+        python_path = [*map(str, ours), *prefixes.without_ros(environ, "PYTHONPATH")]
         env["AMENT_PREFIX_PATH"] = prefixes.join_entries([bundled_interfaces.prefix(), sys.prefix])
         rest = {name: prefixes.without_ros(environ, name) for name in _ROS_PATH_VARIABLES}
     else:

@@ -24,7 +24,7 @@ def join_entries(parts: Iterable[str | Path]) -> str:
 
 
 def is_bundled(entry: str | Path) -> bool:
-    """Return whether a path is in the bundled ROS: our own environment, or the interfaces built for it."""
+    """Return whether a path is in the bundled ROS: our own environment, or what we add to it."""
     path = Path(entry)
     return any(path.is_relative_to(root) for root in _own_roots())
 
@@ -72,6 +72,6 @@ def holds_package(prefix: Path, package: str) -> bool:
 def _own_roots() -> tuple[Path, ...]:
     # Outside a virtual environment, a prefix such as /usr also holds things that are not ours: only the wheels count.
     prefix = Path(sys.prefix)
-    if sys.prefix != sys.base_prefix:
-        return (prefix, bundled_interfaces.prefix())
-    return (prefix / SITE_PACKAGES, bundled_interfaces.prefix())
+    if sys.prefix == sys.base_prefix:
+        prefix /= SITE_PACKAGES
+    return (prefix, bundled_interfaces.prefix(), bundled_interfaces.startup_folder())

@@ -26,7 +26,7 @@ def problem(options: RunOptions, *, launch: bool) -> str:
     """Return an error message for the first invalid line, with the expected syntax; empty if all are valid."""
     for line in options.parameters:
         if launch and not _ARGUMENT.fullmatch(line):
-            return f"'{line}' is not a launch argument: write name:=value, as in topic:=/news"
+            return f"'{line}' is not a launch argument: write name:=value, as in topic:=my_topic"
         if not launch and not _PARAMETER.fullmatch(line):
             return f"'{line}' sets no parameter: write name:=value, as in publish_rate:=2.0"
     for line in options.remaps:

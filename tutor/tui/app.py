@@ -10,7 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from textual.app import SystemCommand
-from textual.events import Event, Key, Paste
+from textual.events import AppBlur, Event, Key, Paste
 from textual.screen import Screen
 
 from tutor.session import Session
@@ -41,6 +41,7 @@ class TutorApp(TextApp[int]):
         self.session = session
         self.main: MainScreen | None = None
         self._leaving = False
+        self._page_opened = False
         self._typeahead = Typeahead(self, super().on_event)
         self._early_warnings: list[str] = []
         session.notify = self._early_warnings.append
@@ -55,6 +56,15 @@ class TutorApp(TextApp[int]):
             await self._typeahead.take(event)
         else:
             await super().on_event(event)
+
+    def on_app_blur(self, event: AppBlur) -> None:
+        """In a browser, ignore the first one, which Textual's driver sends: a page has the focus when it opens.
+
+        Without the focus, the foot of the screen shows no keys, and the arrow keys move nothing.
+        """
+        if self.is_web and not self._page_opened:
+            self._page_opened = True
+            event.prevent_default()
 
     def get_default_screen(self) -> Screen[Any]:
         """Return the screen that is painted first."""

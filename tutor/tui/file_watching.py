@@ -1,9 +1,9 @@
-"""Watches a file on disk for changes by any program."""
+"""Watches files on disk for changes by any program."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 POLL_INTERVAL_S = 0.4
@@ -11,14 +11,15 @@ POLL_INTERVAL_S = 0.4
 _Stamp = tuple[int, int, int] | None
 
 
-async def watch_file(path: Path, on_change: Callable[[], object]) -> None:
-    """Call `on_change` now and after each change to the file, until cancelled."""
-    seen: object = "nothing yet"  # unlike any stamp, so that the first look counts as a change
+async def watch_files(paths: Sequence[Path], on_change: Callable[[Path], object]) -> None:
+    """Call `on_change` with each of the files now, and after each change to it, until cancelled."""
+    seen: dict[Path, _Stamp] = {}  # empty, so that the first look counts as a change
     while True:
-        stamp = _stamp(path)
-        if stamp != seen:
-            seen = stamp
-            on_change()
+        for path in paths:
+            stamp = _stamp(path)
+            if path not in seen or stamp != seen[path]:
+                seen[path] = stamp
+                on_change(path)
         await asyncio.sleep(POLL_INTERVAL_S)
 
 

@@ -56,7 +56,14 @@ class Started(Message):
 
 @dataclass
 class FileTouched(Message):
-    """The file shown has appeared, changed or disappeared on disk; any program may be the cause, including this app."""
+    """A file of the lesson has appeared, changed or disappeared on disk, by whatever program, be it this app."""
+
+    path: Path
+
+
+@dataclass
+class FileRead(Message):
+    """The app has read a file, and knows its content on disk."""
 
     path: Path
 

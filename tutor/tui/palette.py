@@ -11,6 +11,7 @@ from textual.command import DiscoveryHit, Hit, Hits, Provider
 from textual.content import Content
 
 from tutor.content import Lesson
+from tutor.content.plain_text import plain_lines
 from tutor.tui import wording
 from tutor.tui.commands import all_commands
 from tutor.tui.control.host import HostScreen
@@ -67,7 +68,7 @@ class LessonText(Provider):
 
 
 def _find_lines(lessons: tuple[Lesson, ...], query: str, first: Lesson) -> Iterator[tuple[Lesson, int, str]]:
-    """Yield the lines that contain `query`, ignoring case, as (lesson, line number in its body from 0, text).
+    """Yield the lines that contain `query`, ignoring case, as (lesson, line number in its body from 0, plain text).
 
     Those of the lesson `first` come first.
     """
@@ -75,9 +76,9 @@ def _find_lines(lessons: tuple[Lesson, ...], query: str, first: Lesson) -> Itera
     if len(wanted) < MIN_QUERY_LENGTH:
         return
     for lesson in sorted(lessons, key=lambda each: each is not first):
-        for number, line in enumerate(lesson.body.splitlines()):
-            if wanted in line.casefold():
-                yield lesson, number, line.strip().lstrip("#>*- ").strip("`") or line.strip()
+        for number, text in plain_lines(lesson.body):
+            if wanted in text.casefold():
+                yield lesson, number, text
 
 
 def _literal_pattern(query: str) -> str:

@@ -2,6 +2,7 @@
 
 from tutor.workspace.app_state import AppState, AppStateFile, RunOptions
 from tutor.workspace.atomic import write_atomically
+from tutor.workspace.digests import Digests, digest_of_file, digest_of_text, digests_of, has_changed
 from tutor.workspace.domain import domain_of, given_domain
 from tutor.workspace.exercise_states import ExerciseState, State, exercise_state, last_met, states_of
 from tutor.workspace.layout import Workspace, find_workspace
@@ -17,6 +18,7 @@ __all__ = [
     "AppState",
     "AppStateFile",
     "Attempt",
+    "Digests",
     "ExerciseProgress",
     "ExerciseState",
     "Placed",
@@ -28,11 +30,15 @@ __all__ = [
     "State",
     "Workspace",
     "back_up_file",
+    "digest_of_file",
+    "digest_of_text",
+    "digests_of",
     "domain_of",
     "exercise_state",
     "find_submission",
     "find_workspace",
     "given_domain",
+    "has_changed",
     "is_own",
     "is_started",
     "last_met",

@@ -37,16 +37,11 @@ def diagnose_process(trace: Trace) -> Cause | None:
         return _diagnose_exit(trace)
     if not trace.graph.nodes:
         file = started_node(trace)
-        return (
-            slips.diagnose_other_domain(file)
-            or slips.diagnose_events_executor(file)
-            or Cause(
-                "no node",
-                f"the process runs, but made no ROS node{' and prints without end' if trace.dropped_lines else ''}",
-                first_sound_step(trace, whole_program)
-                or "call rclpy.init(), create your node, then rclpy.spin(node); a loop before that keeps it from "
-                "happening",
-            )
+        return slips.diagnose_other_domain(file) or Cause(
+            "no node",
+            f"the process runs, but made no ROS node{' and prints without end' if trace.dropped_lines else ''}",
+            first_sound_step(trace, whole_program)
+            or "call rclpy.init(), create your node, then rclpy.spin(node); a loop before that keeps it from happening",
         )
     return None
 

@@ -190,20 +190,6 @@ def diagnose_other_domain(file: NodeFile) -> Cause | None:
     return None
 
 
-def diagnose_events_executor(file: NodeFile) -> Cause | None:
-    """Whether the program uses rclpy's experimental EventsExecutor.
-
-    In the wheels of rclpy 7.1.6 it is busy in `spin()` without running any callback, and keeps Python's lock.
-    """
-    made = file.calls("EventsExecutor")
-    name, imported = file.import_name("MultiThreadedExecutor", "rclpy.executors")
-    step = file.step([*imported, *edits.replace_nodes(file.text, *((call, f"{name}()") for call in made))])
-    if not made or step is None:
-        return None
-    text = f"{source.where(made[0])}: this experimental executor runs no callbacks in the bundled ROS"
-    return Cause("EventsExecutor", text, step)
-
-
 def diagnose_bare_topic_names(file: NodeFile) -> Cause | None:
     """Whether a QoS profile has DDS use topic names as they are, so that ROS nodes do not find each other."""
     for node in ast.walk(file.tree):

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 
 from tutor import invocation
 from tutor.content import Lesson
@@ -19,6 +19,7 @@ from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
+from tutor.workspace import Digests, digests_of, has_changed
 
 CRASHED = (
     "This is a fault of ros-tutor or of the machine, not of your code. Check again; if it persists, run: "
@@ -40,8 +41,8 @@ class Checks:
         self._host, self._files, self._records, self._preferences, self._show = host, files, records, preferences, show
         self.running: CheckProcess | None = None
         self._engines = EngineStarter(host.model.session.engine_command)
-        self._checked_texts: dict[str, dict[Path, str]] = {}
-        """The text of each exercise's files when they were last checked, by exercise id."""
+        self._judged: dict[str, Digests] = {}
+        """The version of each exercise's files that was last judged, by exercise id."""
         self._recheck: Lesson | None = None
         """The lesson to check once the running check, being cancelled, has ended."""
         self._closing = False
@@ -83,19 +84,24 @@ class Checks:
             return
         if self.running is None:
             self._begin(model.lesson)
-        else:
+        elif self.running.exercise != model.lesson.id or self._differs(model.lesson):
             self._recheck = model.lesson
             self._cancel_running("started again: your file has changed")
 
     def edited(self) -> None:
-        """Handle an edit: mark the verdicts as outdated while the files differ from what was checked."""
+        """Handle an edit."""
         self._keep_engine_ready()
+        self.compare_files()
+
+    def compare_files(self) -> None:
+        """Mark the lesson's verdicts as outdated while its files differ from what was judged."""
         model = self._host.model
         found = model.findings[model.lesson.id]
-        checked, current = self._checked_texts.get(model.lesson.id, {}), self._files.texts(model.lesson)
-        outdated = any(current.get(path, text) != text for path, text in checked.items())
-        if outdated != found.outdated:
+        if (outdated := self._differs(model.lesson)) != found.outdated:
             self._update(replace(found, outdated=outdated))
+
+    def _differs(self, lesson: Lesson) -> bool:
+        return has_changed(self._judged.get(lesson.id, {}), self._files.digests(lesson))
 
     def _begin(self, lesson: Lesson) -> None:
         model = self._host.model
@@ -114,7 +120,9 @@ class Checks:
 
     async def _run(self, lesson: Lesson, checking: CheckProcess) -> None:
         await self._files.save_all()
-        self._checked_texts[lesson.id] = self._files.texts(lesson)
+        paths = {file.name: self._host.model.session.path(file) for file in lesson.files}
+        self._judged[lesson.id] = await asyncio.to_thread(digests_of, paths)
+        await self._files.read_again(lesson)  # what is judged is what the editor shows
         await checking.run()
 
     def _cancel_running(self, note: str) -> None:
@@ -126,8 +134,11 @@ class Checks:
         """Apply an event of the running check to the findings."""
         if self.running is None or self.running.cancelled:
             return
+        if isinstance(event, ExerciseJudged) and event.result.digests:
+            self._judged[event.result.id] = event.result.digests
         self._update(self._host.model.findings[self.running.exercise].with_event(event))
         if isinstance(event, ExerciseJudged):
+            self.compare_files()
             self._records.record_attempt(event.result)
 
     def over(self, ended: CheckEnded) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import signal
-from functools import partial
 from pathlib import Path
 
 from textual.timer import Timer
@@ -15,9 +14,9 @@ from tutor.session.paths import short_path
 from tutor.tui import commands, messages, wording
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.records import Records
-from tutor.tui.file_watching import watch_file
+from tutor.tui.file_watching import watch_files
 from tutor.tui.widgets.code_pane import CodePane
-from tutor.workspace import back_up_file, overwrite_file, read_source
+from tutor.workspace import back_up_file, digest_of_file, digest_of_text, overwrite_file, read_source
 
 AUTOSAVE_DELAY_S = 0.6
 """Edits are written to disk this many seconds after the first unsaved keystroke."""
@@ -30,6 +29,8 @@ class Files:
         self._host, self._pane, self._records = host, pane, records
         self._disk: dict[Path, str] = {}
         """The text of each file on disk, as last read or written by the app."""
+        self._digests: dict[Path, str] = {}
+        """The digest of each file on disk, likewise; empty if it is not there."""
         self._lock = asyncio.Lock()
         self._autosave: Timer | None = None
         self._closed = False
@@ -45,15 +46,17 @@ class Files:
     # --- which file ---
 
     def show(self, index: int) -> None:
-        """Show one of the lesson's files, and watch it on disk."""
+        """Show one of the lesson's files, and watch all of them on disk."""
         model = self._host.model
         model.file_index = index
         self._pane.show_names(model.paths, index)
-        self._watch(model.path)
+        self._watch()
 
-    def _watch(self, path: Path) -> None:
-        on_change = partial(self._host.post_message, messages.FileTouched(path))
-        self._host.start_worker(watch_file, path, on_change, group="file", exclusive=True)
+    def _watch(self) -> None:
+        def on_change(path: Path) -> None:
+            self._host.post_message(messages.FileTouched(path))
+
+        self._host.start_worker(watch_files, self._host.model.paths, on_change, group="file", exclusive=True)
 
     def next_file(self) -> None:
         """Show the lesson's other file."""
@@ -85,35 +88,40 @@ class Files:
             try:
                 text = await asyncio.to_thread(read_source, path)
             except StorageError as error:
+                self._digests[path] = await asyncio.to_thread(digest_of_file, path)
                 if path == self._host.model.path and not self._closed:
                     self._pane.show_missing(path, str(error))
-                return
-            if not self._closed:
-                await self._reconcile(path, text)
+            else:
+                if not self._closed:
+                    await self._reconcile(path, text)
+            self._host.post_message(messages.FileRead(path))
 
     async def _reconcile(self, path: Path, text: str | None) -> None:
         """Reconcile the editor with `text`, the file on disk (None: there is no file). The lock must be held."""
         known = self._disk.get(path)
+        shown = path == self._host.model.path
+        self._digests[path] = "" if text is None else digest_of_text(text)
         if text is None:
             if known is not None and self._pane.is_unsaved(path):
                 await self._write(path, None)  # removed while being edited: the editor's text wins
                 return
             self._disk.pop(path, None)
-            if path == self._host.model.path:
+            if shown:
                 self._pane.show_missing(path)
             return
         if text == known and self._pane.has_editor(path):
             self._pane.show_existing(path)  # usually our own save: anything typed since is newer than the disk
             return
+        changed = known not in (None, text)
         if known is not None and self._pane.is_unsaved(path):
             if text != self._pane.text(path):
                 await self._resolve_conflict(path, text)
                 return
             self._pane.mark_saved(path, text)
-        else:
-            await self._pane.show_source(path, text, visible=path == self._host.model.path)
+        elif shown or self._pane.has_editor(path):  # no editor before it is needed
+            await self._pane.show_source(path, text, visible=shown)
         self._disk[path] = text
-        if known is not None:
+        if changed:
             self._host.say(f"{path.name} was changed outside: this is the new version.")
             self._host.post_message(messages.FileSaved(path, outside=True))
         self._host.refresh_bindings()
@@ -155,10 +163,19 @@ class Files:
 
     # --- the learner has changed it ---
 
-    def texts(self, lesson: Lesson) -> dict[Path, str]:
-        """Return the current text of a lesson's files, as far as they have been read."""
-        paths = map(self._host.model.session.path, lesson.files)
-        return {path: self._pane.text(path) for path in paths if self._pane.has_editor(path)}
+    def digests(self, lesson: Lesson) -> dict[str, str]:
+        """Return the digests of a lesson's files, unsaved edits included, as far as they have been read."""
+        paths = {file.name: self._host.model.session.path(file) for file in lesson.files}
+        return {
+            name: digest_of_text(self._pane.text(path)) if self._pane.is_unsaved(path) else self._digests[path]
+            for name, path in paths.items()
+            if path in self._digests
+        }
+
+    async def read_again(self, lesson: Lesson) -> None:
+        """Read a lesson's files now, without waiting for the next look at the disk."""
+        for file in lesson.files:
+            await self.refresh(self._host.model.session.path(file))
 
     def typed(self) -> None:
         """Handle an edit: schedule an autosave."""
@@ -203,6 +220,7 @@ class Files:
             await self._reconcile(path, saved.found)
             return
         self._disk[path] = text
+        self._digests[path] = digest_of_text(text)
         self._pane.mark_saved(path, text)
         if saved.backup is not None:
             self._host.say(f"{path.name} was changed outside just now: that is kept as {saved.backup.name}.", warn=True)
@@ -242,7 +260,7 @@ class Files:
         """Show the code, now that the skeletons are in the workspace."""
         if message.exercise != self._host.model.lesson.id:
             return
-        self._watch(self._host.model.path)  # from now on: its first look reads the file
+        self._watch()  # from now on: its first look reads the files
         self._host.show_page("code")
         if message.written:
             self._host.say(f"{' and '.join(message.written)} is in your workspace: e to edit, then c to check.")
@@ -319,7 +337,7 @@ class Files:
                 self._host.show_error(str(error))
                 return
             if text is not None:
-                self._disk[path] = text
+                self._disk[path], self._digests[path] = text, digest_of_text(text)
                 await self._pane.show_source(path, text, visible=path == model.path)
         where = f" Yours is kept as {short_path(placed.backups[0])}." if placed.backups else ""
         self._host.say(f"{file.name} is the skeleton again.{where}", warn=True)

@@ -34,7 +34,7 @@ class RunOptionsScreen(Dialog[tuple[RunOptions, bool]]):
             window.border_title = Content(f"Run {self._file.name} with")
             window.border_subtitle = "F5 runs · Ctrl+S keeps · Esc cancels"
             kind = "Launch arguments" if self._is_launch else "Parameters"
-            example = "topic:=/news" if self._is_launch else "publish_rate:=2.0"
+            example = "topic:=my_topic" if self._is_launch else "publish_rate:=2.0"
             yield Static(_label(kind, f"one per line, as in {example}"))
             yield TextArea("\n".join(self._options.parameters), id="run-parameters", classes="dialog-lines")
             if not self._is_launch:

@@ -21,7 +21,7 @@ class AutomaticTopics:
 
     def set_lesson(self, view: LiveView) -> None:
         """Note the lesson that is shown. Topics followed so far go once they have no publisher, unless it has them."""
-        self._state.lesson_view = view
+        self._state.set_lesson(view)
         self._stale = {name for name in self._state.topics if not self._state.is_lesson_topic(name)}
         self._followed.clear()
 

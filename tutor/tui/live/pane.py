@@ -174,6 +174,7 @@ class LivePane(Vertical):
     def _show_all(self) -> None:
         self.query_one(TopicsPanel).show_list()
         self.query_one(ParametersPanel).show_list()
+        self.query_one(ParametersPanel).show_history()
         self.query_one(ServicesPanel).show_list()
         self.query_one(ServicesPanel).show_history()
         self.query_one(GraphPanel).show_list()
@@ -225,7 +226,7 @@ class LivePane(Vertical):
     def set_lesson(self, lesson: Lesson) -> None:
         """Choose this lesson's topics and service as soon as they appear, unless the learner has chosen others.
 
-        Topics of the previous lesson go once they have no publisher.
+        Topics of the previous lesson go once they have no publisher; its parameters, sets and calls at once.
         """
         if lesson.live is self.state.lesson_view:
             return
@@ -235,7 +236,7 @@ class LivePane(Vertical):
             self.query_one(TopicsPanel).chosen_by_learner = False
             self.query_one(ServicesPanel).chosen_by_learner = False
             self._choose_lesson_topics()
-            self._show_status()
+            self._show_all()
 
     def set_own_nodes_running(self, running: bool) -> None:
         """Note whether any of the learner's own nodes is running.

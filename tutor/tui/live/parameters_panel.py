@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 from typing import ClassVar
 
 from rich.text import Text
@@ -88,10 +89,17 @@ class ParametersPanel(Vertical):
         self._listed = listed
         if self.editing is not None and _key(self.editing) not in table.rows:
             self.action_leave()
-        silent = sorted(node for node, held in self.state.parameters.items() if not held.answered)
-        text = f"! {', '.join(silent)} does not answer: does it spin? (Retried every few seconds.)" if silent else ""
+        text = "\n".join(self._notes())
         self.query_one("#parameters-silent", Static).update(text)
-        self.set_class(bool(silent), "-silent")
+        self.set_class(bool(text), "-silent")
+
+    def _notes(self) -> Iterator[str]:
+        """Yield a line on nodes that are not listed, and one on nodes that do not answer."""
+        shown = [node for node in sorted(self.state.parameters) if self.show_all or self.state.is_of_lesson(node)]
+        if others := sorted({*self.state.parameters} - {*shown}):
+            yield f"From another exercise: {', '.join(others)}. u lists their parameters, too."
+        if silent := [node for node in shown if not self.state.parameters[node].answered]:
+            yield f"! {', '.join(silent)} does not answer: does it spin? (Retried every few seconds.)"
 
     def show_history(self) -> None:
         """Show the outcomes so far."""
@@ -120,7 +128,7 @@ class ParametersPanel(Vertical):
         self.post_message(WatcherRequested(Refresh()))
 
     def action_all(self) -> None:
-        """Show or hide the parameters that every node has."""
+        """Show or hide the parameters that every node has, and those of nodes from another exercise."""
         self.show_all = not self.show_all
         self.show_list()
         self._show_actions()

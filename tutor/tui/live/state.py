@@ -94,6 +94,8 @@ class LiveState:
     lesson_view: LiveView = field(default_factory=LiveView)
     """The topics and services that the shown lesson is about."""
     graph: Graph | None = None
+    first_seen: dict[str, LiveView] = field(default_factory=dict)
+    """For each node in the graph, the view of the lesson that was shown when it appeared."""
     topics: dict[str, TopicView] = field(default_factory=dict)
     parameters: dict[str, NodeParameters] = field(default_factory=dict)
     sets: deque[SetOutcome] = field(default_factory=lambda: deque(maxlen=_MAX_OUTCOMES))
@@ -110,12 +112,14 @@ class LiveState:
                 self.domain, self.ready = domain, True
             case Graph():
                 self.graph = update
+                self.first_seen = {node: self.first_seen.get(node, self.lesson_view) for node in update.nodes}
                 self.parameters = {node: held for node, held in self.parameters.items() if node in update.nodes}
             case TopicUpdate():
                 if view := self.topics.get(update.topic):
                     view.receive(update, time.time())
             case NodeParameters():
-                self.parameters[update.node] = update
+                if update.node in self.nodes:  # it may have gone while it was asked
+                    self.parameters[update.node] = update
             case SetOutcome():
                 self.sets.appendleft(update)
             case CallOutcome():
@@ -126,6 +130,13 @@ class LiveState:
             case PublishStatus():
                 self._receive_publish_status(update)
 
+    def set_lesson(self, view: LiveView) -> None:
+        """Note the lesson that is shown; what was set and called in another one is no longer listed."""
+        if view is not self.lesson_view:
+            self.lesson_view = view
+            self.sets.clear()
+            self.calls.clear()
+
     def _receive_publish_status(self, update: PublishStatus) -> None:
         self.published = {topic: status for topic, status in self.published.items() if not status.over}
         if not update.over or update.problem or update.sent:
@@ -134,6 +145,7 @@ class LiveState:
     def reset_domain(self) -> None:
         """Forget the domain once the watcher process is gone; keep followed topics, and past sets and calls."""
         self.ready, self.graph = False, None
+        self.first_seen.clear()
         self.parameters.clear()
         self.waiting.clear()
         self.published.clear()
@@ -170,14 +182,22 @@ class LiveState:
         topics = self.graph.topics if self.graph else ()
         return [pair for topic in topics for pair in connections(topic) if pair.problems]
 
-    def listed_parameters(self, include_standard: bool = True) -> list[Parameter]:
-        """Return the parameters by node and name; those that every node has only with `include_standard`."""
+    def listed_parameters(self, everything: bool = True) -> list[Parameter]:
+        """Return the parameters by node and name.
+
+        Those that every node has, and those of nodes that were started with another lesson, only if `everything`.
+        """
         return [
             each
             for node in sorted(self.parameters)
+            if everything or self.is_of_lesson(node)
             for each in sorted(self.parameters[node].parameters, key=lambda parameter: parameter.name)
-            if include_standard or not is_standard_parameter(each.name)
+            if everything or not is_standard_parameter(each.name)
         ]
+
+    def is_of_lesson(self, node: str) -> bool:
+        """Return whether the node appeared while the lesson shown now was shown."""
+        return self.first_seen.get(node) is self.lesson_view
 
 
 def is_standard_parameter(name: str) -> bool:

@@ -21,7 +21,7 @@ def tab_labels(state: LiveState) -> dict[str, str]:
     graph = state.graph or Graph()
     counts = {
         "topics": sum(not topic.is_standard for topic in graph.topics),
-        "parameters": len(state.listed_parameters(include_standard=False)),
+        "parameters": len(state.listed_parameters(everything=False)),
         "services": sum(not service.is_standard for service in graph.services),
         "graph": 0,
     }

@@ -245,6 +245,10 @@ class MainScreen(HostScreen):
     def _file_touched(self, message: messages.FileTouched) -> None:
         self.files.touched(message)
 
+    @on(messages.FileRead)
+    def _file_read(self) -> None:
+        self.checks.compare_files()
+
     @on(messages.FileSaved)
     def _file_saved(self, message: messages.FileSaved) -> None:
         self.nodes.saved(message)

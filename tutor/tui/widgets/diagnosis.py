@@ -158,7 +158,7 @@ class Diagnosis(VerticalScroll):
         line = f"✓ {result.id.upper()} {result.title} passed"
         bonus = f"Still open as a bonus: {', '.join(missed)}.\n" if missed else ""
         if all_passed:
-            command, key, where = "checklist", "6", "the checklist: what can you do by now?"
+            command, key, where = "checklist", "6", "the checklist"
         elif following is not None:
             command, key, where = "next", "n", f"{wording.label(following)} {following.title}"
         else:
