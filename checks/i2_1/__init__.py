@@ -48,5 +48,6 @@ CHECK = Check(
         Criterion("shutdown", judges.judge_shutdown, (scenarios.plain_start,), bonus=True),
     ),
     expected_s=5.4,
+    mistakes="checks.i2_1.mistakes",
     expected_reason="a change of the rate: 1.2 s to measure 10 Hz, 3.5 s to measure 0.75 Hz",
 )

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from checks.i2_1 import steps
 from checks.i2_1.facts import (
-    BAD_RATES,
     PREFIX,
     RATE,
     AtomicRequests,
@@ -19,17 +17,16 @@ from checks.i2_1.failures import (
     fail_not_set,
     rate_is_unchanged,
     show,
-    with_steps,
 )
-from tutor.judge import causes, tracebacks
-from tutor.judge.causes import parameter_callback_slips, period_slips, spinning
+from tutor.judge import tracebacks
+from tutor.judge.parameter_answers import is_from_rclpy
 from tutor.judge.rates import describe
-from tutor.judge.rewriting.node import find_in_files, started_node
-from tutor.judge.trace import Trace
-from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+from tutor.judge.symptom import Observation, Symptom
+from tutor.judge.trace import SetAnswer, Trace
+from tutor.judge.verdict import Verdict, failed, passed, skipped
+from tutor.judge.wording import output_tail
 
 
-@with_steps
 def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
     """Judge `validation`."""
     expected = _expected_refusal(seen)
@@ -40,13 +37,11 @@ def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
     if seen.set_good is not None:
         return skipped(f"not judged, because {describe_refusal(seen.set_good)}: see `timer`")
     if not rate_is_unchanged(seen.rate, seen.base_hz, switched, seen.rate_before):
-        cause = causes.diagnose_process(seen.trace) if seen.trace.exit else None
-        cause = cause or _diagnose_change(seen.trace, "the rate changes although the value was rejected")
-        return failed(expected, f"after the rejection: {describe(seen.rate, seen.messages)}", cause)
+        observed = f"after the rejection: {describe(seen.rate, seen.messages)}"
+        return failed(expected, observed, _taken_over(seen.trace, "the rate changes"))
     return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
 
 
-@with_steps
 def judge_validation_so_far(seen: BadRates) -> Verdict:
     """Judge `validation` by the answers so far."""
     expected = _expected_refusal(seen)
@@ -62,59 +57,41 @@ def _fail_if_not_refused(seen: BadRates, expected: str) -> Verdict | None:
     for answer, value in seen.rejected:
         bad = answer.values[RATE]
         if not answer.answered:
-            return _fail_if_crashed(bad, expected, seen.trace) or fail_not_set(expected, answer, seen.trace, seen.stuck)
+            return _fail_if_crashed(answer, expected, seen.trace) or fail_not_set(
+                expected, answer, seen.trace, seen.stuck
+            )
         if answer.successful:
-            return failed(
-                expected,
-                f"{RATE} {bad} was accepted",
-                _diagnose_no_validation(seen.trace, bad),
-            )
+            return failed(expected, f"{RATE} {bad} was accepted", _accepted(seen.trace, answer))
         if not answer.reason.strip():
-            return failed(
-                expected,
-                f"{bad} was rejected without a reason",
-                Cause("no reason given", "the reason is empty", steps.refuse_bad_rates(seen.trace)),
-            )
-        if causes.RCLPY_REASON.match(answer.reason):
+            mute = Symptom.BAD_VALUE_ACCEPTED.seen(seen.trace, parameter=RATE, answer=answer, reason="")
+            return failed(expected, f"{bad} was rejected without a reason", mute)
+        if is_from_rclpy(answer.reason):
             return fail_not_set(expected, answer, seen.trace, seen.stuck)
         if value != seen.before:
-            return failed(
-                expected,
-                f"{bad} was rejected, but {RATE} is {show(value)} now",
-                _diagnose_change(seen.trace, "the value is not what it was"),
-            )
+            observed = f"{bad} was rejected, but {RATE} is {show(value)} now"
+            return failed(expected, observed, _taken_over(seen.trace, "the value is another one"))
     return None
 
 
-def _fail_if_crashed(bad: float, expected: str, trace: Trace) -> Verdict | None:
+def _fail_if_crashed(answer: SetAnswer, expected: str, trace: Trace) -> Verdict | None:
     """Fail a node that crashed because it accepted a bad rate and created a timer from it."""
     found = tracebacks.last_traceback(trace)
     raised = found.raised if found is not None and trace.exit is not None else ""
     if not raised.startswith("ZeroDivisionError") and "timer period must be non-negative" not in raised:
         return None
-    cause = _diagnose_no_validation(trace, bad)
-    return failed(expected, f"{RATE} set to {bad} ends the node: {raised}", cause, causes.output_tail(trace))
+    observed = f"{RATE} set to {answer.values[RATE]} ends the node: {raised}"
+    return failed(expected, observed, _accepted(trace, answer), output_tail(trace))
 
 
-def _diagnose_change(trace: Trace, text: str) -> Cause:
-    slip = find_in_files(
-        trace,
-        period_slips.diagnose_second_timer,
-        parameter_callback_slips.diagnose_callback_order,
-        spinning.diagnose_untimed_spin_once,
-    )
-    return slip or Cause("value changed all the same", text, steps.refuse_bad_rates(trace))
+def _accepted(trace: Trace, answer: SetAnswer) -> Observation:
+    return Symptom.BAD_VALUE_ACCEPTED.seen(trace, parameter=RATE, value=answer.values[RATE], answer=answer)
 
 
-def _diagnose_no_validation(trace: Trace, bad: float) -> Cause:
-    """Diagnose a node that accepts a bad rate."""
-    read = started_node(trace)
-    return parameter_callback_slips.diagnose_broken_callback(trace) or Cause(
-        "no validation", parameter_callback_slips.why_accepted(read, bad), steps.refuse_bad_rates(trace)
-    )
+def _taken_over(trace: Trace, what: str) -> Observation:
+    """A value was rejected, and something has changed all the same."""
+    return Symptom.BAD_VALUE_ACCEPTED.seen(trace, parameter=RATE, taken_over=what)
 
 
-@with_steps
 def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges, retimed: RateChanges) -> Verdict:
     """Judge `atomic`."""
     expected = f"an atomic set of a good {PREFIX} and a bad {RATE}, in either order, changes nothing at all"
@@ -128,32 +105,17 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges, retimed: RateCh
         return skipped(f"not judged, because {why}{f': see `{alone[0]}`' if alone else ''}")
     unanswered = next((answer for answer in seen.answers if not answer.answered), None)
     if unanswered is not None:
-        return _fail_if_crashed(BAD_RATES[1], expected, seen.trace) or fail_not_set(
+        return _fail_if_crashed(unanswered, expected, seen.trace) or fail_not_set(
             expected, unanswered, seen.trace, seen.stuck
         )
     if any(answer.successful for answer in seen.answers):
-        return failed(
-            expected,
-            "the request was accepted",
-            _diagnose_no_validation(seen.trace, BAD_RATES[1]),
-        )
+        accepted = next(answer for answer in seen.answers if answer.successful)
+        return failed(expected, "the request was accepted", _accepted(seen.trace, accepted))
     changed = next((held for held in seen.values if held != seen.before), None)
-    partial = steps.check_all_first(seen.trace)
     if changed is not None or seen.shown is not None:
         now = f'a message reads "{text_of(seen.shown)}"' if seen.shown else f"{PREFIX}, {RATE} are {changed}"
-        return failed(
-            expected,
-            f"rejected, but {now}",
-            find_in_files(seen.trace, parameter_callback_slips.diagnose_callback_order)
-            or Cause(
-                "partial change", "the callback applies the first parameter before it looks at the second", partial
-            ),
-        )
+        return failed(expected, f"rejected, but {now}", _taken_over(seen.trace, "a part of the request is applied"))
     if not rate_is_unchanged(seen.rate, seen.base_hz, switched):
-        return failed(
-            expected,
-            f"rejected, but then {describe(seen.rate, seen.messages)}",
-            find_in_files(seen.trace, period_slips.diagnose_second_timer, spinning.diagnose_untimed_spin_once)
-            or Cause("partial change", "the timer was touched although the request was rejected", partial),
-        )
+        observed = f"rejected, but then {describe(seen.rate, seen.messages)}"
+        return failed(expected, observed, _taken_over(seen.trace, "the timer is another one"))
     return passed(expected, f'both rejected ("{seen.answers[0].reason}"), nothing changed')

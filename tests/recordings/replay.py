@@ -30,7 +30,11 @@ def judge_again(recording: Recording, check: Check) -> dict[str, Outcome]:
     A criterion that was not judged (it was skipped) keeps its outcome.
     """
     verdicts: dict[str, Verdict] = {}
-    calls = {call.criterion: call for call in recording.calls}
+    taken = {criterion.id: len(criterion.facts) for criterion in check.criteria}
+    # A recording made when a judge took other facts says nothing about it any more.
+    calls = {
+        call.criterion: call for call in recording.calls if call.scenario or len(call.facts) == taken[call.criterion]
+    }
     for criterion in check.criteria:
         if criterion.id not in calls:
             continue

@@ -17,6 +17,9 @@ from tutor.mistakes.exceptions.table import load, parse
 
 __all__ = ["KnownException", "RaisedException", "add_table", "load", "parse", "raised_in", "recognise"]
 
+_EXPLAINED = tuple(symptom for symptom in EVERY_SYMPTOM if symptom is not Symptom.BAD_VALUE_ACCEPTED)
+"""A bad value that is accepted and then raises an exception was accepted in the first place."""
+
 _ORDER = ("launch", "parameters", "attributes", "calls", "messages", "process", "imports", "python")
 
 
@@ -28,7 +31,7 @@ def add_table(catalogue: Catalogue, path: Path, *, validate: bool = False) -> No
             known.id,
             "{says}",
             "{do}",
-            frozenset(EVERY_SYMPTOM),
+            frozenset(_EXPLAINED),
             Evidence.PROCESS,
             find,
             known.page,
@@ -95,7 +98,7 @@ for _name in _ORDER:
 
 @CATALOGUE.mistake(
     "unhandled-exception",
-    explains=EVERY_SYMPTOM,
+    explains=_EXPLAINED,
     evidence=Evidence.PROCESS,
     says="{says}",
     do="{do}",

@@ -62,7 +62,7 @@ def integer_parameter(case: Case) -> Iterator[Found]:
     if given is not None and (wanted, given.type) == ("double", "integer"):
         yield _placed(case, name)
     answer = case.about("answer")
-    if answer is not None and "'DOUBLE'" in answer.reason and "'INTEGER'" in answer.reason:
+    if answer is not None and "expected 'Type.INTEGER' got 'Type.DOUBLE'" in answer.reason:
         yield _placed(case, next(iter(answer.values)))
 
 

@@ -258,32 +258,6 @@ def good_value_refused(case: Case) -> Iterator[Found]:
     )
 
 
-@symptom("no-validation", explains=[Symptom.BAD_VALUE_ACCEPTED])
-def no_validation(case: Case) -> Iterator[Found]:
-    """A bad value is accepted.
-
-    A parameter takes any value of its type unless a callback registered with add_on_set_parameters_callback refuses
-    it, or its descriptor has a range. Both decide before the value is stored.
-
-    Bad:
-
-        self.declare_parameter('volume', 7)
-
-    Good:
-
-        self.declare_parameter('volume', 7)
-        self.add_on_set_parameters_callback(self.refuse_bad_volumes)
-
-    See it: `ros2 param set NODE NAME BAD_VALUE` should say why not.
-    """
-    name = case.about("parameter", "the parameter")
-    return in_words(
-        case,
-        f"nothing refuses a bad value of {name}",
-        "Look at every new value before it is stored, and refuse a bad one with a reason.",
-    )
-
-
 @symptom("not-logged", explains=[Symptom.NOT_LOGGED])
 def not_logged(case: Case) -> Iterator[Found]:
     """Something is not in the log.

@@ -8,13 +8,12 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.source import NodeFile, argument, calls_in, last_name, match, values_of
+from tutor.source import NodeFile, argument, last_name, match, values_of
 
 _RATES = (Symptom.WRONG_RATE, Symptom.NO_MESSAGES, Symptom.CHANGE_IGNORED)
 _NO_SUCH_ATTRIBUTES = (
     "period", "timer_period", "timer_period_sec", "timer_period_s", "interval", "period_sec", "rate",
 )  # fmt: skip
-_CLOCKS = ("time", "monotonic", "perf_counter", "now", "time_ns", "monotonic_ns")
 
 MIN_MILLISECONDS = 50.0
 """A timer's period from this number on is in milliseconds: nobody waits so many seconds in an exercise."""
@@ -51,7 +50,7 @@ def rate_as_period(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic hz TOPIC`, once at a rate of 2 and once at 10.
     """
-    if case.about("inverted") and case.about("unit", "Hz") == "Hz":
+    if case.about("inverted") and not case.about("unchanged") and case.about("unit", "Hz") == "Hz":
         yield Found({"name": case.about("parameter", "the rate")})
 
 
@@ -178,97 +177,4 @@ def period_attribute(case: Case) -> Iterator[Found]:
             match node:
                 case ast.Assign(targets=[ast.Attribute(value=timer, attr=name)]) if name in _NO_SUCH_ATTRIBUTES:
                     if ast.unparse(timer) in timers:
-                        yield found(file, node)
-
-
-@mistake(
-    "callback-sleeps",
-    explains=[Symptom.WRONG_RATE],
-    says="{line} makes the timer's callback sleep, and until it returns the timer is not called again: {code}",
-    do="Let the callback do its work and return at once; the timer does the waiting.",
-)
-def callback_sleeps(case: Case) -> Iterator[Found]:
-    """A timer's callback sleeps.
-
-    A timer is called when it is due and its last call has returned. Time that a callback sleeps is added to the period,
-    and no other callback of the node runs meanwhile.
-
-    Bad:
-
-        def __init__(self):
-            self.create_timer(0.5, self.blink)
-
-        def blink(self):
-            self.switch()
-            time.sleep(0.5)
-
-    Good:
-
-        def __init__(self):
-            self.create_timer(0.5, self.blink)
-
-        def blink(self):
-            self.switch()
-
-    See it: `ros2 topic hz TOPIC` stays below what was asked for.
-    """
-    wanted_hz = case.about("wanted_hz", 10.0)
-    for file in case.files:
-        called = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
-        for call in file.calls("sleep"):
-            seconds = call.args[0] if call.args else None
-            is_loop_period = not file.timers and not isinstance(seconds, ast.Constant)
-            if file.function_around(call) in called and not is_loop_period and not _is_short(file, call, wanted_hz):
-                yield found(file, call)
-
-
-def _is_short(file: NodeFile, call: ast.Call, hz: float) -> bool:
-    """Whether a sleep lasts less than a tenth of the period, and is not repeated in a loop."""
-    match call.args:
-        case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s < 0.1 / hz:
-            function = file.function_around(call)
-            inside = [around for around in file.ancestors(call) if isinstance(around, ast.For)]
-            return not (file.timers and any(file.function_around(loop) is function for loop in inside))
-    return False
-
-
-@mistake(
-    "ticks-dropped",
-    explains=[Symptom.WRONG_RATE],
-    says="{line} drops each tick that comes a little early: {code}",
-    do="Leave the waiting to the timer, and take this test out of its callback.",
-)
-def ticks_dropped(case: Case) -> Iterator[Found]:
-    """A timer's callback returns if it was called a moment too early.
-
-    Timers are due at fixed times, but are called a little before or after. A callback that compares clocks with the
-    exact period drops every tick that is a millisecond early, so that the rate falls by a third or more.
-
-    Bad:
-
-        def __init__(self):
-            self.create_timer(0.5, self.blink)
-
-        def blink(self):
-            if time.monotonic() - self.last < 0.5:
-                return
-            self.switch()
-
-    Good:
-
-        def __init__(self):
-            self.create_timer(0.5, self.blink)
-
-        def blink(self):
-            self.switch()
-
-    See it: `ros2 topic hz TOPIC`: the largest gap is twice the smallest.
-    """
-    for file in case.files:
-        for function in file.reachable_from(file.timer_callback) if file.timer_callback is not None else ():
-            for node in ast.walk(function):
-                match node:
-                    case ast.If(
-                        test=ast.Compare(left=elapsed, ops=[ast.Lt() | ast.LtE()]), body=[ast.Return()], orelse=[]
-                    ) if calls_in(elapsed, *_CLOCKS):
                         yield found(file, node)

@@ -19,7 +19,7 @@ _TOO_FEW = (Symptom.NO_MESSAGES, Symptom.WRONG_RATE, Symptom.STANDS_STILL, Sympt
 @mistake(
     "old-timer-kept",
     explains=(*_TOO_MANY, Symptom.CHANGE_IGNORED),
-    says="{line} makes a new timer, and nothing cancels the one before it, so both go on: {code}",
+    says="{what}, so both go on",
     do="Cancel the old timer before you make the new one.",
 )
 def old_timer_kept(case: Case) -> Iterator[Found]:
@@ -51,6 +51,8 @@ def old_timer_kept(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic hz TOPIC` after lowering the rate: the old beat goes on beside the new one.
     """
+    if case.symptom is Symptom.BAD_VALUE_ACCEPTED and not case.about("taken_over"):
+        return
     for file in case.files:
         for registration in file.calls("add_on_set_parameters_callback", "add_post_set_parameters_callback"):
             function = file.function(argument(registration, "callback"))
@@ -58,7 +60,14 @@ def old_timer_kept(case: Case) -> Iterator[Found]:
             ends = file.calls("cancel", "destroy_timer", "destroy")
             if any(file.function_around(call) in inside for call in ends):
                 continue
-            yield from (found(file, call) for call in file.timers if file.function_around(call) in inside)
+            for call in file.timers:
+                if file.function_around(call) in inside:
+                    what = f"line {call.lineno} makes a new timer, and nothing cancels the one before it"
+                    yield found(file, call, what=what)
+    rate, wanted_hz = case.about("rate"), case.about("wanted_hz")
+    faster = rate is not None and not case.about("unchanged") and rate.hz > wanted_hz
+    if faster and case.about("at_start") is False:
+        yield Found({"what": f"{rate.hz:.1f} Hz is more than {wanted_hz:g} Hz: an older timer publishes, too"})
 
 
 @mistake(
@@ -87,11 +96,11 @@ def two_timers(case: Case) -> Iterator[Found]:
     See it: `ros2 topic hz TOPIC`: more than asked for, and uneven.
     """
     for file in case.files:
-        for call, other in pairwise(file.timers):
-            if all(_same(argument(call, name), argument(other, name)) for name in ("timer_period_sec", "callback")):
-                yield found(file, call, other=other.lineno)
         at_start = file.reachable_from(file.setup) if file.setup is not None else []
         made = [call for call in file.timers if file.function_around(call) in at_start]
+        for call, other in pairwise(made):
+            if all(_same(argument(call, name), argument(other, name)) for name in ("timer_period_sec", "callback")):
+                yield found(file, call, other=other.lineno)
         fixed = [call for call in made if _is_fixed(file, argument(call, "timer_period_sec"))]
         for call in fixed:
             for other in made:

@@ -1,0 +1,217 @@
+"""I2.1: the mistakes in what a parameter does, which only this exercise can see."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes import Case, Catalogue, Evidence, Found
+from tutor.mistakes.examples import in_run
+
+CATALOGUE = Catalogue()
+
+
+def _seen(case: Case, how: str) -> Iterator[Found]:
+    if case.about("how") == how:
+        yield Found({"name": case.about("parameter")})
+
+
+@CATALOGUE.mistake(
+    "does-not-resume",
+    explains=[Symptom.CHANGE_IGNORED],
+    evidence=Evidence.SYMPTOM,
+    says="{name} stops the messages, and set to true again it does not bring them back",
+    do="Let one timer run all the time, and let its callback decide whether to publish.",
+    example=in_run(Symptom.CHANGE_IGNORED, parameter="ringing", how="does not resume"),
+)
+def does_not_resume(case: Case) -> Iterator[Found]:
+    """What was switched off does not come back.
+
+    A timer that was cancelled stays cancelled until reset() is called; a thread that has ended cannot be started
+    again. A test in the callback has no such state.
+
+    Bad:
+
+        if not parameter.value:
+            self.timer.cancel()
+
+    Good:
+
+        def ring(self):
+            if self.get_parameter('ringing').value:
+                self.bell.publish(Empty())
+
+    See it: `ros2 param set` to false and to true, with `ros2 topic echo` beside it.
+    """
+    return _seen(case, "does not resume")
+
+
+@CATALOGUE.mistake(
+    "value-inverted",
+    explains=[Symptom.CHANGE_IGNORED],
+    evidence=Evidence.RUN,
+    says="{name} set to true stops the messages, and set to true once more it brings them back",
+    do="Use the value that is set, not the opposite of the one before.",
+    example=in_run(Symptom.CHANGE_IGNORED, parameter="ringing", how="inverted"),
+)
+def inverted(case: Case) -> Iterator[Found]:
+    """Each set turns the value round.
+
+    Setting a parameter says what it shall be. A callback that toggles an attribute is right only as long as every set
+    is a change.
+
+    Bad:
+
+        self.ringing = not self.ringing
+
+    Good:
+
+        self.ringing = parameter.value
+
+    See it: set it to true twice.
+    """
+    return _seen(case, "inverted")
+
+
+@CATALOGUE.mistake(
+    "messages-stop",
+    explains=[Symptom.CHANGE_IGNORED],
+    evidence=Evidence.SYMPTOM,
+    says="the messages stop when parameters are set, though {name} stays true",
+    do="Look at what the parameter callback does with the timer.",
+    example=in_run(Symptom.CHANGE_IGNORED, parameter="ringing", how="stops"),
+)
+def stops(case: Case) -> Iterator[Found]:
+    """Setting a parameter ends the messages.
+
+    A parameter callback is called for every change. One that cancels a timer, or raises an exception, whatever has
+    changed, ends more than it should.
+
+    Bad:
+
+        def follow(self, parameters):
+            self.timer.cancel()
+
+    Good:
+
+        def follow(self, parameters):
+            for parameter in parameters:
+                if parameter.name == 'volume':
+                    self.volume = parameter.value
+
+    See it: `ros2 param set` any parameter, with `ros2 topic echo` beside it.
+    """
+    return _seen(case, "stops")
+
+
+@CATALOGUE.mistake(
+    "restarted-by-another-parameter",
+    explains=[Symptom.CHANGE_IGNORED],
+    evidence=Evidence.SYMPTOM,
+    says="setting {name} starts the messages again, though they are switched off",
+    do="Let the callback that publishes look at the switch each time, whatever timer calls it.",
+    example=in_run(Symptom.CHANGE_IGNORED, parameter="tempo", how="restarts"),
+)
+def restarted(case: Case) -> Iterator[Found]:
+    """One parameter undoes another one.
+
+    A new timer runs from the moment it is made. Where "off" means that there is no timer, making one for a new rate
+    means "on".
+
+    Bad:
+
+        self.timer = self.create_timer(1.0 / self.tempo, self.ring)
+
+    Good:
+
+        def ring(self):
+            if self.ringing:
+                self.bell.publish(Empty())
+
+    See it: switch it off, then set the rate.
+    """
+    return _seen(case, "restarts")
+
+
+@CATALOGUE.mistake(
+    "old-value-kept-beside-the-new-one",
+    explains=[Symptom.CHANGE_IGNORED],
+    evidence=Evidence.SYMPTOM,
+    says="the new value of {name} is shown, and the old one beside it",
+    do="Put the new value in the place of the old one.",
+    example=in_run(Symptom.CHANGE_IGNORED, parameter="greeting", how="adds"),
+)
+def added(case: Case) -> Iterator[Found]:
+    """A new value is added to the old one.
+
+    A set replaces the value. What is built from it, such as a text, has to be built again from the new one alone.
+
+    Bad:
+
+        self.greeting += parameter.value
+
+    Good:
+
+        self.greeting = parameter.value
+
+    See it: set it twice.
+    """
+    return _seen(case, "adds")
+
+
+@CATALOGUE.mistake(
+    "messages-held-back",
+    explains=[Symptom.CHANGE_IGNORED],
+    evidence=Evidence.SYMPTOM,
+    says="what was due while {name} was false is kept, and sent all at once when it is true again",
+    do="Leave out what is due while it is switched off.",
+    example=in_run(Symptom.CHANGE_IGNORED, parameter="ringing", how="held back"),
+)
+def held_back(case: Case) -> Iterator[Found]:
+    """Messages are kept for later.
+
+    Switched off means that there is nothing to send. A queue that is emptied afterwards sends a burst of old messages.
+
+    Bad:
+
+        self.waiting.append(Empty())
+
+    Good:
+
+        if not self.ringing:
+            return
+
+    See it: switch it off for some seconds, and on again.
+    """
+    return _seen(case, "held back")
+
+
+@CATALOGUE.mistake(
+    "rate-changed-by-another-parameter",
+    explains=[Symptom.CHANGE_IGNORED],
+    evidence=Evidence.SYMPTOM,
+    says="the rate is another one after parameters were set that have nothing to do with it",
+    do="Make a new timer only when the rate itself has changed, and cancel the old one.",
+    example=in_run(Symptom.CHANGE_IGNORED, parameter="ringing", how="rate changed"),
+)
+def rate_changed(case: Case) -> Iterator[Found]:
+    """Setting one parameter changes the rate.
+
+    A parameter callback that makes a timer whatever has changed leaves one more behind each time, or begins with
+    another period.
+
+    Bad:
+
+        def follow(self, parameters):
+            self.timer = self.create_timer(1.0, self.ring)
+
+    Good:
+
+        def follow(self, parameters):
+            if any(parameter.name == 'tempo' for parameter in parameters):
+                self.timer.cancel()
+                self.timer = self.create_timer(1.0, self.ring)
+
+    See it: `ros2 topic hz TOPIC` before and after.
+    """
+    return _seen(case, "rate changed")

@@ -1,0 +1,184 @@
+"""Bad values of parameters that are accepted, or take effect in spite of a refusal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.source import NodeFile
+from tutor.source.parameters import ON_SET, POST_SET, may_refuse, registered_callback
+
+
+@mistake(
+    "refused-without-a-reason",
+    name="no reason given",
+    explains=[Symptom.BAD_VALUE_ACCEPTED],
+    evidence=Evidence.RUN,
+    says="the refusal has an empty reason, so nobody learns what is wrong with the value",
+    do="Give the SetParametersResult a reason that names the parameter and what it takes.",
+    example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", reason=""),
+)
+def no_reason(case: Case) -> Iterator[Found]:
+    """A value is refused without a reason.
+
+    The reason of a SetParametersResult is what `ros2 param set` prints. Without it, a refusal looks like a fault.
+
+    Bad:
+
+        return SetParametersResult(successful=False)
+
+    Good:
+
+        return SetParametersResult(successful=False, reason='volume must be from 0 to 10')
+
+    See it: `ros2 param set NODE NAME BAD_VALUE`.
+    """
+    if case.about("reason") == "":
+        yield Found()
+
+
+@mistake(
+    "message-does-not-name-the-parameter",
+    name="parameter not named",
+    explains=[Symptom.BAD_VALUE_ACCEPTED],
+    evidence=Evidence.RUN,
+    says="the message about the bad value does not name {name}, which is what was typed",
+    do="Put the parameter's name into the message.",
+    example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", at_start=True, warning="too loud"),
+)
+def not_named(case: Case) -> Iterator[Found]:
+    """A message about a bad value does not say of what.
+
+    Who has typed several parameters on a command line cannot tell from "must be positive" which one is meant.
+
+    Bad:
+
+        self.get_logger().error('must be positive')
+
+    Good:
+
+        self.get_logger().error('volume must be positive')
+
+    See it: start the node with a bad value.
+    """
+    if case.about("at_start") and case.about("warning"):
+        yield Found({"name": case.about("parameter", "the parameter")})
+
+
+@mistake(
+    "bad-value-at-start-up",
+    name="not checked at start-up",
+    explains=[Symptom.BAD_VALUE_ACCEPTED],
+    evidence=Evidence.RUN,
+    says="a bad {name} at start-up gives {what}, and nobody can tell from that which parameter is wrong",
+    do="Check the value when the node is set up, and end with a message that names the parameter.",
+    example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", at_start=True),
+)
+def at_start(case: Case) -> Iterator[Found]:
+    """A bad value at start-up is not explained.
+
+    On-set callbacks that are registered after the declaration never see the value that was given at start-up. The node
+    takes it as it is, or ends with a traceback from deep inside.
+
+    Bad:
+
+        self.declare_parameter('volume', 7)
+        self.period = 1.0 / self.get_parameter('volume').value
+
+    Good:
+
+        self.declare_parameter('volume', 7)
+        if self.get_parameter('volume').value <= 0:
+            self.get_logger().fatal('volume must be positive')
+            raise SystemExit(1)
+
+    See it: start the node with a bad value.
+    """
+    if case.about("at_start") and not case.about("warning"):
+        crashed = any("Traceback" in line.text for line in case.trace.output)
+        what = "only a traceback" if crashed else "no message at all"
+        yield Found({"name": case.about("parameter", "value"), "what": what})
+
+
+@mistake(
+    "value-changed-all-the-same",
+    explains=[Symptom.BAD_VALUE_ACCEPTED],
+    evidence=Evidence.SYMPTOM,
+    says="the value is refused, but {what} all the same",
+    do="Look at all values before you apply any, and apply them in a post-set callback.",
+    example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", taken_over="the timer is another one"),
+)
+def taken_over(case: Case) -> Iterator[Found]:
+    """A refused value has an effect.
+
+    An on-set callback may be asked about several parameters at once, and refuse because of the last. What it has done
+    with the first by then stays done. rclpy stores nothing of it, and the node works with other values than it
+    reports.
+
+    Bad:
+
+        for parameter in parameters:
+            if parameter.name == 'owner':
+                self.owner = parameter.value
+            elif parameter.value > 10:
+                return SetParametersResult(successful=False, reason='volume must be 10 at most')
+
+    Good:
+
+        for parameter in parameters:
+            if parameter.name == 'volume' and parameter.value > 10:
+                return SetParametersResult(successful=False, reason='volume must be 10 at most')
+
+    See it: `ros2 param load` a file with one good and one bad value.
+
+    Lesson: i2.1, on checking before changing.
+    """
+    if case.about("taken_over"):
+        yield Found({"what": case.about("taken_over")})
+
+
+@mistake(
+    "no-validation",
+    explains=[Symptom.BAD_VALUE_ACCEPTED],
+    evidence=Evidence.SYMPTOM,
+    says="{why}",
+    do="Look at every new value of {name} before it is stored, and refuse a bad one with a reason.",
+    example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume"),
+)
+def no_validation(case: Case) -> Iterator[Found]:
+    """A bad value is accepted.
+
+    A parameter takes any value of its type unless a callback registered with add_on_set_parameters_callback refuses
+    it, or its descriptor has a range. Both decide before the value is stored.
+
+    Bad:
+
+        self.declare_parameter('volume', 7)
+
+    Good:
+
+        self.declare_parameter('volume', 7)
+        self.add_on_set_parameters_callback(self.refuse_bad_volumes)
+
+    See it: `ros2 param set NODE NAME BAD_VALUE` should say why not.
+
+    Lesson: i2.1, on refusing a value.
+    """
+    name, value = case.about("parameter", "the parameter"), case.about("value", "a bad value")
+    for file in case.files:
+        checker, later = registered_callback(file, ON_SET), registered_callback(file, POST_SET)
+        if checker is not None:
+            where = f"{checker.name} (line {checker.lineno})"
+            refuses = may_refuse(file, checker) or _mentions_failure(file, checker.name)
+            why = f"{where} can refuse a value, but does not refuse {value}" if refuses else f"{where} refuses nothing"
+            yield found(file, checker, name=name, why=why)
+        elif later is not None:
+            why = f"{later.name} (line {later.lineno}) is called when the value is already stored, and can refuse none"
+            yield found(file, later, name=name, why=why)
+    yield Found({"name": name, "why": f"nothing is asked before {name} gets a new value"})
+
+
+def _mentions_failure(file: NodeFile, function: str) -> bool:
+    return any("successful = False" in line for line in file.text.splitlines()) and bool(function)

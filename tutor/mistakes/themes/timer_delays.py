@@ -1,0 +1,202 @@
+"""What keeps a timer from being called when it is due, or from following its parameter."""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Iterator
+
+from tutor.judge.rates import Rate
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.source import NodeFile, calls_in
+
+_CLOCKS = ("time", "monotonic", "perf_counter", "now", "time_ns", "monotonic_ns")
+
+
+@mistake(
+    "callback-sleeps",
+    explains=[Symptom.WRONG_RATE],
+    says="{line} makes the timer's callback sleep, and until it returns the timer is not called again: {code}",
+    do="Let the callback do its work and return at once; the timer does the waiting.",
+)
+def callback_sleeps(case: Case) -> Iterator[Found]:
+    """A timer's callback sleeps.
+
+    A timer is called when it is due and its last call has returned. Time that a callback sleeps is added to the period,
+    and no other callback of the node runs meanwhile.
+
+    Bad:
+
+        def __init__(self):
+            self.create_timer(0.5, self.blink)
+
+        def blink(self):
+            self.switch()
+            time.sleep(0.5)
+
+    Good:
+
+        def __init__(self):
+            self.create_timer(0.5, self.blink)
+
+        def blink(self):
+            self.switch()
+
+    See it: `ros2 topic hz TOPIC` stays below what was asked for.
+    """
+    wanted_hz = case.about("wanted_hz", 10.0)
+    for file in case.files:
+        called = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
+        for call in file.calls("sleep"):
+            seconds = call.args[0] if call.args else None
+            is_loop_period = not file.timers and not isinstance(seconds, ast.Constant)
+            if file.function_around(call) in called and not is_loop_period and not _is_short(file, call, wanted_hz):
+                yield found(file, call)
+
+
+def _is_short(file: NodeFile, call: ast.Call, hz: float) -> bool:
+    """Whether a sleep lasts less than a tenth of the period, and is not repeated in a loop."""
+    match call.args:
+        case [ast.Constant(value=int() | float() as sleep_s)] if sleep_s < 0.1 / hz:
+            function = file.function_around(call)
+            inside = [around for around in file.ancestors(call) if isinstance(around, ast.For)]
+            return not (file.timers and any(file.function_around(loop) is function for loop in inside))
+    return False
+
+
+@mistake(
+    "ticks-dropped",
+    explains=[Symptom.WRONG_RATE],
+    says="{line} drops each tick that comes a little early: {code}",
+    do="Leave the waiting to the timer, and take this test out of its callback.",
+)
+def ticks_dropped(case: Case) -> Iterator[Found]:
+    """A timer's callback returns if it was called a moment too early.
+
+    Timers are due at fixed times, but are called a little before or after. A callback that compares clocks with the
+    exact period drops every tick that is a millisecond early, so that the rate falls by a third or more.
+
+    Bad:
+
+        def __init__(self):
+            self.create_timer(0.5, self.blink)
+
+        def blink(self):
+            if time.monotonic() - self.last < 0.5:
+                return
+            self.switch()
+
+    Good:
+
+        def __init__(self):
+            self.create_timer(0.5, self.blink)
+
+        def blink(self):
+            self.switch()
+
+    See it: `ros2 topic hz TOPIC`: the largest gap is twice the smallest.
+    """
+    for file in case.files:
+        for function in file.reachable_from(file.timer_callback) if file.timer_callback is not None else ():
+            for node in ast.walk(function):
+                match node:
+                    case ast.If(
+                        test=ast.Compare(left=elapsed, ops=[ast.Lt() | ast.LtE()]), body=[ast.Return()], orelse=[]
+                    ) if calls_in(elapsed, *_CLOCKS):
+                        yield found(file, node)
+
+
+@mistake(
+    "rate-made-a-whole-number",
+    explains=[Symptom.WRONG_RATE],
+    evidence=Evidence.RUN,
+    says="{name} {wanted:g} is treated as {hz:.0f}",
+    do="Keep the decimals of the rate on its way from the parameter to the timer.",
+    example=in_run(Symptom.WRONG_RATE, parameter="tempo", wanted_hz=1.5, rate=Rate(1.0, 5, 4.0)),
+)
+def whole_rate(case: Case) -> Iterator[Found]:
+    """A rate is cut to a whole number.
+
+    int(), round() and // throw decimals away: 1.5 Hz becomes 1 or 2, and 0.75 Hz becomes 0 or 1.
+
+    Bad:
+
+        period = 1.0 / int(self.tempo)
+
+    Good:
+
+        period = 1.0 / self.tempo
+
+    See it: `ros2 topic hz TOPIC` at a rate of 1.5.
+    """
+    rate, wanted = case.about("rate"), case.about("wanted_hz")
+    if rate is not None and wanted is not None and not case.about("unchanged"):
+        whole = {math.floor(wanted), math.ceil(wanted)} - {wanted}
+        if any(abs(rate.hz - hz) < 0.1 for hz in whole):
+            yield Found({"name": case.about("parameter", "the rate"), "wanted": wanted, "hz": rate.hz})
+
+
+@mistake(
+    "timer-not-replaced",
+    explains=[Symptom.WRONG_RATE],
+    evidence=Evidence.SYMPTOM,
+    says="{name} changes, but the timer keeps the period that it was made with",
+    do="When the rate has changed, cancel the timer and make one with the new period.",
+    example=in_run(Symptom.WRONG_RATE, parameter="tempo", unchanged=True, at_start=False),
+)
+def not_replaced(case: Case) -> Iterator[Found]:
+    """A timer keeps its old period.
+
+    A timer takes its period when it is made. A parameter that changes later does not reach it, unless a parameter
+    callback makes a new timer, or sets the period of this one.
+
+    Bad:
+
+        def follow(self, parameters):
+            self.tempo = parameters[0].value
+
+    Good:
+
+        def follow(self, parameters):
+            self.timer.cancel()
+            self.timer = self.create_timer(1.0 / parameters[0].value, self.ring)
+
+    See it: `ros2 topic hz TOPIC`, then `ros2 param set`.
+
+    Lesson: i2.1, on changing a timer.
+    """
+    if case.about("unchanged") and case.about("at_start") is False:
+        yield Found({"name": case.about("parameter", "the rate")})
+
+
+@mistake(
+    "rate-ignored",
+    name="parameter ignored",
+    explains=[Symptom.WRONG_RATE],
+    evidence=Evidence.SYMPTOM,
+    says="{name} given at start-up does not change the rate",
+    do="Follow the value from the declaration to create_timer, and see where another one is used.",
+    example=in_run(Symptom.WRONG_RATE, parameter="tempo", unchanged=True),
+)
+def rate_ignored(case: Case) -> Iterator[Found]:
+    """A rate is declared, and not used.
+
+    A parameter does nothing by itself: its value has to be read after the declaration, and given to the timer as a
+    period.
+
+    Bad:
+
+        self.declare_parameter('tempo', 2.0)
+        self.create_timer(0.5, self.ring)
+
+    Good:
+
+        self.declare_parameter('tempo', 2.0)
+        self.create_timer(1.0 / self.get_parameter('tempo').value, self.ring)
+
+    See it: `ros2 topic hz TOPIC` at two values.
+    """
+    if case.about("unchanged"):
+        yield Found({"name": case.about("parameter", "the rate")})
