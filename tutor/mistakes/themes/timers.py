@@ -21,6 +21,7 @@ _TOO_FEW = (Symptom.NO_MESSAGES, Symptom.WRONG_RATE, Symptom.STANDS_STILL, Sympt
     explains=(*_TOO_MANY, Symptom.CHANGE_IGNORED),
     says="{what}, so both go on",
     do="Cancel the old timer before you make the new one.",
+    example=in_run(Symptom.WRONG_RATE),
 )
 def old_timer_kept(case: Case) -> Iterator[Found]:
     """A timer that is replaced runs on until it is cancelled.
