@@ -58,7 +58,8 @@ PUBLISHES = with_source(
         ),
         (
             with_source(PUBLISHES.sources["node.py"].replace("self.p.publish(Float64())", "pass"), PUBLISHES),
-            f"likely no messages: there is a publisher on {TOPIC}, but nothing calls publish()",
+            "likely nothing calls publish: line 3 makes a publisher, and nothing calls its publish(): "
+            "self.p = self.create_publisher(Float64, 't', 10)",
         ),
     ],
 )
@@ -77,7 +78,7 @@ def test_only_an_exception_that_ended_the_program_is_a_likely_cause() -> None:
 
 def test_a_misspelled_name_is_a_likely_cause() -> None:
     assert describe_text(trace(graph=graph(publishers={"/sensor/temprature": TYPE}))).startswith(
-        "likely wrong topic: messages of this type go to /sensor/temprature"
+        "likely wrong topic: there is /sensor/temprature, not /sensor/temperature"
     )
     services = LiveView(services=("/add", "/divide"))
     seen = trace(graph=graph(services={"/add": "a/srv/B", "/devide": "a/srv/B"}))

@@ -5,16 +5,22 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from typing import TYPE_CHECKING
 
 from tutor.content import LiveView
 from tutor.content.near_miss import near_misses
-from tutor.judge import causes, source, tracebacks
-from tutor.judge.causes import names
+from tutor.judge import tracebacks
+from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Trace
-from tutor.judge.verdict import Cause
+from tutor.source import Program
+
+if TYPE_CHECKING:
+    from tutor.mistakes import Diagnosis
 
 _SPINS = "spin", "spin_once", "spin_some", "spin_until_future_complete"
 _MAX_NAMES = 3
+SYMPTOM_ONLY = 3
+"""The evidence of a mistake that nothing but its symptom shows (`tutor.mistakes.Evidence.SYMPTOM`)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,39 +73,41 @@ def _describe_exit(trace: Trace) -> SoFar:
     assert trace.exit is not None
     if trace.exit.code == 0:  # perhaps as requested
         return SoFar("the program has ended, with exit code 0")
-    cause = causes.diagnose_process(trace)
-    return _likely(cause) if cause is not None else SoFar()
+    return _likely(_why(Symptom.ENDED.seen(trace)).cause)
 
 
-def _likely(cause: Cause) -> SoFar:
+def _likely(cause: str) -> SoFar:
     return SoFar(f"likely {cause}", likely=True)
 
 
-def _find_causes(seen: RunSnapshot, requested: LiveView) -> Iterator[Cause]:
+def _why(seen: Observation) -> Diagnosis:
+    from tutor.mistakes import CATALOGUE, why  # late, since it reads the source
+
+    return why(seen, [CATALOGUE])
+
+
+def _find_causes(seen: RunSnapshot, requested: LiveView) -> Iterator[str]:
     """Yield the possible causes, the likeliest first."""
     trace, graph = seen.trace, seen.trace.graph
     silent = [topic for topic in _silent_topics(seen) if topic not in seen.published_elsewhere]
-    if (asleep := causes.diagnose_lifecycle(trace)) is not None:
-        yield asleep
     for topic in silent:
-        if any((each.topic, each.type) == (topic, seen.watched[topic]) for each in graph.publishers):
-            if (unused := causes.diagnose_unused_publisher(trace, topic)) is not None:
-                yield unused
-        else:
-            cause = causes.diagnose_no_messages(trace, topic, seen.watched[topic], answers=True)
-            if cause.name in (names.WRONG_TYPE, names.WRONG_TOPIC):
-                yield cause
+        missing = _why(Symptom.NO_MESSAGES.seen(trace, topic=topic, type=seen.watched[topic]))
+        if missing.evidence < SYMPTOM_ONLY:
+            yield missing.cause
     for wanted in requested.topics:
-        for each in graph.subscriptions:
-            if each.topic == wanted.name and each.type != wanted.type:
-                yield Cause(names.WRONG_TYPE, f"{wanted.name} has the type {each.type}, not {wanted.type}", "")
+        for subscription in graph.subscriptions:
+            if subscription.topic == wanted.name and subscription.type != wanted.type:
+                yield f"wrong type: {wanted.name} has the type {subscription.type}, not {wanted.type}"
     if not silent or not seen.watched:
         for miss in near_misses(graph, requested):
-            yield Cause("wrong name", f"{miss.node} {miss.does} {miss.found}, not {miss.wanted}", "")
-    if (mismatch := causes.diagnose_incompatible_service(graph.servers)) is not None:
-        yield mismatch
-    if (silent or seen.awaits_response) and trace.sources and not source.calls(trace, *_SPINS):
-        yield Cause(names.NO_SPIN, f"{_describe_nodes(trace)}, and the program never calls rclpy.spin()", "")
+            yield f"wrong name: {miss.node} {miss.does} {miss.found}, not {miss.wanted}"
+    if any(not service.is_standard for service in graph.servers):
+        unmet = _why(Symptom.NO_ANSWER.seen(trace))
+        if unmet.mistake == "incompatible-qos-of-a-service":
+            yield unmet.cause
+    program = Program(trace.sources, trace.file)
+    if (silent or seen.awaits_response) and trace.sources and not program.calls(*_SPINS):
+        yield f"no spin: {_describe_nodes(trace)}, and the program never calls rclpy.spin()"
 
 
 def _describe_missing(seen: RunSnapshot, requested: LiveView) -> Iterator[str]:

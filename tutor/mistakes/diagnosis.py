@@ -11,7 +11,7 @@ from tutor.judge.result import Remark
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Failure, Status, Verdict
-from tutor.mistakes.entry import CATALOGUE, Case, Catalogue, Found, Mistake
+from tutor.mistakes.entry import CATALOGUE, Case, Catalogue, Evidence, Found, Mistake
 
 MAX_REMARKS = 2
 
@@ -21,13 +21,17 @@ MAX_CODE_CHARACTERS = 100
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """A mistake as it was found in one run: `cause` and `step` in words, `file` and `line` ("" and 0 if none)."""
+    """A mistake as it was found in one run: `cause` and `step` in words, `file` and `line` ("" and 0 if none).
+
+    `evidence`: what shows it; with `SYMPTOM`, only that something is missing.
+    """
 
     mistake: str
     cause: str
     step: str
     file: str = ""
     line: int = 0
+    evidence: Evidence = Evidence.SYMPTOM
 
 
 def why(seen: Observation, catalogues: Sequence[Catalogue]) -> Diagnosis:
@@ -57,7 +61,7 @@ def describe(entry: Mistake, occurrence: Found, case: Case) -> Diagnosis:
         code = f"{code[: MAX_CODE_CHARACTERS - 3]}..."
     words = {"line": place, "code": code, "nodes": case.nodes, **occurrence.words}
     cause = f"{entry.title}: {entry.says.format(**words)}"
-    return Diagnosis(entry.id, cause, entry.do.format(**words), occurrence.file, occurrence.line)
+    return Diagnosis(entry.id, cause, entry.do.format(**words), occurrence.file, occurrence.line, entry.evidence)
 
 
 def catalogues_of(check: Check) -> tuple[Catalogue, ...]:
