@@ -109,7 +109,7 @@ def test_findings_of_the_runs_are_one_line_each_and_exit_1(run: Run, prover: Fak
 
 
 def test_what_could_not_be_judged_is_not_a_finding_and_exits_3(run: Run, prover: FakeProver) -> None:
-    prover.verdicts = {(Kind.SOLUTION, "client"): Verdict(Status.ERROR, cause="too busy", hint="wait")}
+    prover.verdicts = {(Kind.SOLUTION, "client"): Verdict(Status.ERROR, cause="too busy", step="wait")}
     result = run("author", "check", LESSON)
     assert result.code == 3
     assert result.out.splitlines()[-1] == "nothing is wrong, 1 could not be judged: 1 exercise, 2 runs"

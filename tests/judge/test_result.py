@@ -72,7 +72,7 @@ def test_constructors_of_each_kind_of_verdict() -> None:
     assert passed("e", "o", ["1"]) == Verdict(P, "e", "o", evidence=("1",))
     assert failed("e", "o", Cause("n", "t", "h"), iter("12")) == Verdict(F, "e", "o", "n: t", "h", ("1", "2"))
     assert skipped("because") == Verdict(S, cause="because")
-    assert fault("what", "do this", ["1"]) == Verdict(E, cause="what", hint="do this", evidence=("1",))
+    assert fault("what", "do this", ["1"]) == Verdict(E, cause="what", step="do this", evidence=("1",))
     assert [Verdict(status).passed for status in Status] == [True, False, False, False]
 
 

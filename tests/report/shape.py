@@ -6,7 +6,7 @@ import re
 from typing import Any
 from xml.etree.ElementTree import Element
 
-TEXT_KEYS = ("id", "text", "expected", "observed", "cause", "hint")
+TEXT_KEYS = ("id", "text", "expected", "observed", "cause", "step")
 
 
 def assert_report_shape(document: Any) -> None:
@@ -26,7 +26,7 @@ def assert_report_shape(document: Any) -> None:
     assert list(document["environment"]) == ["ros_distro", "ros", "rmw", "ros_tutor"]
     assert all(isinstance(value, str) for value in document["environment"].values())
     for exercise in document["exercises"]:
-        assert list(exercise) == ["id", "title", "verdict", "duration_s", "submission", "criteria"]
+        assert list(exercise) == ["id", "title", "verdict", "duration_s", "submission", "criteria", "remarks"]
         assert exercise["verdict"] in ("passed", "failed", "error")
         assert_duration(exercise["duration_s"])
         assert all(isinstance(name, str) for name in exercise["submission"])
@@ -37,8 +37,9 @@ def assert_report_shape(document: Any) -> None:
 def assert_criterion_shape(criterion: Any) -> None:
     assert list(criterion) == [
         *("id", "text", "bonus", "status", "duration_s"),
-        *("expected", "observed", "cause", "hint", "evidence"),
+        *("expected", "observed", "mistake", "cause", "step", "same_as", "evidence"),
     ]
+    assert all(isinstance(criterion[key], str | None) for key in ("mistake", "same_as"))
     assert all(isinstance(criterion[key], str) for key in TEXT_KEYS)
     assert isinstance(criterion["bonus"], bool)
     assert criterion["status"] in ("passed", "failed", "skipped", "error")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import replace
 from xml.etree import ElementTree
 
 import pytest
@@ -85,22 +84,10 @@ def test_text_has_a_word_for_every_status_and_the_next_step(mixed: Report) -> No
     assert lines[-2:] == ["✗ failed  in 4.2 s", "ROS 2 jazzy (bundled), rmw_fastrtps_cpp, ros-tutor 0.1.0"]
 
 
-def test_the_code_of_a_next_step_is_not_wrapped(mixed: Report) -> None:
-    code = "self.rate = self.declare_parameter('publish_rate', 2.0).get_parameter_value().double_value  # " + "x " * 40
-    criterion = next(each for each in mixed.exercises[0].criteria if each.verdict.step)
-    changed = replace(criterion, verdict=replace(criterion.verdict, hint=f"line 12 becomes: {code.strip()}"))
-    exercise = replace(mixed.exercises[0], criteria=(changed,))
-    text = render(replace(mixed, exercises=(exercise,)), "text", width=60)
-    assert f"    next step  line 12 becomes: {code.strip()}\n" in text
-    others = [line for line in text.splitlines() if "becomes:" not in line]
-    assert max(map(len, others)) <= 60
-
-
 @pytest.mark.parametrize("width", [20, 40, 60, 100, 200])
 def test_text_keeps_to_the_width_and_loses_no_word(mixed: Report, width: int) -> None:
     text = render(mixed, "text", width=width)
-    others = [line for line in text.splitlines() if not line.startswith("    next step  ")]
-    assert max(map(len, others)) <= max(width, 40)
+    assert max(map(len, text.splitlines())) <= max(width, 40)
     words = " ".join(text.split())
     for word in ("publish_rate:=2.0", "timer", "temperature_publisher.py", "rmw_fastrtps_cpp"):
         assert word in words
@@ -211,7 +198,7 @@ def nasty_report(text: str) -> Report:
 
 
 def missing(exercise: str) -> ExerciseResult:
-    verdict = Verdict(Status.SKIPPED, cause="not started", hint=f"`ros-tutor start {exercise}` makes it")
+    verdict = Verdict(Status.SKIPPED, cause="not started", step=f"`ros-tutor start {exercise}` makes it")
     criteria = (criterion("a", verdict), criterion("b", verdict, bonus=True))
     return ExerciseResult(exercise, "Sensor Publisher", (), criteria, 0.0)
 
@@ -244,14 +231,3 @@ def test_no_text_from_a_learner_breaks_a_format(text: str, line: str, status: St
         assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", rendered)
     assert_report_shape(json.loads(render(hostile, "json")))
     assert_junit(ElementTree.fromstring(render(hostile, "junit")))
-
-
-def test_the_code_of_a_next_step_keeps_its_lines() -> None:
-    """Learners copy the code: without its line breaks and indentation, it is not Python."""
-    step = "begin tick (line 3) with:\nif not self.on:\n    return"
-    one = report(criterion("rate", failed("1 Hz", "2 Hz", Cause("wrong rate", "too fast", step))))
-    for kind in ("text", "markdown", "junit"):
-        lines = [line.strip("|") for line in render(one, kind).splitlines()]
-        at = next(i for i, line in enumerate(lines) if line.rstrip().endswith("if not self.on:"))
-        indented = len(lines[at]) - len(lines[at].lstrip())
-        assert lines[at + 1].removesuffix("</failure>").rstrip() == " " * (indented + 4) + "return", kind

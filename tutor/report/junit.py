@@ -65,11 +65,10 @@ def _add_case(suite: Element, exercise: ExerciseResult, criterion: CriterionResu
     elif verdict.status is Status.ERROR:
         outcome = SubElement(case, "error", type="could not be judged", message=message)
     else:
-        outcome = SubElement(case, "failure", type=one_line(verdict.cause.partition(":")[0], 80), message=message)
+        outcome = SubElement(case, "failure", type=verdict.mistake or "failed", message=message)
     lines = [one_line(criterion.text)]
     for label, text in details(verdict):
-        first, *code = text.split("\n") if label == "next step" else [text]
-        lines += [f"{label}: {one_line(first, _MAX_LENGTH)}", *code]
+        lines.append(f"{label}: {one_line(text, _MAX_LENGTH)}")
     lines += [f"  {line}" for line in evidence_lines(verdict)]
     outcome.text = "\n".join(lines)
 

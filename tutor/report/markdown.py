@@ -8,7 +8,7 @@ from html import escape as escape_html
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.report.plain import MARKS, describe, details, evidence_lines, one_line, seconds, tally
+from tutor.report.plain import MARKS, describe, details, evidence_lines, one_line, remark_lines, seconds, tally
 from tutor.terminal_text import printable
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$]|&(?=#?\w+;))")
@@ -72,6 +72,12 @@ def _exercise(exercise: ExerciseResult) -> Iterator[str]:
         if not criterion.verdict.passed:
             yield ""
             yield from _diagnosis(criterion)
+    if exercise.remarks:
+        yield ""
+        yield "It works, but will bite:"
+        yield ""
+        for line in remark_lines(exercise):
+            yield f"- {escape(line)}"
 
 
 def _diagnosis(criterion: CriterionResult) -> Iterator[str]:
@@ -83,11 +89,7 @@ def _diagnosis(criterion: CriterionResult) -> Iterator[str]:
     yield f"<details{unfolded}><summary>{title}</summary>"
     yield ""
     for label, text in details(verdict):
-        first, *code = text.split("\n") if label == "next step" else [text]
-        yield f"- **{label}:** {escape(one_line(first, _MAX_LENGTH))}"
-        if code:  # fenced, so that it can be copied verbatim
-            yield ""
-            yield from _fenced(code)
+        yield f"- **{label}:** {escape(one_line(text, _MAX_LENGTH))}"
     if verdict.evidence:
         yield ""
         yield from _fenced(evidence_lines(verdict))

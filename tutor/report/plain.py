@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tutor.invocation import command
 from tutor.judge.result import Environment, ExerciseResult, Report
 from tutor.judge.verdict import Status, Verdict
 from tutor.terminal_text import printable
@@ -38,10 +39,16 @@ def details(verdict: Verdict) -> list[tuple[str, str]]:
     pairs = (
         ("expected", verdict.expected),
         ("observed", verdict.observed),
-        ("cause", verdict.cause),
+        ("why", verdict.cause),
         ("next step", verdict.step),
+        ("more", command("explain", verdict.mistake) if verdict.mistake and not verdict.same_as else ""),
     )
     return [(label, printable(text).strip()) for label, text in pairs if text.strip()]
+
+
+def remark_lines(exercise: ExerciseResult) -> list[str]:
+    """Return a line for each remark: what works, but will bite."""
+    return [printable(f"{remark.file}, line {remark.line}: {remark.text}") for remark in exercise.remarks]
 
 
 def isolation_lines(report: Report) -> list[str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from io import StringIO
 
 from rich.console import Console, Group, RenderableType
@@ -13,35 +12,21 @@ from rich.text import Text
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.report.plain import MARKS, describe, details, isolation_lines, seconds, tally
+from tutor.report.plain import MARKS, describe, details, isolation_lines, remark_lines, seconds, tally
 from tutor.terminal_text import printable
 
 STYLES = {Status.PASSED: "green", Status.FAILED: "red", Status.SKIPPED: "yellow", Status.ERROR: "magenta"}
 
 _INDENT = 4
 
-_UNWRAPPED_WIDTH = 4000
-"""Width of a next step in a file: code in it is to be copied, so its lines must not wrap."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Step:
-    """The row of a next step, which may have another width than the rest."""
-
-    row: RenderableType
-
 
 def render(report: Report, *, color: bool, width: int) -> str:
     """Render the report, `width` columns wide. Verdicts are always words as well, never colours alone."""
     out = StringIO()
     console = _make_console(out, color=color, width=max(width, 40))
-    step_console = console if color else _make_console(out, color=color, width=_UNWRAPPED_WIDTH)
     for exercise in report.exercises:
         for part in _exercise(exercise):
-            if isinstance(part, _Step):
-                step_console.print(part.row)
-            else:
-                console.print(part)
+            console.print(part)
     console.print(_summary(report))
     lines = (line.rstrip() for line in out.getvalue().split("\n"))
     return "\n".join(lines).rstrip("\n") + "\n"
@@ -61,7 +46,7 @@ def _make_console(out: StringIO, *, color: bool, width: int) -> Console:
     )
 
 
-def _exercise(exercise: ExerciseResult) -> Iterator[RenderableType | _Step]:
+def _exercise(exercise: ExerciseResult) -> Iterator[RenderableType]:
     name = (f"{exercise.id} {exercise.title}", "bold")
     verdict = (exercise.verdict.value.upper(), f"bold {STYLES[exercise.verdict]}")
     if exercise.missing:
@@ -77,6 +62,8 @@ def _exercise(exercise: ExerciseResult) -> Iterator[RenderableType | _Step]:
             yield from _diagnosis(criterion)
             if criterion.verdict.status is not Status.SKIPPED:
                 yield ""
+    for line in remark_lines(exercise):
+        yield Padding(Group(Text("it works, but will bite", "yellow"), Text(line)), (1, 0, 0, 2))
     yield ""
 
 
@@ -104,13 +91,12 @@ def _headline(criterion: CriterionResult, id_width: int) -> RenderableType:
     return row
 
 
-def _diagnosis(criterion: CriterionResult) -> Iterator[RenderableType | _Step]:
+def _diagnosis(criterion: CriterionResult) -> Iterator[RenderableType]:
     if criterion.verdict.status is Status.ERROR:
         yield _row("", Text("This could not be judged. It is no fault of your code.", "magenta"))
     for label, text in details(criterion.verdict):
-        is_step = label == "next step"
-        row = _row(label, Text(text, "bold" if is_step else ""))
-        yield _Step(row) if is_step else row
+        styles = {"next step": "bold", "more": "dim"}
+        yield _row(label, Text(text, styles.get(label, "")))
     for number, line in enumerate(criterion.verdict.evidence):
         yield _row("" if number else "evidence", Text(printable(line), "dim"))
 
