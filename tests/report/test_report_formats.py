@@ -62,7 +62,9 @@ def test_json_follows_the_contract(mixed: Report) -> None:
         "expected": "2.0 Hz ±20 % with publish_rate:=2.0",
         "observed": "0.5 Hz over 5 samples",
         "cause": "rate used as a period: the timer fires every 2.0 s",
-        "hint": "create the timer with 1.0 / rate",
+        "step": "create the timer with 1.0 / rate",
+        "mistake": "rate-used-as-a-period",
+        "same_as": None,
         "evidence": ["[INFO] [node]: a | b", '  File "my_node.py", line 3, in <module>'],
     }
 
