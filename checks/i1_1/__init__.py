@@ -22,6 +22,7 @@ CHECK = Check(
         Criterion("sensor-name", judges.judge_name, (probes.probe_names,)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.plain_start,), bonus=True),
     ),
+    mistakes="checks.i1_1.mistakes",
     expected_s=4.3,
     expected_reason="the rate at 0.7 Hz: 1.4 s to the first message, then two periods of 1.4 s",
 )

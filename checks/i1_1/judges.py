@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
-from checks.i1_1 import causes as i1_1_causes
-from checks.i1_1 import steps
 from checks.i1_1.facts import (
     HIGHEST,
     LOWEST,
     MAX_COLLECT_S,
     MIN_VALUES,
     SUGGESTED_NAME,
+    SUGGESTED_RATE,
     TOPIC,
     TYPE,
     CollectedValues,
+    NameProbe,
     NameProbes,
     PlainStart,
     RateProbe,
     RateProbes,
+    are_inverted,
     count_agreeing,
     find_agreeing_groups,
     find_inverted_probes,
@@ -28,24 +29,18 @@ from checks.i1_1.facts import (
     has_known_unit,
     parameter_and_unit,
 )
-from tutor.judge import causes, ending, randomness
+from tutor.judge import ending, randomness
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.whole import with_applicable_steps
+from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Trace
-from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.judge.verdict import Verdict, failed, passed
+from tutor.judge.wording import output_tail
+from tutor.ros_model import Parameter
+
+NOT_STARTED = Trace("")
+"""The run of a scenario that did not start the program, since another one had shown enough."""
 
 
-def _traces(*facts: PlainStart | CollectedValues | RateProbes | NameProbes) -> list[Trace]:
-    """The traces behind the facts; for probes, only that of the first one."""
-    runs = [each.probes[:1] if isinstance(each, RateProbes | NameProbes) else (each,) for each in facts]
-    return [trace for group in runs for run in group if (trace := run.trace) is not None]
-
-
-def _with_steps[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
-    return with_applicable_steps(judge, _traces, steps.find_any_step)
-
-
-@_with_steps
 def judge_publishes(seen: PlainStart) -> Verdict:
     expected = f"{TYPE} messages go on arriving on {TOPIC}"
     samples, began = seen.trace.samples_on(TOPIC), seen.trace.started_at
@@ -57,22 +52,16 @@ def judge_publishes(seen: PlainStart) -> Verdict:
     if samples:
         number = f"{len(samples)} messages" if len(samples) > 1 else "one message"
         observed = f"{number} until {samples[-1].received_at - began:.1f} s after the start, then no more"
-    cause = causes.diagnose_no_messages(
-        seen.trace,
-        TOPIC,
-        TYPE,
-        answers=seen.parameters is not None,
-        stuck=seen.stuck,
-        step=steps.add_publisher(seen.trace),
+    missing = Symptom.NO_MESSAGES.seen(
+        seen.trace, stuck=seen.stuck, answers=seen.parameters is not None, topic=TOPIC, type=TYPE, some=bool(samples)
     )
-    return failed(expected, observed, cause, [*evidence, *causes.output_tail(seen.trace)])
+    return failed(expected, observed, missing, [*evidence, *output_tail(seen.trace)])
 
 
-@_with_steps
 def judge_range(found: CollectedValues, more: CollectedValues) -> Verdict:
     expected = f"every value in [{LOWEST}, {HIGHEST}] °C"
     if not found.all:
-        return failed(expected, "no values at all", i1_1_causes.diagnose_stopped(found.trace))
+        return failed(expected, "no values at all", _stopped(found.trace))
     values = (*found.all, *more.all)
     wrong = find_out_of_range(values)
     if not wrong:
@@ -80,19 +69,38 @@ def judge_range(found: CollectedValues, more: CollectedValues) -> Verdict:
     return failed(
         expected,
         f"{len(wrong)} of {len(values)} values outside, such as {wrong[0]:g}",
-        i1_1_causes.diagnose_range(wrong, values, found.trace),
+        _out_of_range(wrong, values, found.trace),
         [f"data: {value!r}" for value in wrong[:5]],
+    )
+
+
+def _stopped(trace: Trace | None) -> Observation:
+    return Symptom.NO_MESSAGES.seen(trace or NOT_STARTED, topic=TOPIC, type=TYPE, some=True)
+
+
+def _is_fahrenheit(value: float) -> bool:
+    """Whether a value is what a room has in degrees Fahrenheit: 60 to 90."""
+    return 60 <= value <= 90
+
+
+def _out_of_range(wrong: Sequence[float], values: Sequence[float], trace: Trace | None) -> Observation:
+    return Symptom.WRONG_VALUES.seen(
+        trace or NOT_STARTED,
+        topic=TOPIC,
+        wrong=tuple(wrong),
+        lowest=LOWEST,
+        highest=HIGHEST,
+        fahrenheit=all(map(_is_fahrenheit, values)),
     )
 
 
 def judge_range_so_far(found: CollectedValues) -> Verdict | None:
     """Judge `range` by the values so far; None while a few Fahrenheit-like ones do not yet show what all look like."""
-    if len(found.all) < MIN_VALUES and all(map(i1_1_causes.is_fahrenheit, found.all)):
+    if len(found.all) < MIN_VALUES and all(map(_is_fahrenheit, found.all)):
         return None
     return judge_range(found, CollectedValues(()))
 
 
-@_with_steps
 def judge_random(found: CollectedValues) -> Verdict:
     expected = "values that vary at random: not constant, not a ramp, not a short cycle"
     runs = (*found.runs, found.regular)
@@ -103,14 +111,12 @@ def judge_random(found: CollectedValues) -> Verdict:
         return failed(
             expected,
             f"{pattern.text} ({len(run)} values)",
-            Cause(pattern.name, pattern.text, steps.draw_values(found.trace)),
+            Symptom.WRONG_VALUES.seen(found.trace or NOT_STARTED, topic=TOPIC, pattern=pattern),
             [f"data: {value:g}" for value in run[:8]],
         )
     longest = max(found.runs, key=len)
     if len(longest) < 3:
-        return failed(
-            expected, f"only {len(longest)} values in {MAX_COLLECT_S:g} s", i1_1_causes.diagnose_stopped(found.trace)
-        )
+        return failed(expected, f"only {len(longest)} values in {MAX_COLLECT_S:g} s", _stopped(found.trace))
     return passed(expected, f"{len(longest)} values, no pattern", [f"data: {value:g}" for value in longest[:5]])
 
 
@@ -132,49 +138,35 @@ def _find_stuck_value(run: Sequence[float]) -> randomness.Pattern | None:
     return randomness.Pattern("constant value", f"the last {repeats} values are all {run[-1]:g}")
 
 
-@_with_steps
 def judge_echo(seen: PlainStart) -> Verdict:
     expected = f"`ros2 topic echo {TOPIC}` shows the values"
     echo = seen.echo
     if echo is None:
-        return failed(expected, "messages do not go on arriving", i1_1_causes.diagnose_stopped(seen.trace))
+        return failed(expected, "messages do not go on arriving", _stopped(seen.trace))
     # A subscription counts, too: the real echo takes the type from all that is on the topic, and refuses two.
     graph = seen.trace.graph
     found = {each.type for each in (*graph.publishers, *graph.subscriptions) if each.topic == TOPIC}
     if len(types := sorted(found.union(echo.types))) > 1:
-        cause = Cause(
-            "wrong type",
-            f"{TOPIC} carries two types, {' and '.join(types)}; echo cannot choose",
-            steps.use_one_type(seen.trace),
-        )
-        return failed(expected, "refused, since there is more than one type on the topic", cause)
+        mixed = Symptom.NO_MESSAGES.seen(seen.trace, topic=TOPIC, type=TYPE, types=tuple(types))
+        return failed(expected, "refused, since there is more than one type on the topic", mixed)
     if echo.samples:
         return passed(
             expected,
             f"shown with {echo.qos.reliability}, {echo.qos.durability} QoS",
             [f"data: {echo.samples[0].message['data']}"],
         )
-    if not echo.types:
-        cause = i1_1_causes.diagnose_exception(seen.trace) or Cause(
-            "no publisher", "the publisher was gone when echo looked for it", "keep it for as long as the node lives"
-        )
-    else:
-        cause = Cause(
-            "no messages",
-            f"a new subscriber got nothing in {echo.limit_s:g} s ({echo.qos.reliability}, {echo.qos.durability})",
-            steps.add_publisher(seen.trace)
-            or "publish again and again from a timer, and set no short lifespan in the QoS",
-        )
-    return failed(expected, f"nothing shown in {echo.limit_s:g} s", cause)
+    gone = not echo.types
+    unheard = Symptom.NO_MESSAGES.seen(seen.trace, topic=TOPIC, type=TYPE, some=True, qos=str(echo.qos), gone=gone)
+    return failed(expected, f"nothing shown in {echo.limit_s:g} s", unheard)
 
 
-@_with_steps
 def judge_rate(found: RateProbes) -> Verdict:
     expected = f"some numeric parameter, set at start-up, sets the rate (±{TOLERANCE:.0%})"
     for group in find_agreeing_groups(found.probes):
         return passed(expected, f"{group[0].name} is read in {group[0].unit}", [str(probe) for probe in group])
     if not found.probes:
-        return failed(expected, "no numeric parameter is declared", i1_1_causes.diagnose_undeclared_rate(None))
+        undeclared = Symptom.NOT_DECLARED.seen(NOT_STARTED, **_RATE_MISSING)
+        return failed(expected, "no numeric parameter is declared", undeclared)
     declared = {parameter.name for parameter in found.declared or ()}
 
     def likelihood(group: Sequence[RateProbe]) -> tuple[bool, int, int, bool]:
@@ -185,21 +177,44 @@ def judge_rate(found: RateProbes) -> Verdict:
     nearest = max(group_probes(found.probes), key=likelihood)
     wrong = next((probe for probe in nearest if not probe.agrees), None)
     if wrong is None:
-        cause = Cause(
-            "wrong rate",
-            f"{nearest[0].name} accepts only one rate among those that were tried",
-            "let it accept any rate from 0.5 to 10 Hz",
+        narrow = Symptom.REFUSED.seen(
+            nearest[0].trace,
+            parameter=nearest[0].name,
+            says=f"{nearest[0].name} takes only one of the rates that were tried",
+            do="Let it take any rate from 0.5 to 10 Hz.",
         )
-        return failed(expected, f"{nearest[0]}; no other value is allowed", cause)
+        return failed(expected, f"{nearest[0]}; no other value is allowed", narrow)
     return failed(
         expected,
         str(wrong),
-        i1_1_causes.diagnose_rate(nearest, wrong, found.declared),
+        _wrong_rate(nearest, wrong, found.declared),
         [str(probe) for probe in nearest],
     )
 
 
-@_with_steps
+_RATE_MISSING = {"parameter": SUGGESTED_RATE, "what": "the rate", "type": "double"}
+_NAME_MISSING = {"parameter": SUGGESTED_NAME, "what": "the sensor's name", "type": "string"}
+
+
+def _wrong_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Parameter, ...] | None) -> Observation:
+    """The rate differs from the one asked for; `group`: the probes that agree with each other best."""
+    if declared is not None and wrong.name not in {parameter.name for parameter in declared}:
+        return Symptom.NOT_DECLARED.seen(wrong.trace, **_RATE_MISSING)
+    rates_hz = [probe.rate.hz for probe in group if probe.rate is not None]
+    return Symptom.WRONG_RATE.seen(
+        wrong.trace,
+        topic=TOPIC,
+        type=TYPE,
+        parameter=wrong.name,
+        unit=wrong.unit,
+        wanted_hz=wrong.asked_hz,
+        rate=wrong.rate,
+        inverted=are_inverted(group),
+        unchanged=len(rates_hz) > 1 and max(rates_hz) <= min(rates_hz) * (1 + TOLERANCE),
+        at_start=True,
+    )
+
+
 def judge_name(found: NameProbes) -> Verdict:
     expected = "some string parameter, set at start-up, appears in the node's log messages"
     for probe in found.probes:
@@ -207,18 +222,37 @@ def judge_name(found: NameProbes) -> Verdict:
             return passed(expected, f"{probe.name}:={probe.value} is logged", [probe.found])
     probe = found.probes[0]
     if found.declared is not None and probe.name not in {parameter.name for parameter in found.declared}:
-        return failed(
-            expected,
-            "no string parameter is declared",
-            Cause(
-                "parameter not declared",
-                "the sensor's name cannot be set from outside",
-                steps.declare_name(probe.trace, SUGGESTED_NAME),
-            ),
-        )
+        undeclared = Symptom.NOT_DECLARED.seen(probe.trace, **_NAME_MISSING)
+        return failed(expected, "no string parameter is declared", undeclared)
     evidence = [str(log) for log in probe.trace.logs[-5:]]
     observed = f"{probe.name}:={probe.value} is in none of {len(probe.trace.logs)} log messages"
-    return failed(expected, observed, i1_1_causes.diagnose_name(found), evidence)
+    return failed(expected, observed, _not_logged(found), evidence)
+
+
+def _not_logged(found: NameProbes) -> Observation:
+    silent = next(
+        (each.trace for each in found.probes if not each.trace.logs and not each.trace.samples_on(TOPIC)), None
+    )
+    if silent is not None and any(each.topic == TOPIC for each in silent.graph.publishers):
+        return Symptom.NO_MESSAGES.seen(silent, topic=TOPIC, type=TYPE)
+    if found.declared is None and not any(_is_printed(probe) for probe in found.probes):
+        return Symptom.NOT_DECLARED.seen(found.probes[0].trace, **_NAME_MISSING)
+    names = {parameter.name for parameter in found.declared or ()}
+    declared = [probe for probe in found.probes if probe.name in names]
+    probe = next((each for each in found.probes if _is_printed(each)), (declared or found.probes)[0])
+    return Symptom.NOT_LOGGED.seen(
+        probe.trace,
+        parameter=probe.name,
+        what="the sensor's name",
+        value=probe.value,
+        at_end=probe.at_end,
+        says=f"{probe.name} is declared, but its value is in no log message",
+        do="Put the parameter's value into a message that the node logs.",
+    )
+
+
+def _is_printed(probe: NameProbe) -> bool:
+    return any(probe.value in line.text for line in (*probe.trace.output, *probe.at_end))
 
 
 def judge_shutdown(seen: PlainStart) -> Verdict:

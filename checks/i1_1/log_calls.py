@@ -8,9 +8,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Mapping
 
-from tutor.judge.rewriting.node import NodeFile, node_file
-from tutor.judge.rewriting.whole import is_usual
-from tutor.judge.source import calls_in, last_name
+from tutor.source import NodeFile, calls_in, last_name, node_file
+from tutor.source.structure import is_usual
 
 _UNPREDICTABLE_MODULES = frozenset({"logging", "loguru", "asyncio", "threading", "time", "datetime"})
 _UNPREDICTABLE_CALLS = ("exec", "eval", "getattr", "setattr", "__import__", "import_module", "get_clock")

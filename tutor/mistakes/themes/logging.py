@@ -199,7 +199,7 @@ def other_logger(case: Case) -> Iterator[Found]:
 
     See it: the message is in the terminal, and not in `ros2 topic echo /rosout`.
     """
-    for each in _logged_elsewhere(case):
+    for each in _logged_elsewhere(case) if case.trace.graph.nodes else ():
         if case.trace.logs or not _is_own(case, each["logger"]):
             yield Found({"what": case.about("what", "it"), "logger": each["logger"] or "the root logger"})
 

@@ -1,0 +1,290 @@
+"""I1.1: the mistakes in what is published, which only this exercise can know."""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Iterator
+
+from tutor.judge.randomness import Pattern
+from tutor.judge.symptom import Symptom
+from tutor.mistakes import Case, Catalogue, Evidence, Found, found
+from tutor.mistakes.examples import in_run
+from tutor.source import NodeFile
+
+CATALOGUE = Catalogue()
+
+_DRAWING = ("uniform", "random", "randint", "randrange", "gauss", "normalvariate", "normal", "triangular", "choice")
+
+
+@CATALOGUE.mistake(
+    "int-in-a-float-field",
+    name="an int in a float field",
+    explains=[Symptom.WRONG_VALUES],
+    evidence=Evidence.RUN,
+    says="the field is a float, and got something else, such as an int: its bits are read wrongly",
+    do="Make it a Python float before it goes into the message.",
+    example=in_run(Symptom.WRONG_VALUES, wrong=(4e-323,)),
+)
+def int_in_float(case: Case) -> Iterator[Found]:
+    """A float field gets something else than a float.
+
+    The wheels are built without assertions: rclpy takes an int, or numpy's float32, for the bits of a float, and
+    sends a number next to 0. A ROS with assertions stops with "must be of type 'float'".
+
+    Bad:
+
+        message.data = 25
+
+    Good:
+
+        message.data = 25.0
+
+    See it: `ros2 topic echo TOPIC` shows something like 1.2e-322.
+    """
+    wrong = case.about("wrong", ())
+    if wrong and all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
+        yield Found()
+
+
+@CATALOGUE.mistake(
+    "initial-value-out-of-range",
+    explains=[Symptom.WRONG_VALUES],
+    says="{line}: the node starts with {value:g}, and publishes it before it has drawn a value: {code}",
+    do="Draw a value before the first message, or begin with one from the range.",
+    example=in_run(Symptom.WRONG_VALUES, wrong=(0.0, 0.0)),
+)
+def initial_value(case: Case) -> Iterator[Found]:
+    """A node publishes the value that it began with.
+
+    An attribute has its first value until something sets another one. If the message goes out before that, it carries
+    the first.
+
+    Bad:
+
+        self.volume = 0.0
+        self.next_volume = lambda: random.uniform(3.0, 5.0)
+
+    Good:
+
+        self.volume = random.uniform(3.0, 5.0)
+
+    See it: the first message in `ros2 topic echo`.
+    """
+    wrong = set(case.about("wrong", ()))
+    for file in case.files:
+        if len(wrong) == 1 and file.calls(*_DRAWING):
+            value = next(iter(wrong))
+            kept = [node for node in file.nodes if isinstance(node, ast.Assign) and _is_set_to(node, value)]
+            if len(kept) == 1:
+                yield found(file, kept[0], value=value)
+
+
+def _is_set_to(node: ast.Assign, value: float) -> bool:
+    """Whether an attribute is set to this constant, or to a message made of it, as in Float64(data=0.0)."""
+    given: ast.expr = node.value
+    if isinstance(given, ast.Call):
+        inner = [*given.args, *(keyword.value for keyword in given.keywords)]
+        given = inner[0] if len(inner) == 1 else given
+    constant = given.value if isinstance(given, ast.Constant) else None
+    return isinstance(node.targets[0], ast.Attribute) and isinstance(constant, int | float) and constant == value
+
+
+@CATALOGUE.mistake(
+    "out-of-range",
+    explains=[Symptom.WRONG_VALUES],
+    evidence=Evidence.SYMPTOM,
+    says="{what}",
+    do="Look at how a value is drawn, and which numbers that can give.",
+    example=in_run(Symptom.WRONG_VALUES, wrong=(75.0,), lowest=3.0, highest=5.0, fahrenheit=True),
+)
+def out_of_range(case: Case) -> Iterator[Found]:
+    """Values leave the range.
+
+    random.random() gives 0 to 1, random.gauss() any number; random.uniform(a, b) stays between a and b. An offset, or a
+    unit (Fahrenheit for Celsius), moves all of them.
+
+    Bad:
+
+        message.data = random.random() * 5.0
+
+    Good:
+
+        message.data = random.uniform(3.0, 5.0)
+
+    See it: the plot in Live, which shows the range.
+    """
+    if case.about("wrong"):
+        lowest, highest = case.about("lowest"), case.about("highest")
+        what = f"some values are not in {lowest} to {highest}"
+        yield Found({"what": "these look like degrees Fahrenheit" if case.about("fahrenheit") else what})
+
+
+def _pattern(case: Case, *names: str) -> Iterator[Found]:
+    pattern = case.about("pattern")
+    if pattern is not None and pattern.name in names:
+        yield from _places(case, pattern)
+        yield Found({"text": pattern.text})
+
+
+def _places(case: Case, pattern: Pattern) -> Iterator[Found]:
+    for file in case.files:
+        tick = file.timer_callback
+        reached = file.reachable_from(tick) if tick is not None else []
+        for call in file.calls("seed", *_DRAWING):
+            seeded = getattr(call.func, "attr", "") == "seed" and file.function_around(call) in reached
+            once = file.function_around(call) is file.setup and not _draws_in(file, reached)
+            if seeded or once:
+                yield found(file, call, text=pattern.text)
+
+
+def _draws_in(file: NodeFile, functions: list[ast.FunctionDef | ast.AsyncFunctionDef]) -> bool:
+    return any(file.function_around(call) in functions for call in file.calls(*_DRAWING))
+
+
+@CATALOGUE.mistake(
+    "constant-value",
+    explains=[Symptom.WRONG_VALUES],
+    evidence=Evidence.RUN,
+    says="{text}: a value that is drawn once, or seeded alike each time, is the same in every message",
+    do="Draw a new value for every message, where the message is made.",
+    example=in_run(Symptom.WRONG_VALUES, pattern=Pattern("constant value", "all 8 values are 23.4")),
+)
+def constant(case: Case) -> Iterator[Found]:
+    """Every message has the same value.
+
+    What __init__ computes is computed once. random.seed() with a fixed number makes the next random number the same
+    each time.
+
+    Bad:
+
+        def __init__(self):
+            self.volume = random.uniform(3.0, 5.0)
+
+    Good:
+
+        def ring(self):
+            volume = random.uniform(3.0, 5.0)
+
+    See it: `ros2 topic echo TOPIC`.
+    """
+    return _pattern(case, "constant value")
+
+
+@CATALOGUE.mistake(
+    "ramp",
+    explains=[Symptom.WRONG_VALUES],
+    evidence=Evidence.RUN,
+    says="{text}: that is a ramp, and no random value",
+    do="Draw each value by itself, and do not compute it from the one before.",
+    example=in_run(Symptom.WRONG_VALUES, pattern=Pattern("ramp", "each value is the one before it +0.5")),
+)
+def ramp(case: Case) -> Iterator[Found]:
+    """Values go up or down in steps.
+
+    A value that is computed from the one before, from a counter or from the clock can be foretold. Random values jump.
+
+    Bad:
+
+        self.volume += 0.5
+
+    Good:
+
+        self.volume = random.uniform(3.0, 5.0)
+
+    See it: the plot in Live.
+    """
+    return _pattern(case, "ramp")
+
+
+@CATALOGUE.mistake(
+    "short-cycle",
+    name="pattern in the values",
+    explains=[Symptom.WRONG_VALUES],
+    evidence=Evidence.RUN,
+    says="{text}: values that come from a short list, or from a curve, are not random",
+    do="Draw each value from the whole range, for every message.",
+    example=in_run(Symptom.WRONG_VALUES, pattern=Pattern("short cycle", "the same 3 values come again and again")),
+)
+def cycle(case: Case) -> Iterator[Found]:
+    """The same values come again and again.
+
+    A list that is gone through, a sine, or a few numbers that were drawn at the start repeat themselves.
+
+    Bad:
+
+        self.volume = self.volumes[self.rings % 3]
+
+    Good:
+
+        self.volume = random.uniform(3.0, 5.0)
+
+    See it: the plot in Live.
+    """
+    if case.about("pattern") is not None:
+        yield from _pattern(case, case.about("pattern").name)
+
+
+@CATALOGUE.mistake(
+    "two-types-on-one-topic",
+    name="wrong type",
+    explains=[Symptom.NO_MESSAGES],
+    evidence=Evidence.RUN,
+    says="{topic} carries two types, {types}: a tool that takes the type from the topic cannot choose",
+    do="Let everything on this topic have the type that is asked for.",
+    example=in_run(Symptom.NO_MESSAGES, topic="/ring", types=("std_msgs/msg/Bool", "std_msgs/msg/String")),
+)
+def two_types(case: Case) -> Iterator[Found]:
+    """Two types are on one topic.
+
+    Publishers and subscriptions with one name and two types never meet, and `ros2 topic echo` refuses to choose.
+
+    Bad:
+
+        self.create_publisher(Bool, 'ring', 10)
+        self.create_publisher(String, 'ring', 10)
+
+    Good:
+
+        self.create_publisher(Bool, 'ring', 10)
+
+    See it: `ros2 topic list -t`.
+    """
+    types = case.about("types", ())
+    if len(types) > 1:
+        yield Found({"topic": case.about("topic"), "types": " and ".join(types)})
+
+
+@CATALOGUE.mistake(
+    "stops-publishing",
+    name="no messages",
+    explains=[Symptom.NO_MESSAGES],
+    evidence=Evidence.SYMPTOM,
+    says="{what}",
+    do="Let a timer publish for as long as the node lives, with a QoS that keeps a message until it is read.",
+    example=in_run(Symptom.NO_MESSAGES, some=True),
+)
+def stops(case: Case) -> Iterator[Found]:
+    """A node stops publishing.
+
+    One message from __init__, or a few, are gone before anybody listens. What is to be there for everyone who comes
+    later has to be sent again and again.
+
+    Bad:
+
+        def __init__(self):
+            self.ring_once()
+
+    Good:
+
+        def __init__(self):
+            self.create_timer(1.0, self.ring_once)
+
+    See it: `ros2 topic hz TOPIC`.
+    """
+    if case.about("gone"):
+        yield Found({"what": "the publisher was gone when a new subscriber looked for it"})
+    elif case.about("qos"):
+        yield Found({"what": f"a new subscriber got nothing ({case.about('qos')})"})
+    elif case.about("some"):
+        yield Found({"what": "the node stops publishing, or publishes far too rarely"})
