@@ -16,10 +16,8 @@ from typing import TYPE_CHECKING
 from tutor import interpreter
 from tutor.content import Course, Lesson, LessonFile, Partner
 from tutor.errors import StorageError
-from tutor.judge.result import ExerciseResult
 from tutor.session import run_options
-from tutor.session.node import NodeCommand
-from tutor.session.shell import Shell
+from tutor.session.node_command import NodeCommand
 from tutor.workspace import (
     AppState,
     ExerciseState,
@@ -36,7 +34,9 @@ from tutor.workspace import (
 from tutor.workspace.progress import now
 
 if TYPE_CHECKING:
+    from tutor.judge.result import ExerciseResult
     from tutor.ros.environment import RosEnvironment
+    from tutor.session.shell import Shell
 
 Notify = Callable[[str], None]
 
@@ -228,6 +228,7 @@ class Session:
         from tutor import private_folders
         from tutor.bundled_ros.ros2.sourced import sourced_environment
         from tutor.ros.environment import detect  # imported late, not to delay the first paint
+        from tutor.session.shell import Shell
 
         if self._tools is None:
             self._tools = private_folders.create_until_exit("terminal")
