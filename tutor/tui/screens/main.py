@@ -76,9 +76,11 @@ class MainScreen(HostScreen):
         self.register(commands.QUIT, lambda: self.app.run_action("quit"))
         self.register(commands.EVIDENCE, self._toggle_evidence)
         self._framed_panels: tuple[Widget, ...] = ()
+        self._was_shown = False
         self._phases: list[tuple[str, Phase]] = []
 
     def compose(self) -> ComposeResult:
+        self.pages.choose_layout(*self.app.size)  # before the widgets are styled for the first time
         yield StatusBar()
         with Horizontal(id="columns"):
             yield LessonList(self.model.session.lessons, id="lessons")
@@ -102,7 +104,7 @@ class MainScreen(HostScreen):
         self.query_one(StatusBar).show_check(None)
         self.preferences_changed()
         page = self.model.state.page
-        self.pages.arrange(self.size.width, self.size.height)
+        self.pages.show_criteria_tab()
         await self.go_to(self.model.lesson, page if page in commands.PAGES else "lesson")
         self.records.read()
 
@@ -214,9 +216,16 @@ class MainScreen(HostScreen):
                 panel.set_class(panel in around, "-focused", update=False)
                 self.app.stylesheet.update_nodes([panel])
 
+    def on_screen_resume(self, event: events.ScreenResume) -> None:
+        """Do not restyle every widget at the start: each has just been styled as it was mounted."""
+        event.refresh_styles = event.refresh_styles and self._was_shown
+        self._was_shown = True
+
     def on_resize(self, event: events.Resize) -> None:
         """Lay the panels out for the new size."""
         self.pages.arrange(event.size.width, event.size.height)
+        if event.size == self.outer_size:
+            event.prevent_default()  # what the layout for this size has reported: Textual would do it once more
 
     # --- messages from workers and widgets ---
 
