@@ -63,7 +63,7 @@ class MainScreen(HostScreen):
         self.pages = Pages(self, self.preferences, lambda: bool(self.nodes.running))
         self.records = Records(self)
         self.files = Files(self, code, self.records)
-        Views(self, code, self.files)
+        Views(self, code, self.files, self.records)
         self.nodes = Nodes(self, self.files, self.preferences)
         self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
         self.checklist = ChecklistController(self, self.records)
@@ -232,13 +232,13 @@ class MainScreen(HostScreen):
     @on(messages.ProgressRead)
     def _progress_read(self, message: messages.ProgressRead) -> None:
         model = self.model
-        model.progress = message.progress
+        model.progress, model.versions = message.progress, message.versions
         for each in model.session.lessons:
             model.findings[each.id] = model.findings[each.id].with_last_check(message.progress.of(each.id))
         self.query_one(CriteriaPanel).show_findings(model.findings[model.lesson.id])
         self._count_passed()
         self.query_one(LessonList).show_states(model.session.states(message.progress))
-        self.checklist.show(message.progress)
+        self.checklist.show()
         lesson = model.lesson
         self.query_one(CriteriaPanel).show_attempts(lesson, message.progress.of(lesson.id))
 

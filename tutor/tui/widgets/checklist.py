@@ -29,7 +29,7 @@ def bar(ticked: int, total: int, width: int = _BAR_CELLS) -> Content:
 def _evidence_line(item: AssessedItem) -> str:
     """Return the evidence that checks have given for an item; else the exercises that would give it."""
     if shown := describe_evidence(item.evidence, near_day, max_items=_MAX_EXERCISES):
-        return f"✓ {' · '.join(shown)}"
+        return f"{'✓' if item.shown else '○'} {' · '.join(shown)}"
     if sources := describe_sources(item.sources[:_MAX_EXERCISES]):
         more = ["others"] if len(item.sources) > _MAX_EXERCISES else []
         return f"○ not yet shown by {' or '.join([*sources, *more])}"
@@ -89,7 +89,7 @@ class ItemRow(Widget, can_focus=True):
     def _lines(self, width: int) -> list[Content]:
         box = Content.styled("[✓] ", "bold $good") if self.ticked else Content("[ ] ")
         room = max(1, width - box.cell_length)
-        evidence_ink = "$good" if self.item.evidence else "$quiet"
+        evidence_ink = "$good" if self.item.shown else "$quiet"
         focused = "$block-cursor-foreground" if self.has_focus else ""
         text = Content.styled(self.item.text, f"bold {focused}" if focused else "").wrap(room)
         shown = Content.styled(_evidence_line(self.item), focused or evidence_ink).wrap(room)
