@@ -4,7 +4,8 @@
 
 Both apps are started alternately, each in its own terminal. The clock stops at the first frame: for our app that is its
 bar with the title of the opened lesson; `whole` is the lesson with its criteria. At most 1.3 times the empty app's time
-is allowed, and 2 % of CPU when idle. The fastest start counts: slower ones are the machine's doing.
+is allowed for the first, 3.5 times for the whole, and 2 % of CPU when idle. The fastest start counts: slower ones are
+the machine's doing.
 """
 
 from __future__ import annotations
@@ -19,21 +20,25 @@ from pathlib import Path
 
 from tests.benchmarks.terminal import Terminal, read_usage
 from tutor.content import load_course
+from tutor.interpreter import FLAGS, module_command
 from tutor.workspace import Workspace, start
 
-EMPTY = "from textual.app import App; App().run()"
-OURS = "import sys; from tutor.cli import main; sys.exit(main())"
+EMPTY = (sys.executable, *FLAGS, "-c", "from textual.app import App; App().run()")
+OURS = module_command("tutor")
+"""The command that `ros-tutor` runs, which sets up the garbage collector too."""
+
 FIRST_FRAME = b" " * 100
 """Text that any first frame contains: the blank half of a line."""
 
 MAX_RATIO = 1.3
+MAX_WHOLE_RATIO = 3.5
 MAX_IDLE_CPU = 0.02
 
 
-def start_app(code: str, *arguments: str) -> tuple[Terminal, float]:
+def start_app(*command: str) -> tuple[Terminal, float]:
     """Start this program in a terminal; return it and the start time."""
     began = time.perf_counter()
-    return Terminal([sys.executable, "-c", code, *arguments], dict(os.environ)), began
+    return Terminal(list(command), dict(os.environ)), began
 
 
 def cpu_time_s(pid: int) -> float:
@@ -50,10 +55,10 @@ def measure(workspace: Path, times: int) -> bool:
         took[name].append((app.wait_for_text(text) - began, cpu_time_s(app.pid)))
 
     for _ in range(times):
-        app, began = start_app(EMPTY)
+        app, began = start_app(*EMPTY)
         wait_for_paint("empty app", FIRST_FRAME)
         app.close()
-        app, began = start_app(OURS, "--workspace", str(workspace))
+        app, began = start_app(*OURS, "--workspace", str(workspace))
         wait_for_paint("ros-tutor", b"I1.1 Sensor Publisher")
         wait_for_paint("whole", b"of 6 passed")
         app.close()
@@ -66,13 +71,15 @@ def measure(workspace: Path, times: int) -> bool:
             f"({min(clock) / empty:.2f} times); {min(cpu) * 1000:5.0f} ms of CPU ({min(cpu) / empty_cpu:.2f} times)"
         )
     ratio = min(clock for clock, _ in took["ros-tutor"]) / empty
+    whole_ratio = min(clock for clock, _ in took["whole"]) / empty
     print(f"first paint: {ratio:.2f} times an empty app's (target: at most {MAX_RATIO})")
-    return ratio <= MAX_RATIO
+    print(f"whole: {whole_ratio:.2f} times an empty app's first paint (target: at most {MAX_WHOLE_RATIO})")
+    return ratio <= MAX_RATIO and whole_ratio <= MAX_WHOLE_RATIO
 
 
 def measure_idle(workspace: Path, seconds: float) -> bool:
     """Print what the idle app uses; return whether it is little enough."""
-    app, _ = start_app(OURS, "--workspace", str(workspace))
+    app, _ = start_app(*OURS, "--workspace", str(workspace))
     app.wait_for_text(b"of 6 passed")
     app.drain(2.0)
     before, began = read_usage(app.pid), time.perf_counter()

@@ -184,7 +184,7 @@ def test_installed_packages_take_precedence(
     ours = [str(tmp_path / "overlay/lib/demo_nodes_cpp/talker")]
     assert packages.find_executable("demo_nodes_cpp", "talker") == ours
     monkeypatch.setattr(sys, "executable", "/with spaces/python")  # a path that a shebang line cannot hold
-    monkeypatch.setattr(packages, "_is_our_script", lambda program: True)
+    monkeypatch.setattr(packages, "_interpreter_line", lambda program: "/with spaces/python -P")
     assert packages.find_executable("demo_nodes_cpp", "talker") == ["/with spaces/python", "-P", *ours]
 
 
@@ -231,3 +231,22 @@ def test_unbuilt_demo_nodes_cpp_do_not_hide_ours(use_overlay: UseOverlay, tmp_pa
     write_file(tmp_path / "ws/src/demos/demo_nodes_cpp/CMakeLists.txt")
     use_overlay(write_file(write_package(tmp_path / "ws/src", "birds") / "launch/a.launch.py"))
     assert packages.find_executable("demo_nodes_cpp", "talker")
+
+
+def test_a_program_that_colcon_built_for_its_own_python_runs_with_the_bundled_ros(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    write_file(tmp_path / packages.INDEX / "built")
+    lines = {
+        "colcons": f"#!{tmp_path}/venv/bin/python3.12\n",
+        "systems": "#!/usr/bin/python3\n",
+        "users": f"#!{tmp_path}/with-rclpy/bin/python3\n",
+        "chosen": "#!/usr/bin/env python3\n",
+        "shell": "#!/bin/sh\n",
+    }
+    (tmp_path / "with-rclpy/lib/python3.12/site-packages/rclpy").mkdir(parents=True)
+    for name, line in lines.items():
+        write_file(tmp_path / "lib/built" / name, line).chmod(0o755)
+    with_ours = {name for name in lines if packages.find_executable("built", name)[0] == sys.executable}
+    assert with_ours == {"colcons", "systems"}

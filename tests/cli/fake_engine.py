@@ -10,6 +10,8 @@ from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Eve
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.workspace import digests_of
+from tutor.workspace.given_code import given_criteria
 
 
 @dataclass
@@ -56,7 +58,15 @@ class FakeEngine:
             verdict = self.verdicts.get(each.id, passed("as asked", "as asked"))
             results.append(CriterionResult(each.id, each.text, each.bonus, verdict, 0.5))
             on_event(CriterionJudged(lesson.id, results[-1]))
-        result = ExerciseResult(lesson.id, lesson.title, tuple(submission.files), tuple(results), 1.0)
+        result = ExerciseResult(
+            lesson.id,
+            lesson.title,
+            tuple(submission.files),
+            tuple(results),
+            1.0,
+            digests=digests_of(submission.files),
+            given=given_criteria(lesson, submission),
+        )
         on_event(ExerciseJudged(result))
         return result
 

@@ -7,11 +7,13 @@ import sys
 import types
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from tests.cli.conftest import Run
 from tests.cli.fake_engine import FAILURE, FakeEngine
+from tutor.workspace import Workspace
 
 
 def line_of(text: str, exercise: str) -> str:
@@ -141,12 +143,49 @@ def test_the_checklist_is_ticked_and_exported(run: Run, home: Path) -> None:
     assert (home / "page.html").read_text().startswith("<!DOCTYPE html>")
 
 
-def test_a_passed_exercise_is_evidence_in_the_checklist(run: Run, engine: FakeEngine) -> None:
+def test_evidence_is_what_holds_for_the_file_as_it_is(run: Run, engine: FakeEngine, home: Path) -> None:
     run("start", "i1.1")
     assert "i1.1" not in run("checklist").out
     run("check", "i1.1")
     shown = run("checklist").out
-    assert "Call a function at a fixed period with a timer  (i1.1 rate passed, today)\n" in shown
+    timers = "Call a function at a fixed period with a timer"
+    assert f"{timers}  (i1.1 rate passed, today)\n" in shown
+    assert "End a node cleanly when someone presses Ctrl+C\n" in shown  # main() is the skeleton's
+
+    node = Workspace(home / "ros_tutor_ws").path_of("temperature_publisher.py")
+    written = node.read_text()
+    node.write_text(f"{written}# changed\n")
+    assert f"{timers}  (i1.1 rate passed today, since changed)\n" in run("checklist").out
+    assert ", since changed |" in run("checklist", "export").out
+    node.write_text(written)
+    assert f"{timers}  (i1.1 rate passed, today)\n" in run("checklist").out
+
+    # An ending of one's own, and a failure.
+    node.write_text(written.replace("        node.destroy_node()\n", ""))
+    engine.verdicts = {"rate": FAILURE}
+    run("check", "i1.1")
+    shown = run("checklist").out
+    assert "rate passed" not in shown
+    assert "End a node cleanly when someone presses Ctrl+C  (i1.1 shutdown passed, today)\n" in shown
+
+
+@pytest.mark.parametrize(
+    ("seen", "word"),
+    [
+        ((), "passed,"),
+        (("hint", "i1.1"), "passed with hints,"),
+        (("solution", "i1.1"), "passed with solution,"),
+        (("diff", "i1.1", "--solution"), "passed with solution,"),
+    ],
+)
+def test_what_was_seen_before_the_pass_is_said_in_one_word(run: Run, engine: FakeEngine, seen: Any, word: str) -> None:
+    run("start", "i1.1")
+    if seen:
+        run(*seen)
+    run("check", "i1.1")
+    run("solution", "i1.1")  # too late to matter
+    assert f"(i1.1 rate {word} today)" in run("checklist").out
+    assert f"| {word} 2" in run("checklist", "export").out
 
 
 @dataclass(frozen=True)

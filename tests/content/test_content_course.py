@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tutor.content import Lesson, LessonFile, lint_course, load_course
+from tutor.content import Lesson, LessonFile, load_course
+from tutor.content.lint import lint_course
 
 README = Path(__file__).parents[2] / "README.md"
 

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tutor.content import Checklist, Course, lint_course, load_course
+from tutor.content import Checklist, Course, load_course
+from tutor.content.lint import lint_course
 
 
 def find_problems(folder: Path) -> list[tuple[str, str]]:

@@ -76,6 +76,7 @@ async def test_a_result_has_the_digests_of_the_files_as_they_were_when_the_check
 
     result = await scene.judge(criterion("a", edited_meanwhile))
     assert result.digests == {FILE: began[0]}
+    assert result.given == ()
     assert began[0]
 
 

@@ -131,7 +131,7 @@ def test_lesson_check_hints_and_checklist_through_a_pipe(tmp_path: Path, env: di
     assert (
         "rate: failed.\nCause: no spin: no callback ran\nsensor-name: passed." in output
     )  # at once, not only at the end
-    assert re.search(r"^1: not ticked: .* Evidence: i1\.1 .*passed, today\.$", output, re.MULTILINE)
+    assert re.search(r"^1: not ticked: .* Evidence: i1\.1 .*passed with hints, today\.$", output, re.MULTILINE)
     assert re.search(r"^Hint 1 of 3: \w", output, re.MULTILINE)
     assert output.endswith("Command: \nThe input has ended.\nGoodbye. Your progress is kept.\n")
     progress = Workspace(tmp_path / "ros_tutor_ws").progress().read()

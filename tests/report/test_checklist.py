@@ -7,6 +7,7 @@ import re
 from datetime import date
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -14,10 +15,10 @@ from hypothesis import strategies as st
 
 from tutor.content import Checklist, ChecklistGroup, ChecklistItem, Course, CriterionText, Difficulty, Lesson
 from tutor.judge.verdict import Status
-from tutor.report.assessment import Evidence, Source, assess
+from tutor.report.assessment import Assessment, Evidence, Source, assess
 from tutor.report.checklist import FORMATS, format_of, render_checklist
 from tutor.report.phrases import calendar_day, describe_evidence, describe_sources, near_day
-from tutor.workspace import Attempt, ExerciseProgress, Progress
+from tutor.workspace import Attempt, ExerciseProgress, Help, Progress
 
 NOON = "2026-01-02T12:00:00Z"
 LATER = "2026-01-03T12:00:00Z"
@@ -57,12 +58,17 @@ def exercise(*attempts: Attempt, best: Status | None = None) -> ExerciseProgress
     return ExerciseProgress(NOON, attempts, best)
 
 
-def failed(*passed: str, at: str = NOON) -> Attempt:
-    return Attempt(at, Status.FAILED, passed)
+def failed(*passed: str, at: str = NOON, version: str = "now", **more: Any) -> Attempt:
+    return Attempt(at, Status.FAILED, passed, version=version, **more)
 
 
-def passed(*ids: str, at: str = LATER) -> Attempt:
-    return Attempt(at, Status.PASSED, ids)
+def passed(*ids: str, at: str = LATER, version: str = "now", **more: Any) -> Attempt:
+    return Attempt(at, Status.PASSED, ids, version=version, **more)
+
+
+def assessed(done: Progress, course: Course = COURSE) -> Assessment:
+    """The assessment of files that are all of the version "now"."""
+    return assess(course, done, {lesson.id: "now" for lesson in course.lessons})
 
 
 def progress(ticks: str = "", **exercises: ExerciseProgress) -> Progress:
@@ -71,40 +77,108 @@ def progress(ticks: str = "", **exercises: ExerciseProgress) -> Progress:
     )
 
 
-def evidence(course: Course, done: Progress, item: str) -> tuple[Evidence, ...]:
-    return next(each.evidence for each in assess(course, done).items if each.id == item)
+def evidence(done: Progress, item: str) -> tuple[Evidence, ...]:
+    return next(each.evidence for each in assessed(done).items if each.id == item)
+
+
+def validation(*attempts: Attempt, best: Status | None = None) -> tuple[Evidence, ...]:
+    return evidence(progress(i2_1=exercise(*attempts, best=best)), "validate")
 
 
 def test_a_criterion_that_passed_is_evidence_even_if_the_exercise_did_not() -> None:
-    done = progress(i2_1=exercise(failed("validation"), failed("validation", "defaults", at=LATER), failed(at=LATER)))
-    assert evidence(COURSE, done, "validate") == (Evidence("i2.1", "validation", LATER),)
-    assert evidence(COURSE, done, "launch") == ()
+    assert validation(failed("validation"), failed("validation", "defaults", at=LATER)) == (
+        Evidence("i2.1", "validation", LATER),
+    )
+    assert evidence(progress(i2_1=exercise(failed("validation"))), "launch") == ()
 
 
-def test_a_criterion_that_the_skeleton_passes_is_evidence_only_once_the_exercise_has_passed() -> None:
-    early = failed("shutdown")
-    assert evidence(COURSE, progress(i2_1=exercise(early)), "end") == ()
-    done = progress(i2_1=exercise(early, passed("defaults", "validation", "shutdown"), best=Status.PASSED))
-    assert evidence(COURSE, done, "end") == (Evidence("i2.1", "shutdown", LATER),)
+def test_what_fails_in_the_files_as_they_are_is_no_evidence() -> None:
+    before = failed("validation", version="before")
+    assert validation(failed("validation"), failed(at=LATER)) == ()
+    assert validation(before, failed(at=LATER)) == ()
+    assert validation(before, passed("validation"), failed(at=LATER), best=Status.PASSED) == ()
+    # It was not judged then: an attempt at another criterion, and one that ended in an error of ours.
+    alone = failed("defaults", at=LATER, whole=False, judged=("defaults",))
+    error = failed(at=LATER, errors=("validation",))
+    for later in (alone, error):
+        assert validation(failed("validation"), later) == (Evidence("i2.1", "validation", NOON),)
+
+
+def test_what_passed_with_other_files_says_so() -> None:
+    before = failed("validation", version="before")
+    changed = Evidence("i2.1", "validation", NOON, changed=True)
+    assert validation(before) == (changed,)
+    assert validation(before, failed(at=LATER, version="between")) == (changed,)
+    # Undone: the files are again what they were.
+    assert validation(failed("validation"), failed(at=LATER, version="between")) == (
+        Evidence("i2.1", "validation", NOON),
+    )
+    assert not changed.holds
+    assert describe_evidence([changed], calendar_day) == ["i2.1 validation passed on 2026-01-02, since changed"]
+    assert describe_evidence([changed], lambda at: "today") == ["i2.1 validation passed today, since changed"]
+
+
+def test_attempts_from_before_versions_were_recorded_prove_nothing_of_the_files_as_they_are() -> None:
+    old = failed("validation", version="")
+    (known,) = validation(old)
+    assert (known.changed, known.holds) == (None, False)
+    assert describe_evidence([known], calendar_day) == ["i2.1 validation passed on 2026-01-02"]
+    assert validation(old, failed(at=LATER, version="")) == ()
+    assert validation(old, failed(at=LATER)) == ()
+    assert evidence(progress(i2_1=exercise(failed("shutdown", version=""))), "end") == ()
+
+
+def test_the_skeletons_own_code_is_no_evidence() -> None:
+    everything = ("defaults", "validation", "shutdown")
+    given = passed(*everything, given=("shutdown",))
+    assert evidence(progress(i2_1=exercise(given, best=Status.PASSED)), "end") == ()
+    done = progress(i2_1=exercise(given, passed(*everything), best=Status.PASSED))
+    assert evidence(done, "end") == (Evidence("i2.1", "shutdown", LATER),)
+    assert evidence(progress(i2_1=exercise(passed(*everything), given, best=Status.PASSED)), "end") == ()
+
+
+def test_help_before_the_first_pass_is_noted() -> None:
+    hints, solution = failed("validation", help=Help.HINTS), passed("defaults", "validation", help=Help.SOLUTION)
+    (first,) = validation(hints, solution, best=Status.PASSED)
+    assert first.help is Help.HINTS
+    assert describe_evidence([first], calendar_day) == ["i2.1 validation passed with hints, 2026-01-03"]
+    done = progress(i2_1=exercise(hints, solution, best=Status.PASSED))
+    (row, _) = assessed(done).exercises
+    assert row.help is Help.SOLUTION
+    assert "passed with solution, 2026-01-03 |" in render_checklist(assessed(done), "markdown", at=NOON)
+    page = Page(render_checklist(assessed(done), "html", at=NOON))
+    assert "passed with solution," in page.texts_in("td")
+    assert "i2.1 validation passed with hints, 2026-01-03" in page.texts_in("span")
+    document = json.loads(render_checklist(assessed(done), "json", at=NOON))
+    assert document["exercises"][0]["help"] == "solution"
+    assert document["groups"][0]["items"][1]["evidence"][0]["help"] == "hints"
+
+
+def test_an_exercise_that_was_passed_with_other_files_says_so() -> None:
+    done = progress(i2_1=exercise(passed("defaults", "validation", version="before"), best=Status.PASSED))
+    assert "| passed, 2026-01-03, since changed |" in render_checklist(assessed(done), "markdown", at=NOON)
+    assert ", since changed" in Page(render_checklist(assessed(done), "html", at=NOON)).texts_in("td")
+    exercises = json.loads(render_checklist(assessed(done), "json", at=NOON))["exercises"]
+    assert [each["since_changed"] for each in exercises] == [True, None]
 
 
 def test_the_whole_exercise_is_evidence_for_an_item_that_no_criterion_covers() -> None:
     done = progress(i2_2=exercise(passed("defaults", "validation"), best=Status.PASSED))
-    assert evidence(COURSE, done, "launch") == (Evidence("i2.2", "", LATER),)
-    assert evidence(COURSE, progress(i2_2=exercise(failed("defaults"))), "launch") == ()
+    assert evidence(done, "launch") == (Evidence("i2.2", "", LATER),)
+    assert evidence(progress(i2_2=exercise(failed("defaults"))), "launch") == ()
 
 
-def test_the_latest_evidence_comes_first_and_an_old_pass_still_counts() -> None:
+def test_what_holds_now_comes_first_and_an_old_pass_is_remembered() -> None:
     done = progress(
         i2_1=exercise(failed("defaults")),
-        i2_2=exercise(failed("defaults", at=LATER), best=Status.PASSED),  # its passing attempt is no longer kept
+        i2_2=exercise(failed("defaults", at=LATER, version="before"), best=Status.PASSED),  # its pass is not kept
     )
-    assert [each.exercise for each in evidence(COURSE, done, "declare")] == ["i2.2", "i2.1", "i2.2"]
-    assert evidence(COURSE, done, "declare")[-1] == Evidence("i2.2", "validation", "")
+    assert [each.exercise for each in evidence(done, "declare")] == ["i2.1", "i2.2", "i2.2"]
+    assert evidence(done, "declare")[-1] == Evidence("i2.2", "validation", "", changed=None)
 
 
 def test_sources_of_possible_evidence() -> None:
-    sources = {each.id: each.sources for each in assess(COURSE, Progress()).items}
+    sources = {each.id: each.sources for each in assessed(Progress()).items}
     assert sources["declare"] == (
         Source("i2.1", ("defaults", "validation")),
         Source("i2.2", ("defaults", "validation")),
@@ -148,14 +222,14 @@ ALL = progress("declare validate end launch judge", i2_1=PASSED)
 
 
 def test_ready_means_that_every_item_is_ticked() -> None:
-    assert not assess(COURSE, HALF).ready
-    assert assess(COURSE, HALF).ticked == 1  # a tick for an item that the course does not have is ignored
-    assert assess(COURSE, ALL).ready
-    assert not assess(Course(LESSONS, Checklist()), ALL).ready
+    assert not assessed(HALF).ready
+    assert assessed(HALF).ticked == 1  # a tick for an item that the course does not have is ignored
+    assert assessed(ALL).ready
+    assert not assessed(ALL, Course(LESSONS, Checklist())).ready
 
 
 def test_markdown_is_a_task_list_for_github_with_a_table_of_the_exercises() -> None:
-    text = render_checklist(assess(COURSE, HALF), "markdown", at=NOON)
+    text = render_checklist(assessed(HALF), "markdown", at=NOON)
     assert text.startswith("# Self-assessment checklist\n\n1 of 5 ticked, 1 of 2 exercises passed (2026-01-02).\n")
     assert (
         "## Group \\<1\\> @<!-- -->all\n\n- [x] Declare a & b (i2.1 defaults and validation passed, 2026-01-03)\n"
@@ -165,11 +239,11 @@ def test_markdown_is_a_task_list_for_github_with_a_table_of_the_exercises() -> N
     assert "| i2.1 Parameters \\<b\\> | easy | passed, 2026-01-03 | 2 of 2 | 0 of 1 | 2 |\n" in text
     assert "| i2.2 Launch \\| go | easy | not started | 0 of 2 |  | 0 |\n" in text
     assert "Ready?" not in text
-    assert "## Ready?\n\nYes, go \\<on\\>.\n" in render_checklist(assess(COURSE, ALL), "markdown", at=NOON)
+    assert "## Ready?\n\nYes, go \\<on\\>.\n" in render_checklist(assessed(ALL), "markdown", at=NOON)
 
 
 def test_json_has_a_schema_and_all_items() -> None:
-    document = json.loads(render_checklist(assess(COURSE, HALF), "json", at=NOON))
+    document = json.loads(render_checklist(assessed(HALF), "json", at=NOON))
     assert list(document) == ["schema", "exported_at", "ticked", "total", "ready", "groups", "exercises"]
     assert (document["schema"], document["exported_at"]) == ("ros-tutor/checklist/1", NOON)
     assert (document["ticked"], document["total"], document["ready"]) == (1, 5, False)
@@ -179,7 +253,9 @@ def test_json_has_a_schema_and_all_items() -> None:
     assert (first["ticked"], first["ticked_at"]) == (True, NOON)
     assert (second["id"], second["text"]) == ("validate", "Refuse *bad* values")
     assert (second["ticked"], second["ticked_at"]) == (False, None)
-    assert second["evidence"] == [{"exercise": "i2.1", "criterion": "validation", "passed_at": LATER}]
+    assert second["evidence"] == [
+        {"exercise": "i2.1", "criterion": "validation", "passed_at": LATER, "since_changed": False, "help": None}
+    ]
     assert document["exercises"][0] == {
         "id": "i2.1",
         "title": "Parameters <b>",
@@ -187,13 +263,15 @@ def test_json_has_a_schema_and_all_items() -> None:
         "standing": "passed",
         "passed": True,
         "passed_at": LATER,
+        "since_changed": False,
+        "help": None,
         "criteria": {"passed": 2, "total": 2},
         "bonus": {"passed": 0, "total": 1},
         "attempts": 2,
         "last_attempt_at": LATER,
     }
     assert document["exercises"][1]["standing"] == "not started"
-    assert json.loads(render_checklist(assess(COURSE, ALL), "json", at=NOON))["ready"] is True
+    assert json.loads(render_checklist(assessed(ALL), "json", at=NOON))["ready"] is True
 
 
 class Page(HTMLParser):
@@ -227,7 +305,7 @@ class Page(HTMLParser):
 
 
 def test_html_is_a_single_page_that_loads_nothing() -> None:
-    text = render_checklist(assess(COURSE, ALL), "html", at=NOON)
+    text = render_checklist(assessed(ALL), "html", at=NOON)
     page = Page(text)
     assert not {tag for tag, _ in page.elements} & {"script", "link", "img", "iframe", "object", "a"}
     for _, attributes in page.elements:
@@ -240,7 +318,7 @@ def test_html_is_a_single_page_that_loads_nothing() -> None:
 
 
 def test_html_is_accessible_to_screen_readers() -> None:
-    page = Page(render_checklist(assess(COURSE, ALL), "html", at=NOON))
+    page = Page(render_checklist(assessed(ALL), "html", at=NOON))
     assert page.texts_in("h1") == page.texts_in("title") == ["Self-assessment checklist"]
     assert page.texts_in("h2") == ["Ready?", "Group <1> @all", "Two", "Exercises"]
     assert "Yes, go <on>." in page.texts_in("p")
@@ -258,7 +336,7 @@ def test_html_is_accessible_to_screen_readers() -> None:
 
 
 def test_html_does_not_mention_ready_before_everything_is_ticked() -> None:
-    page = Page(render_checklist(assess(COURSE, HALF), "html", at=NOON))
+    page = Page(render_checklist(assessed(HALF), "html", at=NOON))
     assert "Ready?" not in page.texts_in("h2")
     assert ["checked" in attributes for tag, attributes in page.elements if tag == "input"] == [True] + [False] * 4
 
@@ -270,7 +348,7 @@ def test_no_text_breaks_a_document(text: str) -> None:
     lesson = Lesson("x1.1", text, Difficulty.EASY, text, text, (), (), (), ("i",), "", Path("lessons"))
     done = Progress({"x1.1": exercise(passed(at=text), best=Status.PASSED)}, {"i": text})
     for format in FORMATS:
-        rendered = render_checklist(assess(Course((lesson,), checklist), done), format, at=text)
+        rendered = render_checklist(assessed(done, Course((lesson,), checklist)), format, at=text)
         assert rendered.endswith("\n")
         assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", rendered)
         if format == "json":

@@ -48,5 +48,16 @@ def test_wrong_words_are_reported_as_by_ros2cli(bench: Bench) -> None:
     assert (unknown_option.stderr, unknown_option.code) == (f"{USAGE}ros2: error: unrecognized arguments: --bogus\n", 2)
 
 
+@pytest.mark.parametrize("command", ["bag", "component", "lifecycle", "test", "extensions"])
+def test_a_command_that_only_an_installed_ros2_has_says_so_in_one_line(bench: Bench, command: str) -> None:
+    ran = bench.ros2(command, "--help")
+    assert (ran.stdout, ran.code, ran.stderr.count("\n")) == ("", 2, 1)
+    assert ran.stderr.startswith(f"ros2: `ros2 {command}` needs an installed ROS 2; ")
+
+
+def test_wtf_is_doctor(bench: Bench) -> None:
+    assert bench.ros2("wtf", "--report") == bench.ros2("doctor", "--report")
+
+
 def test_there_is_no_daemon(bench: Bench) -> None:
     assert bench.ros2("daemon", "status").stdout == "The daemon is not running\n"

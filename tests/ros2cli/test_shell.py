@@ -16,6 +16,7 @@ import pytest
 from tests.ros.ordinary_domain import ordinary_domain
 from tests.ros2cli.bench import TALKER, Bench, Ran
 from tests.ros2cli.pseudo_terminal import terminal
+from tutor.bundled_ros.ros2.absent import ABSENT
 from tutor.ros.discovery import PROFILE
 
 TUTOR = [sys.executable, "-P", "-c", "import sys; from tutor.cli import main; sys.exit(main())"]
@@ -204,3 +205,29 @@ def test_killing_the_shell_kills_its_command(bench: Bench, workspace: Path, wrap
         shell.kill()
         shell.wait()
         assert shell.stdout.read() == b""  # EOF: the command, which had the pipe open, is gone
+
+
+def test_a_program_that_is_not_here_says_what_to_do_instead(bench: Bench, workspace: Path, tmp_path: Path) -> None:
+    def shell(line: str, **more: str) -> Ran:
+        return run_tutor(bench, "shell", "--workspace", str(workspace), "-c", line, env=user_env(bench, **more))
+
+    for name in ABSENT:
+        ran = shell(f"{name} --help", PATH="/usr/bin:/bin")
+        assert (ran.stdout, ran.code, ran.stderr.count("\n")) == ("", 127, 1), name
+        assert ran.stderr.startswith(f"{name} ")
+    installed = tmp_path / "colcon"
+    installed.write_text("#!/bin/sh\necho the real one\n")
+    installed.chmod(0o755)
+    assert shell("colcon", PATH=f"{tmp_path}:/usr/bin:/bin").stdout == "the real one\n"
+    assert shell(f"PATH=/usr/bin:$PATH; cp {installed} $TMPDIR; PATH=$TMPDIR:$PATH colcon").stdout == "the real one\n"
+
+
+def test_a_new_package_runs_where_the_tutorials_next_commands_fail(bench: Bench, workspace: Path) -> None:
+    script = f"""
+        cd {workspace}/src && ros2 pkg create --build-type ament_python --node-name hello greeter > /dev/null
+        cd .. && PATH=/usr/bin:/bin:$PATH colcon build --packages-select greeter
+        ros2 run greeter hello; cd / && ros2 run greeter hello; rm -r {workspace}/src/greeter
+    """
+    ran = run_tutor(bench, "shell", "--workspace", str(workspace), "-c", script, env=user_env(bench))
+    assert (ran.stdout, ran.code) == ("Hi from greeter.\n" * 2, 0)
+    assert ran.stderr.startswith("colcon is not installed, and not needed here: ")

@@ -10,7 +10,8 @@ import pytest
 
 from tutor import private_folders
 from tutor.process import log_folder
-from tutor.session.node import Node, NodeCommand
+from tutor.session.node import Node
+from tutor.session.node_command import NodeCommand
 
 LOGS = """
 import os, pathlib, time

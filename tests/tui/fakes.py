@@ -17,7 +17,7 @@ from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Eve
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 from tutor.session import Session, run_options
-from tutor.session.node import NodeCommand
+from tutor.session.node_command import NodeCommand
 from tutor.tui.app import TutorApp
 from tutor.workspace import RunOptions, Workspace
 

@@ -317,6 +317,7 @@ async def test_after_a_restart_the_last_check_is_shown_and_hints_begin_with_what
         await me.sees("Next step")
         await me.press("h")
         await me.sees("I1.1: a hint for what failed", "✗ rate", "Declare it.", "h: general hint")
+        await me.until(lambda: me.session.progress().of("i1.1").criterion_hint, "saved")
         assert "Think of a timer." not in me.screen()
         await me.press("h")
         await me.sees("hint 1 of 3", "Declare it.", "Think of a timer.")

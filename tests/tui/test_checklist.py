@@ -18,7 +18,7 @@ from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
 from tutor.tui.dialogs.checklist import ChecklistScreen
 from tutor.tui.dialogs.export import ExportScreen
-from tutor.workspace import Attempt, ExerciseProgress
+from tutor.workspace import Attempt, ExerciseProgress, Help, digests_of
 from tutor.workspace.progress import now
 
 
@@ -42,8 +42,10 @@ def ticks(me: Learner) -> set[str]:
 
 
 def record_attempt(me: Learner, exercise: str, *criteria: str) -> None:
-    """Record a check from another terminal in which only these criteria passed."""
-    done = ExerciseProgress(now(), (Attempt(now(), Status.FAILED, criteria),), Status.FAILED)
+    """Record a check from another terminal in which only these criteria passed, by code of the skeleton."""
+    version = me.session.versions()[exercise]
+    attempt = Attempt(now(), Status.FAILED, criteria, version=version, given=("shutdown",), help=Help.HINTS)
+    done = ExerciseProgress(now(), (attempt,), Status.FAILED)
     me.session.workspace.progress(print).change(lambda progress: progress.with_exercise(exercise, done))
 
 
@@ -93,19 +95,27 @@ async def test_ticks_are_saved_at_once(learner: Any) -> None:
 
 async def test_each_item_shows_the_evidence_from_checks(learner: Any) -> None:
     async with learner((180, 48)) as me:
+        lesson = me.session.course.find("i2.1")
+        await asyncio.to_thread(me.session.start, lesson)
         record_attempt(me, "i2.1", "validation", "shutdown")
         await me.press("6")
-        await me.sees("✓ i2.1 validation passed, today", "1 shown by your checks")
+        await me.sees("✓ i2.1 validation passed with hints, today", "1 shown by your checks")
+        await me.press("escape")
+        me.session.path(lesson.files[0]).write_text("# another version\n")
+        await me.press("6")
+        await me.sees("○ i2.1 validation passed with hints today, since changed", "0 shown by your checks")
         await me.sees("○ not yet shown by i2.1 runtime-params and timer")
         await me.sees("○ no check shows this: you are the judge")
-        assert "shutdown passed" not in me.screen()  # the skeleton passes it, too, so it shows nothing
+        await me.sees("○ not yet shown by i2.3 shutdown and shutdown-busy")  # the others' skeletons pass it, too
         assert "[ ] Refuse parameter values that make no sense" in me.screen()  # only the learner ticks items
 
         # While the checklist is open, a check ends, and another terminal ticks an item.
         lesson = me.session.course.find("i1.1")
         judged = tuple(CriterionResult(c.id, c.text, c.bonus, fakes.GOOD, 1.0) for c in lesson.criteria)
         await asyncio.to_thread(me.session.tick, "custom-messages", True)
-        me.main.records.record_attempt(ExerciseResult(lesson.id, lesson.title, (), judged, 4.2))
+        await asyncio.to_thread(me.session.start, lesson)
+        digests = digests_of({file.name: me.session.path(file) for file in lesson.files})
+        me.main.records.record_attempt(ExerciseResult(lesson.id, lesson.title, (), judged, 4.2, digests=digests))
         await me.sees("✓ i1.1 rate passed, today", "✓ i1.1 shutdown passed, today", "1 of 15 ticked")
 
 

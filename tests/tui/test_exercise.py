@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.tui import fakes
+from tutor.workspace import Help
 
 
 async def test_start_copies_the_skeleton_unless_the_file_exists(learner: Any) -> None:
@@ -67,8 +68,10 @@ async def test_hints_come_one_by_one_the_solution_is_confirmed_and_damaged_progr
         await me.sees("Show our solution all the same?")
         await me.press("escape")
         assert "# the solution" not in me.screen()
+        assert me.session.progress().of("i1.1").help is Help.HINTS
         await me.press("v", "enter")
         await me.sees("Our solution, read-only", "# the solution")
+        await me.until(lambda: me.session.progress().of("i1.1").help is Help.SOLUTION, "saved")
         await me.press("escape")
         await me.until(lambda: "# the solution" not in me.screen())
 

@@ -27,7 +27,7 @@ def test_a_criterion_checked_on_its_own_counts_everywhere() -> None:
     one = progress(attempt("range", judged=("range",)))
     found = exercise_state(LESSON, one)
     assert (found.state, found.met, found.missed) == (State.NOT_PASSED, ("range",), ())
-    (row,) = (each for each in assess(load_course(), Progress({"i1.1": one})).exercises if each.id == "i1.1")
+    (row,) = (each for each in assess(load_course(), Progress({"i1.1": one}), {}).exercises if each.id == "i1.1")
     assert (row.met, row.required) == (1, 6)
     assert wording.progress_label(found) == ("◐", "1 of 6 met")
 

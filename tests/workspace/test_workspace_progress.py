@@ -7,6 +7,7 @@ import multiprocessing
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,10 +15,21 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.workspace.conftest import make_lesson
 from tutor.errors import StorageError
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
-from tutor.workspace import Attempt, ExerciseProgress, Progress, ProgressFile, Workspace
+from tutor.workspace import (
+    Attempt,
+    ExerciseProgress,
+    Help,
+    Progress,
+    ProgressFile,
+    Workspace,
+    start,
+    version_of,
+    versions_of,
+)
 from tutor.workspace.progress import decode, encode
 
 
@@ -84,6 +96,52 @@ def test_attempts_are_bounded() -> None:
     for _ in range(250):
         progress = progress.with_attempt(result(Status.FAILED), whole=True)
     assert len(progress.of("i1.1").attempts) == 200
+
+
+def test_the_first_pass_stays_on_record() -> None:
+    progress = Progress().with_attempt(result(Status.PASSED), whole=True).with_solution("i1.1")
+    for _ in range(250):
+        progress = progress.with_attempt(result(Status.FAILED), whole=True)
+    kept = progress.of("i1.1")
+    assert len(kept.attempts) == 200
+    assert kept.first_pass is kept.attempts[0]
+    assert kept.first_pass is not None
+    assert (kept.first_pass.help, kept.help) == (Help.NONE, Help.SOLUTION)
+
+
+def test_an_attempt_records_its_files_and_what_was_seen_before(file: ProgressFile) -> None:
+    def attempt(change: Callable[[Progress], Progress] = lambda progress: progress) -> Attempt:
+        last = file.change(lambda p: change(p).with_attempt(judged, whole=True)).of("i1.1").last
+        assert last is not None
+        return last
+
+    judged = replace(result(Status.FAILED), digests={"a.py": "1", "b.py": ""}, given=("shutdown",))
+    first = attempt()
+    assert (first.version, first.given, first.help) == (version_of({"a.py": "1"}), ("shutdown",), Help.NONE)
+    assert first.version != version_of({"a.py": "2"}) != ""
+    assert version_of({"a.py": ""}) == version_of({}) == ""
+    assert attempt(lambda p: p.with_criterion_hint("i1.1")).help is Help.HINTS
+    assert attempt(lambda p: p.with_hints("i1.1", 2)).help is Help.HINTS
+    assert attempt(lambda p: p.with_solution("i1.1")).help is Help.SOLUTION
+    assert file.change(lambda p: p.with_solution("i1.1")) == file.read()
+
+
+def test_a_criterion_that_could_not_be_judged_was_not_judged(file: ProgressFile) -> None:
+    last = file.change(lambda p: p.with_attempt(result(Status.PASSED, Status.ERROR), whole=True)).of("i1.1").last
+    assert last is not None
+    assert last.is_pass
+    assert last.judged_of(["publishes", "shutdown"]) == ["publishes"]
+
+
+def test_versions_are_those_of_the_files_on_disk(workspace: Workspace, tmp_path: Path) -> None:
+    lesson = make_lesson(tmp_path / "l", "i1.1", ["a.py", "b.py"], optional=("b.py",))
+    assert versions_of([lesson], workspace) == {"i1.1": ""}
+    start(lesson, workspace)
+    whole = versions_of([lesson], workspace)["i1.1"]
+    workspace.path_of("b.py").unlink()
+    part = versions_of([lesson], workspace)["i1.1"]
+    workspace.path_of("a.py").write_text("changed\n")
+    assert len({"", whole, part, versions_of([lesson], workspace)["i1.1"]}) == 4
 
 
 def test_hints_come_one_by_one_and_the_last_repeats(file: ProgressFile) -> None:
@@ -202,7 +260,10 @@ def test_an_unwritable_workspace_is_a_clear_error(file: ProgressFile) -> None:
 
 
 statuses = st.sampled_from([Status.PASSED, Status.FAILED])
-attempts = st.builds(Attempt, st.text(), statuses, st.lists(st.text(), max_size=3).map(tuple), st.booleans())
+ids = st.lists(st.text(), max_size=3).map(tuple)
+attempts = st.builds(
+    Attempt, st.text(), statuses, ids, st.booleans(), ids, ids, st.text(), ids, st.none() | st.sampled_from(Help)
+)
 progresses = st.builds(
     Progress,
     st.dictionaries(
@@ -213,6 +274,8 @@ progresses = st.builds(
             st.lists(attempts, max_size=3).map(tuple),
             st.none() | statuses,
             st.integers(0, 3),
+            st.booleans(),
+            st.none() | st.text(),
         ),
         max_size=3,
     ),

@@ -6,10 +6,13 @@ Packages that were never built are found too, once `tutor.bundled_ros.ros2.overl
 from __future__ import annotations
 
 import difflib
+import importlib.util
 import os
 import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+
+from tutor.ros.prefixes import is_bundled
 
 INDEX = Path("share") / "ament_index" / "resource_index" / "packages"
 _SIMILARITY_CUTOFF = 0.8
@@ -52,10 +55,13 @@ def find_executable(package: str, executable: str) -> list[str]:
     found = _find_executables(prefix, package)
     if executable not in found:
         raise ExecutableNotFound(package, executable, sorted(found))
-    program = str(found[executable])
-    # The kernel cannot run our own scripts if their #! line is too long or has spaces in the interpreter's path.
-    unreadable = len(sys.executable) > _MAX_INTERPRETER_LENGTH or " " in sys.executable
-    return [sys.executable, "-P", program] if unreadable and _is_our_script(found[executable]) else [program]
+    program = found[executable]
+    line = _interpreter_line(program)
+    if line.startswith(f"{sys.executable} "):
+        # The kernel cannot run our own scripts if their #! line is too long or has spaces in the interpreter's path.
+        unreadable = len(sys.executable) > _MAX_INTERPRETER_LENGTH or " " in sys.executable
+        return [sys.executable, "-P", str(program)] if unreadable else [str(program)]
+    return [sys.executable, str(program)] if _needs_our_rclpy(line) else [str(program)]
 
 
 def executable_names(package: str) -> list[str]:
@@ -116,9 +122,25 @@ def _find_executables(prefix: Path, package: str) -> dict[str, Path]:
     return found
 
 
-def _is_our_script(program: Path) -> bool:
+def _interpreter_line(program: Path) -> str:
+    """Return what follows `#!` in a script's first line; empty for any other program."""
     with program.open("rb") as file:
-        return file.read(4096).startswith(f"#!{sys.executable} ".encode())
+        first = file.read(4096).partition(b"\n")[0]
+    return os.fsdecode(first[2:]).strip() if first.startswith(b"#!") else ""
+
+
+def _needs_our_rclpy(line: str) -> bool:
+    """Return whether a script's `#!` line names a Python without rclpy, such as colcon's, and ours has the bundled one.
+
+    colcon builds scripts for the Python that runs it. Where ROS is installed, that one finds ROS's rclpy.
+    """
+    python = Path(line.partition(" ")[0])
+    if not (python.is_absolute() and python.name.startswith("python")):
+        return False
+    if any((python.parent.parent / "lib").glob("python3*/site-packages/rclpy")):
+        return False
+    ours = importlib.util.find_spec("rclpy")
+    return ours is not None and ours.origin is not None and is_bundled(ours.origin)
 
 
 def _listed(names: list[str]) -> str:

@@ -39,14 +39,20 @@ def _caused_by_ctrl_c(error: BaseException | None) -> bool:
 
 def _run(argv: Sequence[str] | None) -> int:
     from tutor.cli import app, completion
-    from tutor.cli.parser import build, parse
+    from tutor.cli.global_options import read_alone
     from tutor.errors import UsageError
     from tutor.invocation import export_program_name
 
     export_program_name()
     if completion.is_requested():
+        from tutor.cli.parser import build
+
         completion.answer(build)
-    arguments = parse(argv)
+    arguments = read_alone(argv)
+    if arguments is None:
+        from tutor.cli.parser import parse
+
+        arguments = parse(argv)
     if arguments.command is None:
         return app.run(arguments)
     if arguments.plain:

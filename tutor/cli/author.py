@@ -87,7 +87,8 @@ def _load_checks(lessons: Sequence[Lesson]) -> tuple[dict[str, Check], list[Prob
 def _find_static_problems(
     arguments: argparse.Namespace, course: Course, lessons: Sequence[Lesson], checks: Mapping[str, Check]
 ) -> Iterator[Problem]:
-    from tutor.content import Course, lint_course
+    from tutor.content import Course
+    from tutor.content.lint import lint_course
     from tutor.content.lint_checks import find_disagreements, find_stray_files
     from tutor.content.lint_commands import find_bad_commands
     from tutor.content.lint_submissions import find_bad_submissions

@@ -14,7 +14,8 @@ from tutor.errors import UsageError
 from tutor.invocation import command
 
 if TYPE_CHECKING:
-    from tutor.content import Checklist, Course
+    from tutor.content import Checklist
+    from tutor.report.assessment import Assessment
     from tutor.workspace import Progress
 
 _ACTIONS = ("show", "tick", "untick", "export")
@@ -34,6 +35,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Tick or untick the items, then show the checklist; or export it."""
+    from tutor.report.assessment import assess
+    from tutor.workspace import versions_of
+
     _check_options(arguments)
     course = context.load_course(arguments)
     workspace = context.require_workspace(arguments)
@@ -48,10 +52,11 @@ def run(arguments: argparse.Namespace) -> int:
         progress = workspace.progress(terminal.say).change(lambda before: _with_ticks(before, arguments.items, ticked))
     else:
         progress = context.read_progress(workspace)
+    assessment = assess(course, progress, versions_of(course.lessons, workspace))
     if arguments.action == "export":
-        _export(course, progress, arguments.format, arguments.output)
+        _export(assessment, arguments.format, arguments.output)
     else:
-        terminal.out(_render(course, progress))
+        terminal.out(_render(assessment))
     return PASSED
 
 
@@ -86,11 +91,9 @@ def _with_ticks(progress: Progress, items: list[str], ticked: bool) -> Progress:
     return progress
 
 
-def _render(course: Course, progress: Progress) -> str:
-    from tutor.report.assessment import assess
+def _render(assessment: Assessment) -> str:
     from tutor.report.phrases import describe_evidence, near_day
 
-    assessment = assess(course, progress)
     items = assessment.items
     width = max((len(item.id) for item in items), default=0)
     lines = []
@@ -111,14 +114,13 @@ def _wrap_lines(text: str) -> list[str]:
     return terminal.wrap(text, terminal.width(sys.stdout)).splitlines()
 
 
-def _export(course: Course, progress: Progress, format: str | None, output: Path | None) -> None:
-    from tutor.report.assessment import assess
+def _export(assessment: Assessment, format: str | None, output: Path | None) -> None:
     from tutor.report.checklist import format_of, render_checklist
     from tutor.workspace import write_atomically
     from tutor.workspace.progress import now
 
     chosen = format or (output and format_of(output)) or "markdown"
-    text = render_checklist(assess(course, progress), chosen, at=now())
+    text = render_checklist(assessment, chosen, at=now())
     if output is None:
         terminal.out(text)
     else:

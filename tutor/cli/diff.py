@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import PASSED
+from tutor.cli.solution import note_shown
 
 if TYPE_CHECKING:
     from tutor.content import Lesson
@@ -31,9 +32,12 @@ def run(arguments: argparse.Namespace) -> int:
     from tutor.workspace import find_submission
 
     lesson = context.load_course(arguments).find(arguments.exercise)
-    submission = find_submission(lesson, arguments.path, context.require_workspace(arguments))
+    workspace = context.require_workspace(arguments)
+    submission = find_submission(lesson, arguments.path, workspace)
     lines = list(_diff_lines(lesson, submission, solution=arguments.solution))
     other = "our solution" if arguments.solution else "the skeleton"
+    if arguments.solution:
+        note_shown(workspace, lesson.id)
     if lines:
         terminal.out("\n".join(map(_colorize, lines)) + "\n")
     else:

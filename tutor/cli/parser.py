@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
-from tutor import __version__
 from tutor.cli import (
     author,
     check,
@@ -28,6 +26,7 @@ from tutor.cli import (
     start,
     watch,
 )
+from tutor.cli.global_options import global_options
 from tutor.cli.grammar import CommandParser, Parser, read
 from tutor.invocation import program
 
@@ -48,12 +47,12 @@ def parse(argv: Sequence[str] | None) -> argparse.Namespace:
 
 def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     """Build the parser of the whole command line. `mixing`: allow options between a command's positional arguments."""
-    global_options = _global_options()
+    shared = global_options()
     parser = Parser(
         prog=program(),
         description="Hands-on ROS 2 exercises, judged by what your node really does.",
         epilog=_EPILOG,
-        parents=[global_options],
+        parents=[shared],
     )
     parser.set_defaults(command=None, parser=parser)
     parser.add_argument(
@@ -64,7 +63,7 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     )
 
     def add(name: str, run: RunCommand, arguments: Callable[[argparse.ArgumentParser], None], help: str) -> None:
-        command = commands.add_parser(name, help=help, description=_as_sentence(help), parents=[global_options])
+        command = commands.add_parser(name, help=help, description=_as_sentence(help), parents=[shared])
         arguments(command)
         command.set_defaults(command=name, run=run)
 
@@ -87,24 +86,6 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     add("doctor", doctor.run, doctor.add_arguments, "say which ROS is used, and what is wrong with the machine")
     add("help", help_command.run, help_command.add_arguments, "show the help for a command, or all commands")
     add("author", author.run, author.add_arguments, "verify a course, for course authors")
-    return parser
-
-
-def _global_options() -> CommandParser:
-    """Return the options allowed both before and after the command.
-
-    Their defaults are suppressed: otherwise the command's parser would overwrite a value given before the command.
-    """
-    parser = CommandParser(add_help=False, argument_default=argparse.SUPPRESS)
-    options = parser.add_argument_group("options for every command")
-    options.add_argument(
-        "--workspace",
-        metavar="DIR",
-        type=Path,
-        help="your workspace (else $ROS_TUTOR_WORKSPACE, the one around the current folder, or ~/ros_tutor_ws)",
-    )
-    options.add_argument("--lessons", metavar="DIR", type=Path, help="a folder with more lessons/ and checks/")
-    options.add_argument("--version", action="version", version=f"ros-tutor {__version__}", help="show the version")
     return parser
 
 

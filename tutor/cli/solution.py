@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import PASSED
+
+if TYPE_CHECKING:
+    from tutor.workspace import Workspace
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -20,5 +24,18 @@ def run(arguments: argparse.Namespace) -> int:
     for file in lesson.files:
         text = file.solution.read_text(encoding="utf-8").rstrip("\n") + "\n"
         texts.append(f"# --- {file.name} ---\n{text}" if len(lesson.files) > 1 else text)
+    note_shown(context.require_workspace(arguments), lesson.id)
     terminal.out("\n\n".join(texts))
     return PASSED
+
+
+def note_shown(workspace: Workspace, exercise: str) -> None:
+    """Note in the progress, if there is any, that our solution was shown. A failure to save only prints a line."""
+    from tutor.errors import StorageError
+
+    if not workspace.exists:
+        return
+    try:
+        workspace.progress(terminal.say).change(lambda progress: progress.with_solution(exercise))
+    except StorageError as error:
+        terminal.say(f"that you have seen it is not in your progress: {error}")

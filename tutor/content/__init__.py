@@ -1,6 +1,5 @@
 """The course: lessons and the self-assessment checklist, as plain data, independent of ROS and the terminal."""
 
-from tutor.content.lint import lint_course
 from tutor.content.live import LiveTopic, LiveView, Partner
 from tutor.content.loader import load_course
 from tutor.content.model import (
@@ -28,6 +27,5 @@ __all__ = [
     "LiveView",
     "Partner",
     "Problem",
-    "lint_course",
     "load_course",
 ]

@@ -83,6 +83,27 @@ def _lint_front_matter(lesson: Lesson, course: Course) -> Iterator[str]:
         for item in criterion.shows:
             if item not in lesson.checklist:
                 yield f"the criterion {criterion.id} shows {item!r}, which is not in the lesson's checklist"
+        yield from _lint_given(lesson, criterion)
+
+
+def _lint_given(lesson: Lesson, criterion: CriterionText) -> Iterator[str]:
+    if criterion.open and criterion.given:
+        yield f"the criterion {criterion.id} is open: its `given` names code that does not meet it"
+    elif criterion.given and not re.search(
+        rf"^\s*(async )?def {re.escape(criterion.given)}\(", _skeleton(lesson), re.M
+    ):
+        yield f"the skeleton has no function {criterion.given}, which is `given` for the criterion {criterion.id}"
+    elif criterion.shows and not criterion.open and not criterion.given:
+        yield f"the skeleton meets {criterion.id}, which shows nothing then: name the function that does with `given`"
+
+
+def _skeleton(lesson: Lesson) -> str:
+    if not lesson.files:
+        return ""
+    try:
+        return lesson.files[0].skeleton.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return ""
 
 
 def _lint_criteria(criteria: Sequence[CriterionText]) -> Iterator[str]:

@@ -146,6 +146,7 @@ def _read_criterion(fields: Fields) -> CriterionText:
         open=fields.flag("open", True),
         hint=fields.text("hint"),
         shows=fields.texts("shows", optional=True),
+        given=fields.text("given", optional=True),
     )
     fields.done()
     return criterion

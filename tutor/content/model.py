@@ -35,8 +35,9 @@ class LessonFile:
 class CriterionText:
     """A lesson's description of one criterion.
 
-    `open`: the untouched skeleton does not pass it. `bonus`: it is shown, but never changes the verdict. `shows` holds
-    the ids of the checklist items for which passing it is evidence.
+    `open`: the untouched skeleton does not pass it. Otherwise `given` names the function of the skeleton's first file
+    that does, and passing is evidence only once the learner has rewritten that. `bonus`: it is shown, but never changes
+    the verdict. `shows` holds the ids of the checklist items for which passing it is evidence.
     """
 
     id: str
@@ -45,6 +46,7 @@ class CriterionText:
     open: bool
     hint: str
     shows: tuple[str, ...] = ()
+    given: str = ""
 
 
 @dataclass(frozen=True, slots=True)

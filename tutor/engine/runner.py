@@ -30,6 +30,7 @@ from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault
 from tutor.process.fork_link import ForkServerLink
 from tutor.ros.environment import RosEnvironment
 from tutor.workspace import digests_of
+from tutor.workspace.given_code import given_criteria
 
 OnEvent = Callable[[Event], None]
 
@@ -95,7 +96,7 @@ class Runner:
         exercise = self._check.exercise
         self._announce()
         self._started = time.monotonic()
-        digests = digests_of(self._submission.files)
+        digests, given = digests_of(self._submission.files), given_criteria(self._lesson, self._submission)
         needed = _with_dependencies(self._check, self._shown)
         try:
             for criterion in needed:
@@ -115,6 +116,7 @@ class Runner:
             duration_s=self._elapsed_s(),
             unjudged=unjudged,
             digests=digests,
+            given=given,
         )
         if result.verdict is Status.PASSED and not unjudged:
             result = replace(result, remarks=self._remarks())

@@ -37,8 +37,9 @@ class ExerciseResult:
     """One judged exercise. `submission` holds the names of the judged files; empty if there were none.
 
     `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure. `digests`: the
-    digest of each of these files when the check began (see `tutor.workspace.digests`). `remarks`: at most two, if
-    everything required passed.
+    digest of each of these files when the check began (see `tutor.workspace.digests`). `given`: the ids of the criteria
+    that the submission can only meet by code that came with the skeleton. `remarks`: at most two, if everything
+    required passed.
     """
 
     id: str
@@ -48,6 +49,7 @@ class ExerciseResult:
     duration_s: float
     unjudged: tuple[str, ...] = ()
     digests: Mapping[str, str] = field(default_factory=dict)
+    given: tuple[str, ...] = ()
     remarks: tuple[Remark, ...] = ()
 
     @property

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tutor.errors import CommandRefused
 from tutor.plain.conversation import Conversation, DialogCommand
-from tutor.report.assessment import AssessedItem, Assessment, assess
+from tutor.report.assessment import AssessedItem, Assessment
 from tutor.report.checklist import FORMATS, SUFFIXES
 from tutor.report.phrases import describe_evidence, near_day
 from tutor.session.paths import short_path
@@ -33,7 +33,7 @@ class ChecklistCommands:
         )
 
     def _assess(self) -> Assessment:
-        return assess(self._conversation.session.course, self._conversation.session.progress())
+        return self._conversation.session.assess()
 
     async def read(self, words: list[str]) -> None:
         """Say one line per item, numbered across all groups."""

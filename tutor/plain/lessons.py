@@ -120,6 +120,7 @@ class Lessons:
             if (answer or "").strip().lower() not in ("yes", "y"):
                 self._conversation.say("Not read.")
                 return
+        self._conversation.session.show_solution(lesson)
         for file in lesson.files:
             lines = speech.code(file.solution.read_text(encoding="utf-8"))
             self._conversation.say(f"{file.name}, {counted(len(lines), 'line')} of code:")

@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tutor.content import ChecklistItem, Course, CriterionText, Lesson
-from tutor.workspace import ExerciseProgress, Progress, exercise_state
+from tutor.workspace import Attempt, ExerciseProgress, Help, Progress, exercise_state
 
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
     """A criterion that passed, or the exercise as a whole if `criterion` is empty.
 
-    `at` is the last time it passed (UTC, ISO 8601), or empty if that is no longer known.
+    `at` is the last time it passed (UTC, ISO 8601), or empty if that is no longer known. `changed`: the files have been
+    changed since; None if that is not known. `help`: what the learner had seen when it passed for the first time.
     """
 
     exercise: str
     criterion: str
     at: str
+    changed: bool | None = False
+    help: Help | None = None
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is true of the files as they are now."""
+        return self.changed is False
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +52,11 @@ class AssessedItem:
         """Whether the learner has ticked the item."""
         return self.ticked_at is not None
 
+    @property
+    def shown(self) -> bool:
+        """Whether the checks of the files as they are now show it."""
+        return any(each.holds for each in self.evidence)
+
 
 @dataclass(frozen=True, slots=True)
 class AssessedGroup:
@@ -63,7 +76,8 @@ class AssessedGroup:
 class AssessedExercise:
     """One exercise. `met` and `bonus_met` count the criteria that are met (see `tutor.workspace.exercise_states`).
 
-    `passed_at` and `last_at` are UTC times in ISO 8601, or None if there is none or it is no longer known.
+    `passed_at` and `last_at` are UTC times in ISO 8601, or None if there is none or it is no longer known. `help`: what
+    the learner had seen before the pass. `changed`: the files have been changed since. Both are None if not known.
     """
 
     id: str
@@ -78,6 +92,8 @@ class AssessedExercise:
     attempts: int
     passed_at: str | None
     last_at: str | None
+    help: Help | None = None
+    changed: bool | None = None
 
     @property
     def status(self) -> str:
@@ -119,50 +135,95 @@ class Assessment:
         return sum(exercise.passed for exercise in self.exercises)
 
 
-def assess(course: Course, progress: Progress) -> Assessment:
-    """Combine the course's checklist and exercises with the learner's progress."""
+def assess(course: Course, progress: Progress, versions: Mapping[str, str]) -> Assessment:
+    """Combine the course's checklist and exercises with the learner's progress.
+
+    `versions`: the version of each exercise's files now, by exercise id (see `tutor.workspace.versions_of`).
+    """
     checklist = course.checklist
     return Assessment(
         groups=tuple(
-            AssessedGroup(group.id, group.title, tuple(_assess_item(item, course, progress) for item in group.items))
+            AssessedGroup(
+                group.id, group.title, tuple(_assess_item(item, course, progress, versions) for item in group.items)
+            )
             for group in checklist.groups
         ),
-        exercises=tuple(_assess_exercise(lesson, progress.of(lesson.id)) for lesson in course.lessons),
+        exercises=tuple(
+            _assess_exercise(lesson, progress.of(lesson.id), versions.get(lesson.id, "")) for lesson in course.lessons
+        ),
         ready_title=checklist.ready_title,
         ready_text=checklist.ready_text,
     )
 
 
-def _assess_item(item: ChecklistItem, course: Course, progress: Progress) -> AssessedItem:
-    evidence: list[Evidence] = []
+def _assess_item(item: ChecklistItem, course: Course, progress: Progress, versions: Mapping[str, str]) -> AssessedItem:
+    found: list[Evidence | None] = []
     sources: list[Source] = []
     for lesson in course.lessons:
         if item.id not in lesson.checklist:
             continue
         criteria = [criterion for criterion in lesson.criteria if item.id in criterion.shows]
-        sources.append(Source(lesson.id, tuple(criterion.id for criterion in criteria)))
-        evidence += _find_evidence(lesson, criteria, progress.of(lesson.id))
-    evidence.sort(key=lambda each: each.at, reverse=True)  # stable: evidence of the same time keeps the lesson's order
+        own, version = progress.of(lesson.id), versions.get(lesson.id, "")
+        if not criteria:
+            sources.append(Source(lesson.id, ()))
+            found.append(_evidence_of_exercise(lesson, own, version))
+        elif left_open := tuple(criterion.id for criterion in criteria if criterion.open):
+            sources.append(Source(lesson.id, left_open))
+        found += [_evidence_of_criterion(lesson, criterion, own, version) for criterion in criteria]
+    evidence = [each for each in found if each is not None]
+    evidence.sort(key=lambda each: (each.holds, each.at), reverse=True)  # stable: otherwise in the lesson's order
     return AssessedItem(item.id, item.text, progress.ticks.get(item.id), tuple(evidence), tuple(sources))
 
 
-def _find_evidence(lesson: Lesson, criteria: list[CriterionText], progress: ExerciseProgress) -> Iterator[Evidence]:
-    if not criteria and progress.is_passed:
-        passes = [attempt.at for attempt in progress.attempts if attempt.is_pass]
-        yield Evidence(lesson.id, "", passes[-1] if passes else "")
-    for criterion in criteria:
-        # A criterion that the untouched skeleton passes is evidence only once the whole exercise is passed.
-        counted = [attempt for attempt in progress.attempts if criterion.open or attempt.is_pass]
-        at = [attempt.at for attempt in counted if criterion.id in attempt.passed]
-        if at:
-            yield Evidence(lesson.id, criterion.id, at[-1])
-        elif progress.is_passed and not criterion.bonus:
-            yield Evidence(lesson.id, criterion.id, "")  # passed so long ago that the attempt has been dropped
+def _evidence_of_exercise(lesson: Lesson, progress: ExerciseProgress, version: str) -> Evidence | None:
+    judged = [(attempt, attempt.is_pass) for attempt in progress.attempts if attempt.whole]
+    return _evidence(lesson, "", judged, version, passed_before=progress.is_passed)
 
 
-def _assess_exercise(lesson: Lesson, progress: ExerciseProgress) -> AssessedExercise:
+def _evidence_of_criterion(
+    lesson: Lesson, criterion: CriterionText, progress: ExerciseProgress, version: str
+) -> Evidence | None:
+    def is_own(attempt: Attempt) -> bool:
+        """Whether the learner's own code was judged, and not what came with the skeleton."""
+        return criterion.open or bool(attempt.version and criterion.id not in attempt.given)
+
+    judged = [
+        (attempt, criterion.id in attempt.passed and is_own(attempt))
+        for attempt in progress.attempts
+        if attempt.judged_of([criterion.id])
+    ]
+    passed_before = progress.is_passed and criterion.open and not criterion.bonus
+    return _evidence(lesson, criterion.id, judged, version, passed_before=passed_before)
+
+
+def _evidence(
+    lesson: Lesson, criterion: str, judged: list[tuple[Attempt, bool]], version: str, *, passed_before: bool
+) -> Evidence | None:
+    """Return what the attempts show, each given with whether it is a pass. A failure of the files as they are ends it.
+
+    `passed_before`: there was a pass, though its attempt may be on record no longer.
+    """
+    now = [passed for attempt, passed in judged if version and attempt.version == version]
+    if now and not now[-1]:
+        return None
+    passes = [attempt for attempt, passed in judged if passed]
+    if not passes:
+        return Evidence(lesson.id, criterion, "", changed=None) if passed_before else None
+    help = passes[0].help
+    if now:
+        at = [attempt.at for attempt in passes if attempt.version == version][-1]
+        return Evidence(lesson.id, criterion, at, changed=False, help=help)
+    last = passes[-1]
+    if last.version:
+        return Evidence(lesson.id, criterion, last.at, changed=True, help=help)
+    # From before versions were recorded: the last verdict is the best that is known.
+    return Evidence(lesson.id, criterion, last.at, changed=None, help=help) if judged[-1][1] else None
+
+
+def _assess_exercise(lesson: Lesson, progress: ExerciseProgress, version: str) -> AssessedExercise:
     state = exercise_state(lesson, progress)
-    passes = [attempt for attempt in progress.attempts if attempt.is_pass]
+    first = progress.first_pass
+    evidence = _evidence_of_exercise(lesson, progress, version)
     return AssessedExercise(
         id=lesson.id,
         title=lesson.title,
@@ -174,6 +235,8 @@ def _assess_exercise(lesson: Lesson, progress: ExerciseProgress) -> AssessedExer
         bonus_met=len(state.bonus_met),
         bonus=len(state.bonus),
         attempts=len(progress.attempts),
-        passed_at=passes[0].at if passes else None,
+        passed_at=first.at if first else None,
         last_at=progress.last.at if progress.last else None,
+        help=first.help if first else None,
+        changed=evidence.changed if evidence else None,
     )

@@ -7,7 +7,7 @@ from html import escape as escape_html
 
 from tutor.report.assessment import AssessedExercise, AssessedGroup, AssessedItem, Assessment
 from tutor.report.checklist import TITLE
-from tutor.report.phrases import calendar_day, describe_evidence
+from tutor.report.phrases import calendar_day, describe_evidence, describe_help
 from tutor.terminal_text import printable
 
 # All text colours have a contrast of at least 4.5:1 with their background, in light, dark and print.
@@ -124,11 +124,13 @@ def _exercises(assessment: Assessment) -> Iterator[str]:
 def _row(exercise: AssessedExercise) -> str:
     mark = '<span aria-hidden="true">✓</span> ' if exercise.passed else ""
     when = f", {_time(exercise.passed_at)}" if exercise.passed_at else ""
+    status = f"{exercise.status}{describe_help(exercise.help) if exercise.passed else ''}{when}"
+    changed = ", since changed" if exercise.passed and exercise.changed else ""
     kind = ' class="passed"' if exercise.passed else ""
     bonus = f"{exercise.bonus_met} of {exercise.bonus}" if exercise.bonus else "none"
     return (
         f'<tr><th scope="row">{_escape(exercise.id)} {_escape(exercise.title)}</th>'
-        f"<td>{_escape(exercise.difficulty)}</td><td{kind}>{mark}{exercise.status}{when}</td>"
+        f"<td>{_escape(exercise.difficulty)}</td><td{kind}>{mark}{status}{changed}</td>"
         f'<td class="number">{exercise.met} of {exercise.required}</td><td class="number">{bonus}</td>'
         f'<td class="number">{exercise.attempts}</td></tr>'
     )

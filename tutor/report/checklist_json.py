@@ -41,7 +41,13 @@ def _item(item: AssessedItem) -> dict[str, Any]:
         "ticked": item.ticked,
         "ticked_at": item.ticked_at,
         "evidence": [
-            {"exercise": each.exercise, "criterion": each.criterion or None, "passed_at": each.at or None}
+            {
+                "exercise": each.exercise,
+                "criterion": each.criterion or None,
+                "passed_at": each.at or None,
+                "since_changed": each.changed,
+                "help": each.help,
+            }
             for each in item.evidence
         ],
     }
@@ -55,6 +61,8 @@ def _exercise(exercise: AssessedExercise) -> dict[str, Any]:
         "standing": exercise.status,
         "passed": exercise.passed,
         "passed_at": exercise.passed_at,
+        "since_changed": exercise.changed if exercise.passed else None,
+        "help": exercise.help,
         "criteria": {"passed": exercise.met, "total": exercise.required},
         "bonus": {"passed": exercise.bonus_met, "total": exercise.bonus},
         "attempts": exercise.attempts,

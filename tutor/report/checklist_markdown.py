@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from tutor.report.assessment import AssessedExercise, AssessedItem, Assessment
 from tutor.report.checklist import TITLE
 from tutor.report.markdown import escape
-from tutor.report.phrases import calendar_day, describe_evidence
+from tutor.report.phrases import calendar_day, describe_evidence, describe_status
 
 
 def render(assessment: Assessment, *, at: str) -> str:
@@ -45,11 +45,10 @@ def _task(item: AssessedItem) -> str:
 
 
 def _row(exercise: AssessedExercise) -> str:
-    when = f", {calendar_day(exercise.passed_at)}" if exercise.passed_at else ""
     cells = (
         escape(f"{exercise.id} {exercise.title}"),
         escape(exercise.difficulty),
-        escape(f"{exercise.status}{when}"),
+        escape(describe_status(exercise)),
         f"{exercise.met} of {exercise.required}",
         f"{exercise.bonus_met} of {exercise.bonus}" if exercise.bonus else "",
         str(exercise.attempts),

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from datetime import date, datetime, timedelta
 
-from tutor.report.assessment import Evidence, Source
+from tutor.report.assessment import AssessedExercise, Evidence, Source
 from tutor.terminal_text import printable
+from tutor.workspace import Help
 
 Day = Callable[[str], str]
 """Formats the day of a time in the progress file (UTC, ISO 8601)."""
@@ -28,20 +29,39 @@ def near_day(at: str, today: date | None = None) -> str:
 
 
 def describe_evidence(evidence: Sequence[Evidence], day: Day, max_items: int | None = None) -> list[str]:
-    """Return one phrase per exercise and day: "i2.1 runtime-params and timer passed, today".
+    """Return one phrase per exercise and day: "i2.1 runtime-params and timer passed with hints, today".
 
-    If there are more than `max_items`, return the first `max_items`, followed by "N more".
+    What no longer holds says so: "i2.1 timer passed on 2026-11-20, since changed". If there are more than `max_items`,
+    return the first `max_items`, followed by "N more".
     """
-    criteria_by_day: dict[tuple[str, str], list[str]] = {}
+    together: dict[tuple[str, str], list[str]] = {}
     for each in evidence:
-        criteria_by_day.setdefault((each.exercise, day(each.at)), []).append(each.criterion)
-    phrases = [
-        f"{_join_names(exercise, criteria)} passed{f', {when}' if when else ''}"
-        for (exercise, when), criteria in criteria_by_day.items()
-    ]
+        together.setdefault((each.exercise, _describe_pass(each, day)), []).append(each.criterion)
+    phrases = [f"{_join_names(exercise, criteria)} {passed}" for (exercise, passed), criteria in together.items()]
     if max_items is None or len(phrases) <= max_items:
         return phrases
     return [*phrases[:max_items], f"{len(phrases) - max_items} more"]
+
+
+def _describe_pass(evidence: Evidence, day: Day) -> str:
+    passed, when = f"passed{describe_help(evidence.help)}", day(evidence.at)
+    if evidence.holds or not when:
+        return f"{passed}, {when}" if when else passed
+    on = f"on {when}" if when[:1].isdecimal() else when
+    return f"{passed} {on}, since changed" if evidence.changed else f"{passed} {on}"
+
+
+def describe_help(help: Help | None) -> str:
+    """Return what the learner had seen before, to follow "passed": " with hints"; empty if nothing, or not known."""
+    return f" with {help}" if help in (Help.HINTS, Help.SOLUTION) else ""
+
+
+def describe_status(exercise: AssessedExercise) -> str:
+    """Return the progress on an exercise: "passed with hints, 2026-11-20, since changed"."""
+    if not exercise.passed:
+        return exercise.status
+    when = f", {calendar_day(exercise.passed_at)}" if exercise.passed_at else ""
+    return f"passed{describe_help(exercise.help)}{when}{', since changed' if exercise.changed else ''}"
 
 
 def describe_sources(sources: Sequence[Source]) -> list[str]:

@@ -13,27 +13,13 @@ from tutor import private_folders
 from tutor.errors import ProcessError
 from tutor.judge.trace import Exit, OutputLine
 from tutor.process import LearnerProcess, log_folder
+from tutor.session.node_command import NodeCommand
 
 MIN_UPDATE_INTERVAL_S = 0.1
 """Minimum time between two updates of the log, however fast the node writes."""
 
 INTERRUPT_S = 5.0
 """How long a node may take to exit after Ctrl+C before it is killed, in seconds."""
-
-
-@dataclass(frozen=True, slots=True)
-class NodeCommand:
-    """How to start one file as a node. `typed` is the command that a ROS user would type for it.
-
-    `terminal`: whether its standard input is a terminal, which `ros2 launch` needs for Ctrl+C.
-    """
-
-    file: str
-    argv: tuple[str, ...]
-    env: dict[str, str]
-    cwd: Path
-    typed: str = ""
-    terminal: bool = False
 
 
 class Phase(Enum):

@@ -16,10 +16,8 @@ from typing import TYPE_CHECKING
 from tutor import interpreter
 from tutor.content import Course, Lesson, LessonFile, Partner
 from tutor.errors import StorageError
-from tutor.judge.result import ExerciseResult
 from tutor.session import run_options
-from tutor.session.node import NodeCommand
-from tutor.session.shell import Shell
+from tutor.session.node_command import NodeCommand
 from tutor.workspace import (
     AppState,
     ExerciseState,
@@ -31,12 +29,16 @@ from tutor.workspace import (
     place_files,
     start,
     states_of,
+    versions_of,
     write_atomically,
 )
 from tutor.workspace.progress import now
 
 if TYPE_CHECKING:
+    from tutor.judge.result import ExerciseResult
+    from tutor.report.assessment import Assessment
     from tutor.ros.environment import RosEnvironment
+    from tutor.session.shell import Shell
 
 Notify = Callable[[str], None]
 
@@ -147,17 +149,37 @@ class Session:
         """Tick or untick a checklist item and return the new progress. Raises StorageError."""
         return self.workspace.progress(self.notify).change(lambda progress: progress.with_tick(item, ticked))
 
+    def show_criterion_hint(self, lesson: Lesson) -> Progress:
+        """Note that the hint for a criterion was shown, and return the new progress. Raises StorageError."""
+        file = self.workspace.progress(self.notify)
+        return file.change(lambda progress: progress.with_criterion_hint(lesson.id))
+
+    def show_solution(self, lesson: Lesson) -> Progress:
+        """Note that our solution was shown, and return the new progress. Raises StorageError."""
+        if not self.workspace.exists:
+            return Progress()
+        return self.workspace.progress(self.notify).change(lambda progress: progress.with_solution(lesson.id))
+
+    def versions(self) -> dict[str, str]:
+        """Read the versions of all exercises' files, by exercise id."""
+        return versions_of(self.lessons, self.workspace)
+
+    def assess(self) -> Assessment:
+        """Read the progress and the files, and assess them. Raises StorageError."""
+        from tutor.report.assessment import assess
+
+        return assess(self.course, self.progress(), self.versions())
+
     def export(self, format: str, path: Path, replace: bool) -> bool:
         """Write the checklist to `path`; return False, without writing, if the file exists and `replace` is not set.
 
         Raises StorageError.
         """
-        from tutor.report.assessment import assess
         from tutor.report.checklist import render_checklist
 
         if os.path.exists(path) and not replace:  # Path.exists raises PermissionError
             return False
-        write_atomically(path, render_checklist(assess(self.course, self.progress()), format, at=now()))
+        write_atomically(path, render_checklist(self.assess(), format, at=now()))
         return True
 
     def check_arguments(self, lesson: Lesson, *, first: bool = False) -> Sequence[str]:
@@ -228,6 +250,7 @@ class Session:
         from tutor import private_folders
         from tutor.bundled_ros.ros2.sourced import sourced_environment
         from tutor.ros.environment import detect  # imported late, not to delay the first paint
+        from tutor.session.shell import Shell
 
         if self._tools is None:
             self._tools = private_folders.create_until_exit("terminal")

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from tutor.session.node import NodeCommand
+from tutor.session.node_command import NodeCommand
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,8 +15,17 @@ def run(workspace: Path, lessons: Path | None = None) -> int:
 
     `lessons` is a folder with additional `lessons/` and `checks/`. Raises ContentError if a lesson is broken.
     """
+    from tutor.tui import key_latency
+
+    key_latency.pause_collection()
+    try:
+        return _run(workspace, lessons)
+    finally:
+        key_latency.resume_collection()
+
+
+def _run(workspace: Path, lessons: Path | None) -> int:
     from tutor.content import load_course
-    from tutor.ros import stale_segments
     from tutor.session import Session
     from tutor.tui import hangup
     from tutor.tui.app import TutorApp
@@ -27,5 +36,7 @@ def run(workspace: Path, lessons: Path | None = None) -> int:
     try:
         app.run()
     finally:
+        from tutor.ros import stale_segments  # late: the first paint does not wait for it
+
         stale_segments.remove()  # left behind by nodes that were killed
     return app.return_code or 0

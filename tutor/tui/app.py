@@ -14,6 +14,7 @@ from textual.events import AppBlur, Event, Key, Paste
 from textual.screen import Screen
 
 from tutor.session import Session
+from tutor.tui.key_latency import resume_collection
 from tutor.tui.screens.opening import OpeningScreen
 from tutor.tui.text_app import TextApp
 from tutor.tui.themes import DARK, LIGHT
@@ -89,6 +90,7 @@ class TutorApp(TextApp[int]):
         from tutor.tui.screens.welcome import WelcomeScreen
 
         self.push_screen(WelcomeScreen(self.session), self._workspace_created)
+        self.screen.call_after_refresh(resume_collection)
 
     def _warn(self, text: str) -> None:
         # Called from worker threads: the message queue carries it to the app's own thread.
@@ -108,7 +110,10 @@ class TutorApp(TextApp[int]):
         from tutor.tui.screens.main import MainScreen  # late: this accounts for half of all imports
 
         self.main = MainScreen(self.session, self._state)
+        for path in self.main.css_path:
+            self.stylesheet.read(path)  # now: once the widgets are there, Textual would parse all of their CSS again
         self.push_screen(self.main)
+        self.main.call_after_refresh(resume_collection)
 
     def action_switch_theme(self) -> None:
         """Switch between the dark and the light theme."""

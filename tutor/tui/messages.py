@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -98,9 +99,10 @@ class RunCommand(Message):
 
 @dataclass
 class ProgressRead(Message):
-    """The learner's progress was read or has changed."""
+    """The learner's progress was read or has changed. `versions`: those of the exercises' files, read with it."""
 
     progress: Progress
+    versions: Mapping[str, str]
 
 
 @dataclass

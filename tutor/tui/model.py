@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -20,6 +21,8 @@ class AppModel:
     state: AppState = field(default_factory=AppState)
     file_index: int = 0
     progress: Progress = field(default_factory=Progress)
+    versions: Mapping[str, str] = field(default_factory=dict)
+    """The version of each exercise's files when the progress was read, by exercise id."""
     findings: dict[str, Findings] = field(default_factory=dict)
 
     @classmethod

@@ -2,12 +2,12 @@
 
 from tutor.workspace.app_state import AppState, AppStateFile, RunOptions
 from tutor.workspace.atomic import write_atomically
-from tutor.workspace.digests import Digests, digest_of_file, digest_of_text, digests_of, has_changed
+from tutor.workspace.digests import Digests, digest_of_file, digest_of_text, digests_of, has_changed, version_of
 from tutor.workspace.domain import domain_of, given_domain
-from tutor.workspace.exercise_states import ExerciseState, State, exercise_state, last_met, states_of
+from tutor.workspace.exercise_states import ExerciseState, State, exercise_state, last_met, states_of, versions_of
 from tutor.workspace.layout import Workspace, find_workspace
 from tutor.workspace.placing_files import Placed, place_files
-from tutor.workspace.progress import Attempt, ExerciseProgress, Progress
+from tutor.workspace.progress import Attempt, ExerciseProgress, Help, Progress
 from tutor.workspace.progress_file import ProgressFile
 from tutor.workspace.saving import Saved, back_up_file, overwrite_file, read_source
 from tutor.workspace.starting import TEMPLATE, Started, start, start_in
@@ -21,6 +21,7 @@ __all__ = [
     "Digests",
     "ExerciseProgress",
     "ExerciseState",
+    "Help",
     "Placed",
     "Progress",
     "ProgressFile",
@@ -49,5 +50,7 @@ __all__ = [
     "start",
     "start_in",
     "states_of",
+    "version_of",
+    "versions_of",
     "write_atomically",
 ]

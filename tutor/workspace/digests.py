@@ -39,3 +39,9 @@ def has_changed(judged: Digests, current: Digests) -> bool:
     A file that was not there when it was judged may be missing from `judged`, or have an empty digest there.
     """
     return bool(judged) and any(judged.get(name, "") != digest for name, digest in current.items())
+
+
+def version_of(digests: Digests) -> str:
+    """Return what identifies these files in few characters; empty if there are none."""
+    present = "".join(f"{name} {digest}\n" for name, digest in sorted(digests.items()) if digest)
+    return sha256(present.encode()).hexdigest()[:16] if present else ""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from tutor.content import Lesson
+from tutor.workspace.digests import digests_of, version_of
 from tutor.workspace.layout import Workspace
 from tutor.workspace.progress import ExerciseProgress, Progress
 from tutor.workspace.submissions import is_started
@@ -96,5 +97,13 @@ def states_of(lessons: Iterable[Lesson], progress: Progress, workspace: Workspac
     """Return the state of each exercise, by exercise id. Looks for the exercises' files on disk."""
     return {
         lesson.id: exercise_state(lesson, progress.of(lesson.id), has_files=is_started(lesson, None, workspace))
+        for lesson in lessons
+    }
+
+
+def versions_of(lessons: Iterable[Lesson], workspace: Workspace) -> dict[str, str]:
+    """Return the version of each exercise's files in the workspace as they are now, by exercise id. Reads them."""
+    return {
+        lesson.id: version_of(digests_of({file.name: workspace.path_of(file.name) for file in lesson.files}))
         for lesson in lessons
     }

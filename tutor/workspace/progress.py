@@ -5,14 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
+from enum import StrEnum
 
 from tutor.json_codec import convert_to, read_document, write_document
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
+from tutor.workspace.digests import version_of
 
 SCHEMA = "ros-tutor/progress/1"
 MAX_ATTEMPTS = 200
-"""Older attempts are dropped; the best verdict is saved separately."""
+"""Older attempts are dropped, except the first that passed."""
+
+
+class Help(StrEnum):
+    """The most that a learner has seen of how an exercise is done, in one word."""
+
+    NONE = "none"
+    HINTS = "hints"
+    SOLUTION = "solution"
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +30,9 @@ class Attempt:
     """One check of the workspace's own files. `at` is a UTC time in ISO 8601.
 
     `passed` holds the ids of the criteria that passed. `whole` is False if only some criteria were judged; their ids
-    are then in `judged`, which is empty otherwise.
+    are then in `judged`, which is empty otherwise. `errors` holds the ids of those that could not be judged. `version`
+    identifies the content of the files (empty if unknown), `given` the criteria that they meet by the skeleton's code,
+    and `help` is what the learner had seen before (None if unknown).
     """
 
     at: str
@@ -28,6 +40,10 @@ class Attempt:
     passed: tuple[str, ...]
     whole: bool = True
     judged: tuple[str, ...] = ()
+    errors: tuple[str, ...] = ()
+    version: str = ""
+    given: tuple[str, ...] = ()
+    help: Help | None = None
 
     @property
     def is_pass(self) -> bool:
@@ -36,17 +52,23 @@ class Attempt:
 
     def judged_of(self, criteria: Iterable[str]) -> list[str]:
         """Return those of `criteria` that were judged."""
-        return [id for id in criteria if self.whole or id in self.judged or id in self.passed]
+        judged = (id for id in criteria if self.whole or id in self.judged or id in self.passed)
+        return [id for id in judged if id not in self.errors]
 
 
 @dataclass(frozen=True, slots=True)
 class ExerciseProgress:
-    """The progress on one exercise. `attempts` are oldest first; `hints` is the number of hints shown."""
+    """The progress on one exercise. `attempts` are oldest first; `hints` is the number of hints shown.
+
+    `criterion_hint` says whether the hint for a criterion was shown, `solution_at` when our solution was first shown.
+    """
 
     started_at: str | None = None
     attempts: tuple[Attempt, ...] = ()
     best: Status | None = None
     hints: int = 0
+    criterion_hint: bool = False
+    solution_at: str | None = None
 
     def __post_init__(self) -> None:
         if self.hints < 0:
@@ -56,6 +78,18 @@ class ExerciseProgress:
     def is_passed(self) -> bool:
         """Whether the exercise has been passed, however long ago."""
         return self.best is Status.PASSED
+
+    @property
+    def first_pass(self) -> Attempt | None:
+        """The attempt that passed the exercise."""
+        return next((attempt for attempt in self.attempts if attempt.is_pass), None)
+
+    @property
+    def help(self) -> Help:
+        """What the learner has seen so far."""
+        if self.solution_at is not None:
+            return Help.SOLUTION
+        return Help.HINTS if self.hints or self.criterion_hint else Help.NONE
 
     @property
     def last(self) -> Attempt | None:
@@ -94,9 +128,12 @@ class Progress:
         passed = tuple(c.id for c in result.criteria if c.verdict.passed)
         whole = whole and not result.unjudged
         judged = () if whole else tuple(c.id for c in result.criteria if c.id not in result.unjudged)
-        attempt = Attempt(now(), result.verdict, passed, whole, judged)
+        errors = tuple(c.id for c in result.criteria if c.verdict.status is Status.ERROR)
+        attempt = Attempt(
+            now(), result.verdict, passed, whole, judged, errors, version_of(result.digests), result.given, before.help
+        )
         best = result.verdict if whole and not before.is_passed else before.best
-        attempts = (*before.attempts, attempt)[-MAX_ATTEMPTS:]
+        attempts = _without_oldest((*before.attempts, attempt), before.first_pass)
         started_at = before.started_at or attempt.at
         return self.with_exercise(result.id, replace(before, started_at=started_at, attempts=attempts, best=best))
 
@@ -104,10 +141,25 @@ class Progress:
         """Return a copy in which this many hints of `exercise` were shown."""
         return self.with_exercise(exercise, replace(self.of(exercise), hints=shown))
 
+    def with_criterion_hint(self, exercise: str) -> Progress:
+        """Return a copy in which the hint for a criterion of `exercise` was shown."""
+        return self.with_exercise(exercise, replace(self.of(exercise), criterion_hint=True))
+
+    def with_solution(self, exercise: str) -> Progress:
+        """Return a copy in which our solution of `exercise` was shown; an earlier time is kept."""
+        before = self.of(exercise)
+        return self.with_exercise(exercise, replace(before, solution_at=before.solution_at or now()))
+
     def with_tick(self, item: str, ticked: bool = True) -> Progress:
         """Return a copy in which one checklist item is ticked or unticked."""
         others = {key: at for key, at in self.ticks.items() if key != item}
         return replace(self, ticks={**others, item: self.ticks.get(item, now())} if ticked else others)
+
+
+def _without_oldest(attempts: tuple[Attempt, ...], kept: Attempt | None) -> tuple[Attempt, ...]:
+    """Return the latest `MAX_ATTEMPTS`; `kept` stays among them."""
+    latest = attempts[-MAX_ATTEMPTS:]
+    return latest if kept is None or kept in latest else (kept, *latest[1:])
 
 
 def now() -> str:

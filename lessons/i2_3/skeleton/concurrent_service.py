@@ -4,14 +4,9 @@
 The timer must not wait for the service.
 """
 
-import rclpy
-from rclpy.executors import (
-    ExternalShutdownException,
-    SingleThreadedExecutor,
-)
 from rclpy.node import Node
 
-# TODO 1: import AddTwoInts from example_interfaces.srv.
+# TODO 1: import rclpy, and AddTwoInts from example_interfaces.srv.
 
 
 class ConcurrentService(Node):
@@ -42,18 +37,12 @@ class ConcurrentService(Node):
 
 def main() -> None:
     """Run the node until Ctrl+C."""
-    rclpy.init()
-    node = ConcurrentService()
-    # TODO 6: this executor has one thread only. Use one that has
-    #         several.
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    try:
-        executor.spin()
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass  # Ctrl+C, or someone shut ROS down: both are a normal end.
-    finally:
-        rclpy.try_shutdown()
+    # TODO 6: initialise rclpy and make the node.
+
+    # TODO 7: run it with an executor that has several threads: make the
+    #         executor, add the node to it, and let it spin.
+
+    # TODO 8: end cleanly on Ctrl+C: without a traceback, and soon.
 
 
 if __name__ == "__main__":

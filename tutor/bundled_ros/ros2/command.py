@@ -27,10 +27,13 @@ COMMANDS = {
     "run": "Start a program of a package",
     "service": "See and call services",
     "topic": "See and publish messages on topics",
+    "wtf": "The same as doctor",
 }
 """Each command with its help text. A command is a module, or a package of verbs, of the same name in this package."""
 
-_UNSUPPORTED_COMMANDS = ("bag", "component", "control", "lifecycle", "multicast", "security")
+_UNSUPPORTED_COMMANDS = frozenset(
+    {"bag", "component", "control", "extension_points", "extensions", "lifecycle", "multicast", "security", "test"}
+)
 
 
 def main(argv: Sequence[str]) -> int:

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from tutor import interpreter, private_folders
-from tutor.bundled_ros.ros2 import sources
+from tutor.bundled_ros.ros2 import absent, sources
 from tutor.ros.environment import RosEnvironment, learner_env
 from tutor.ros.prefixes import entries, is_bundled, join_entries
 
@@ -41,7 +41,7 @@ def sourced_environment(
         # Hide our own virtual environment's other programs from the user; the terminal needs only these few.
         user_path = [entry for entry in entries(env, "PATH") if not is_bundled(entry)]
         _write_programs(tools / "bin", ros, with_ros2=shutil.which("ros2", path=join_entries(user_path)) is None)
-        env["PATH"] = join_entries([tools / "bin", *user_path])
+        env["PATH"] = join_entries([tools / "bin", *absent.add_programs(tools / "absent", user_path)])
     env["ROS_DOMAIN_ID"] = str(domain_id)
     env[WORKSPACE] = str(workspace)
     if roots := _import_roots(workspace):

@@ -10,7 +10,6 @@ from tutor.session.paths import short_path
 from tutor.tui import commands
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.records import Records
-from tutor.workspace import Progress
 
 if TYPE_CHECKING:
     from tutor.tui.dialogs.checklist import ChecklistScreen
@@ -39,7 +38,7 @@ class ChecklistController:
             return
         model = self._host.model
         self._screen = ChecklistScreen(
-            assess(model.session.course, model.progress),
+            assess(model.session.course, model.progress, model.versions),
             tick=self._tick,
             export=self.export,
             theme=self._switch_theme,
@@ -50,12 +49,13 @@ class ChecklistController:
     def _closed(self, answer: None) -> None:
         self._screen = None
 
-    def show(self, progress: Progress) -> None:
-        """Show changed progress, unless ticks are still being saved."""
+    def show(self) -> None:
+        """Show changed progress or files, unless ticks are still being saved."""
         from tutor.report.assessment import assess
 
         if self._screen is not None and not self._pending_ticks:
-            self._screen.show(assess(self._host.model.session.course, progress))
+            model = self._host.model
+            self._screen.show(assess(model.session.course, model.progress, model.versions))
 
     def _switch_theme(self) -> None:
         self._host.do(commands.THEME)

@@ -79,8 +79,11 @@ class Files:
     # --- the disk has changed ---
 
     def touched(self, message: messages.FileTouched) -> None:
-        """Handle a change on disk: read the file again."""
-        self._host.start_worker(self.refresh, message.path, group="refresh")
+        """Handle a change on disk: read the file again, once what has changed on the screen is painted.
+
+        At the start, the lesson does not wait for an editor.
+        """
+        self._host.call_after_refresh(self._host.start_worker, self.refresh, message.path, group="refresh")
 
     async def refresh(self, path: Path) -> None:
         """Read a file, and reconcile the editor with it."""

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tutor.content import Lesson, LessonFile, Partner
-from tutor.session.node import Node, NodeCommand
+from tutor.session.node import Node
+from tutor.session.node_command import NodeCommand
 from tutor.tui import commands, messages
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from typing import TYPE_CHECKING
 
 from textual.containers import Container
 from textual.widgets import ContentSwitcher, Tabs
@@ -12,15 +13,15 @@ from tutor.tui import commands
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.layout import Criteria, Layout, layout_for
 from tutor.tui.control.preferences import Preferences
-from tutor.tui.live.launching import watcher_command
-from tutor.tui.live.pane import LivePane
-from tutor.tui.terminal.history import History
-from tutor.tui.terminal.pane import TerminalPane
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.lesson_list import LessonList
 from tutor.tui.widgets.lesson_view import LessonView
 from tutor.tui.widgets.log_pane import LogPane
+
+if TYPE_CHECKING:
+    from tutor.tui.live.pane import LivePane
+    from tutor.tui.terminal.pane import TerminalPane
 
 SIDE_BY_SIDE_MIN_WIDTH = 112
 """Minimum screen width, in columns, for showing the log beside Live."""
@@ -108,6 +109,9 @@ class Pages:
     def _open_live(self) -> LivePane:
         """Return the live page; the first call creates it and starts its watcher."""
         if not (pane := self.live):
+            from tutor.tui.live.launching import watcher_command
+            from tutor.tui.live.pane import LivePane  # late: the start does not wait for it
+
             self.live = pane = LivePane(id="live-pane")
             self._host.query_one("#live", Container).mount(pane)
             pane.set_lesson(self._host.model.lesson)
@@ -119,6 +123,9 @@ class Pages:
     def open_terminal(self) -> TerminalPane:
         """Return the terminal page; the first call creates it."""
         if not (pane := self.terminal):
+            from tutor.tui.terminal.history import History
+            from tutor.tui.terminal.pane import TerminalPane  # late: the start does not wait for it
+
             session = self._host.model.session
             self.terminal = pane = TerminalPane(session.shell, History(session.typed_commands()), id="terminal-pane")
             self._host.query_one("#terminal", Container).mount(pane)
@@ -153,9 +160,16 @@ class Pages:
     def arrange(self, width: int, height: int) -> None:
         """Lay out the panels for a screen of this size."""
         self.arrange_side_by_side()
+        if not self.choose_layout(width, height):
+            return
+        self._host.update_node_styles()  # once for all classes: it restyles the whole screen
+        self.show_criteria_tab()
+
+    def choose_layout(self, width: int, height: int) -> bool:
+        """Set the screen's classes for this size, without restyling anything. Return whether the layout is another."""
         layout = layout_for(width, height)
         if layout == self._layout:
-            return
+            return False
         self._layout = layout
         host, state = self._host, self._host.model.state
         for place in Criteria:
@@ -164,9 +178,12 @@ class Pages:
         host.set_class(not state.lessons_shown, "-lessons-away", update=False)
         host.set_class(state.zoomed, "-zoomed", update=False)
         host.remove_class("-drawer", update=False)
-        host.update_node_styles()  # once for all classes: it restyles the whole screen
-        tabs = host.query_one(Tabs)
-        if layout.criteria is Criteria.FOLDED:
+        return True
+
+    def show_criteria_tab(self) -> None:
+        """Show the tab of the criteria if they are folded; else hide it, and leave their page."""
+        tabs = self._host.query_one(Tabs)
+        if self.folded:
             tabs.show("tab-criteria")
             return
         if self.current == "criteria":

@@ -55,12 +55,20 @@ class Records:
         lesson = model.lesson
         if count > model.progress.of(lesson.id).hints:
             self._start_change(model.session.show_hint, lesson)
+        elif failed is not None and not model.progress.of(lesson.id).criterion_hint:
+            self._start_change(model.session.show_criterion_hint, lesson)
 
         def answered(more: bool | None) -> None:
             if more:
                 self._show_hints(count + 1, failed)
 
         self._host.app.push_screen(HintScreen(lesson, count, failed), answered)
+
+    def note_solution(self) -> None:
+        """Note that the solution of the current exercise was shown."""
+        model = self._host.model
+        if model.progress.of(model.lesson.id).solution_at is None:
+            self._start_change(model.session.show_solution, model.lesson)
 
     def attempts(self) -> None:
         """Show the attempts at the current exercise."""
@@ -74,11 +82,16 @@ class Records:
 
     async def change(self, change: Callable[..., Progress], *args: Any) -> None:
         """Change the progress on disk, and post the result or, if that fails, the progress as it was."""
+        model = self._host.model
+
+        def change_and_read() -> tuple[Progress, dict[str, str]]:
+            return change(*args), model.session.versions()
+
         try:
-            self._host.post_message(messages.ProgressRead(await self.run_in_order(change, *args)))
+            self._host.post_message(messages.ProgressRead(*await self.run_in_order(change_and_read)))
         except StorageError as error:
             self._host.show_error(f"Your progress could not be saved: {error}")
-            self._host.post_message(messages.ProgressRead(self._host.model.progress))
+            self._host.post_message(messages.ProgressRead(model.progress, model.versions))
 
     async def run_in_order[T](self, work: Callable[..., T], *args: Any) -> T:
         """Run `work(*args)` in a thread, one call at a time, so that results arrive in the order of the calls."""

@@ -8,6 +8,7 @@ from functools import partial
 from tutor.tui import commands, wording
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
+from tutor.tui.control.records import Records
 from tutor.tui.widgets.code_pane import CodePane
 
 
@@ -23,8 +24,8 @@ class View(StrEnum):
 class Views:
     """Shows one view at a time; requesting it again goes back to the learner's own file."""
 
-    def __init__(self, host: HostScreen, pane: CodePane, files: Files) -> None:
-        self._host, self._pane, self._files = host, pane, files
+    def __init__(self, host: HostScreen, pane: CodePane, files: Files, records: Records) -> None:
+        self._host, self._pane, self._files, self._records = host, pane, files, records
         self._revealed: set[str] = set()
         """Ids of the exercises whose solution the learner has asked for."""
         host.register(commands.SKELETON, partial(self.show, View.SKELETON))
@@ -51,6 +52,8 @@ class Views:
         self._host.ask(f"Solution of {wording.label(lesson)}", text, "Show it", reveal)
 
     def _show(self, view: View) -> None:
+        if view in (View.SOLUTION, View.AGAINST):
+            self._records.note_solution()
         self._host.start_worker(self._load_and_show, view, group="view", exclusive=True)
 
     async def _load_and_show(self, view: View) -> None:

@@ -98,13 +98,13 @@ class ChecklistScreen(Screen[None]):
     def _show_totals(self) -> None:
         rows = self.rows
         ticked, total = sum(row.ticked for row in rows), len(rows)
-        with_evidence = sum(bool(row.item.evidence) for row in rows)
+        shown = sum(row.item.shown for row in rows)
         self.query_one("#checklist-head", Static).update(
             Content.assemble(
                 ("Self-assessment  ", "bold $primary"),
                 bar(ticked, total),
                 (f"  {ticked} of {total} ticked", "bold"),
-                (f" · {with_evidence} shown by your checks", "$quiet"),
+                (f" · {shown} shown by your checks", "$quiet"),
             ),
             layout=False,
         )

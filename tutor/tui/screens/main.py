@@ -63,7 +63,7 @@ class MainScreen(HostScreen):
         self.pages = Pages(self, self.preferences, lambda: bool(self.nodes.running))
         self.records = Records(self)
         self.files = Files(self, code, self.records)
-        Views(self, code, self.files)
+        Views(self, code, self.files, self.records)
         self.nodes = Nodes(self, self.files, self.preferences)
         self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
         self.checklist = ChecklistController(self, self.records)
@@ -76,9 +76,11 @@ class MainScreen(HostScreen):
         self.register(commands.QUIT, lambda: self.app.run_action("quit"))
         self.register(commands.EVIDENCE, self._toggle_evidence)
         self._framed_panels: tuple[Widget, ...] = ()
+        self._was_shown = False
         self._phases: list[tuple[str, Phase]] = []
 
     def compose(self) -> ComposeResult:
+        self.pages.choose_layout(*self.app.size)  # before the widgets are styled for the first time
         yield StatusBar()
         with Horizontal(id="columns"):
             yield LessonList(self.model.session.lessons, id="lessons")
@@ -102,7 +104,7 @@ class MainScreen(HostScreen):
         self.query_one(StatusBar).show_check(None)
         self.preferences_changed()
         page = self.model.state.page
-        self.pages.arrange(self.size.width, self.size.height)
+        self.pages.show_criteria_tab()
         await self.go_to(self.model.lesson, page if page in commands.PAGES else "lesson")
         self.records.read()
 
@@ -214,22 +216,29 @@ class MainScreen(HostScreen):
                 panel.set_class(panel in around, "-focused", update=False)
                 self.app.stylesheet.update_nodes([panel])
 
+    def on_screen_resume(self, event: events.ScreenResume) -> None:
+        """Do not restyle every widget at the start: each has just been styled as it was mounted."""
+        event.refresh_styles = event.refresh_styles and self._was_shown
+        self._was_shown = True
+
     def on_resize(self, event: events.Resize) -> None:
         """Lay the panels out for the new size."""
         self.pages.arrange(event.size.width, event.size.height)
+        if event.size == self.outer_size:
+            event.prevent_default()  # what the layout for this size has reported: Textual would do it once more
 
     # --- messages from workers and widgets ---
 
     @on(messages.ProgressRead)
     def _progress_read(self, message: messages.ProgressRead) -> None:
         model = self.model
-        model.progress = message.progress
+        model.progress, model.versions = message.progress, message.versions
         for each in model.session.lessons:
             model.findings[each.id] = model.findings[each.id].with_last_check(message.progress.of(each.id))
         self.query_one(CriteriaPanel).show_findings(model.findings[model.lesson.id])
         self._count_passed()
         self.query_one(LessonList).show_states(model.session.states(message.progress))
-        self.checklist.show(message.progress)
+        self.checklist.show()
         lesson = model.lesson
         self.query_one(CriteriaPanel).show_attempts(lesson, message.progress.of(lesson.id))
 

@@ -26,14 +26,18 @@ def bar(ticked: int, total: int, width: int = _BAR_CELLS) -> Content:
     return Content.assemble(("━" * filled, "$good"), ("━" * (width - filled), "$line"))
 
 
-def _evidence_line(item: AssessedItem) -> str:
-    """Return the evidence that checks have given for an item; else the exercises that would give it."""
-    if shown := describe_evidence(item.evidence, near_day, max_items=_MAX_EXERCISES):
-        return f"✓ {' · '.join(shown)}"
+def _evidence_lines(item: AssessedItem) -> list[tuple[str, str]]:
+    """Return (text, colour) of what checks show of an item now, and showed before; else which exercises could."""
+    now = describe_evidence([each for each in item.evidence if each.holds], near_day, max_items=_MAX_EXERCISES)
+    before = describe_evidence([each for each in item.evidence if not each.holds], near_day, max_items=_MAX_EXERCISES)
+    lines = [(f"✓ {' · '.join(now)}", "$good")] if now else []
+    lines += [(f"○ {' · '.join(before)}", "$quiet")] if before else []
+    if lines:
+        return lines
     if sources := describe_sources(item.sources[:_MAX_EXERCISES]):
         more = ["others"] if len(item.sources) > _MAX_EXERCISES else []
-        return f"○ not yet shown by {' or '.join([*sources, *more])}"
-    return "○ no check shows this: you are the judge"
+        return [(f"○ not yet shown by {' or '.join([*sources, *more])}", "$quiet")]
+    return [("○ no check shows this: you are the judge", "$quiet")]
 
 
 class ItemRow(Widget, can_focus=True):
@@ -73,7 +77,7 @@ class ItemRow(Widget, can_focus=True):
     def show(self, item: AssessedItem) -> None:
         """Show the item's current state."""
         if item != self.item or item.ticked != self.ticked:
-            evidence_changed = _evidence_line(item) != _evidence_line(self.item)
+            evidence_changed = _evidence_lines(item) != _evidence_lines(self.item)
             self.item, self.ticked = item, item.ticked
             self.refresh(layout=evidence_changed)
 
@@ -89,10 +93,13 @@ class ItemRow(Widget, can_focus=True):
     def _lines(self, width: int) -> list[Content]:
         box = Content.styled("[✓] ", "bold $good") if self.ticked else Content("[ ] ")
         room = max(1, width - box.cell_length)
-        evidence_ink = "$good" if self.item.evidence else "$quiet"
         focused = "$block-cursor-foreground" if self.has_focus else ""
         text = Content.styled(self.item.text, f"bold {focused}" if focused else "").wrap(room)
-        shown = Content.styled(_evidence_line(self.item), focused or evidence_ink).wrap(room)
+        shown = [
+            line
+            for evidence, colour in _evidence_lines(self.item)
+            for line in Content.styled(evidence, focused or colour).wrap(room)
+        ]
         indent = Content(" " * box.cell_length)
         return [Content.assemble(indent if n else box, line) for n, line in enumerate([*text, *shown])]
 

@@ -1,4 +1,4 @@
-"""`ros2 action send_goal`. The wheels on PyPI have no action type, so it is tested with wrong input only."""
+"""`ros2 action send_goal`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 from tutor.bundled_ros.ros2.action.names import action_names, action_types
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
-from tutor.bundled_ros.ros2.domain import join_domain
+from tutor.bundled_ros.ros2.domain import Domain, join_domain
 from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
 from tutor.bundled_ros.ros2.message_values import message_from_yaml
 from tutor.bundled_ros.ros2.parsing import complete_with
@@ -45,20 +45,29 @@ def main(arguments: argparse.Namespace) -> None:
         wait_until(client.server_is_ready)
         print(f"Sending goal:\n     {to_yaml(goal)}")
         handle = wait_for_answer(domain, client.send_goal_async(goal, _print_feedback if arguments.feedback else None))
-        if not handle.accepted:
-            print("Goal was rejected.")
-            return
-        print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
         try:
-            result = wait_for_answer(domain, handle.get_result_async())
+            _await_result(domain, handle)
         except KeyboardInterrupt:
-            print("Canceling goal...")
-            if not wait_for_answer(domain, handle.cancel_goal_async()).goals_canceling:
-                raise CommandError("Failed to cancel goal") from None
-            print("Goal canceled.")
+            if handle.accepted:
+                _cancel(domain, handle)
             raise
-        print(f"Result:\n    {to_yaml(result.result)}")
-        print(f"Goal finished with status: {STATUS[result.status]}")
+
+
+def _await_result(domain: Domain, handle: Any) -> None:
+    if not handle.accepted:
+        print("Goal was rejected.")
+        return
+    print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+    result = wait_for_answer(domain, handle.get_result_async())
+    print(f"Result:\n    {to_yaml(result.result)}")
+    print(f"Goal finished with status: {STATUS[result.status]}")
+
+
+def _cancel(domain: Domain, handle: Any) -> None:
+    print("Canceling goal...")
+    if not wait_for_answer(domain, handle.cancel_goal_async()).goals_canceling:
+        raise CommandError("Failed to cancel goal")
+    print("Goal canceled.")
 
 
 def _print_feedback(message: Any) -> None:
