@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from typing import Any
 
-from checks.i2_2.argument_causes import diagnose_namespace, diagnose_topic
-from checks.i2_2.causes import (
-    diagnose_launch,
-    diagnose_missing,
-    diagnose_pair,
-    diagnose_program,
-    diagnose_simulation_time,
-)
 from checks.i2_2.facts import (
     NAMESPACE,
     SECOND_NAMESPACE,
@@ -19,6 +13,7 @@ from checks.i2_2.facts import (
     Pair,
     find_pair,
     has_pair_in_namespace,
+    is_namespace_doubled,
     logs_of_messages,
     pairs,
     pairs_in_namespace,
@@ -29,11 +24,55 @@ from checks.i2_2.facts import (
     subscriptions,
     topics_in_use,
 )
-from checks.i2_2.processes import by_stream, ended_processes, writers, written_by
-from tutor.judge import causes, ending
-from tutor.judge.trace import OutputLine
-from tutor.judge.verdict import Cause, Verdict, failed, passed
-from tutor.judge.wording import counted
+from tutor.judge import ending, tracebacks
+from tutor.judge.bench import NeedsInstalledRos
+from tutor.judge.launch_output import by_stream, ended_processes, find_refusal, writers, written_by
+from tutor.judge.symptom import Observation, Symptom
+from tutor.judge.trace import OutputLine, Trace
+from tutor.judge.tracebacks import Traceback
+from tutor.judge.verdict import Verdict, failed, passed
+from tutor.judge.wording import counted, output_tail
+from tutor.ros_model import incompatible_policies
+
+_UNSUPPORTED = re.compile(r"(?<!\S)\S+ is not supported by the launch files that run without an installed ROS 2[^\n]*")
+_NEEDS_ROS = re.compile(r"`ros2 \w+` needs an installed ROS 2")
+
+
+def _seen(symptom: Symptom, run: LaunchRun, *, says: str = "", do: str = "", **about: Any) -> Observation:
+    """What was seen in a launch.
+
+    Raises NeedsInstalledRos if it needs a feature that our substitute for `launch` does not have.
+    """
+    trace = run.trace
+    reject_unsupported(trace)
+    broken = trace.exit is not None or bool(ended_processes(trace.output)) or not trace.graph.nodes
+    raised = find_exception(trace) if broken or symptom is not Symptom.WRONG_NAMES else None
+    return symptom.seen(trace, says=says, do=do, raised=raised, command_lines=run.command_lines, **about)
+
+
+def reject_unsupported(trace: Trace) -> None:
+    """Raise NeedsInstalledRos if the launch has failed for the want of an installed ROS 2."""
+    for line in written_by(trace.output, None):
+        if found := _UNSUPPORTED.search(line.text):
+            raise NeedsInstalledRos(found[0])
+    for ended in ended_processes(trace.output)[:1]:
+        words = [line.text for line in ended.output if line.text.strip()][-1:]
+        if words and (found := _NEEDS_ROS.search(words[0])):
+            raise NeedsInstalledRos(found[0])
+
+
+def find_exception(trace: Trace) -> Traceback | None:
+    """The exception that kept the launch file from being loaded, or else one that a program of the launch left."""
+    own = written_by(trace.output, None)
+    if raised := tracebacks.find_tracebacks(by_stream(own)):
+        return raised[-1]
+    if (refusal := find_refusal(own, trace)) is not None:
+        return refusal
+    ended = ended_processes(trace.output)
+    if ended:
+        return ended[0].traceback
+    left = [tracebacks.find_tracebacks(by_stream(written_by(trace.output, each))) for each in writers(trace.output)]
+    return next((found[-1] for found in left if found), None)
 
 
 def judge_starts(seen: LaunchRun) -> Verdict:
@@ -42,7 +81,7 @@ def judge_starts(seen: LaunchRun) -> Verdict:
     nodes = seen.trace.graph.nodes
     observed = counted(len(nodes), "node") + (f": {', '.join(nodes)}" if nodes else "")
     if found is None:
-        return failed(expected, observed, diagnose_missing(seen), causes.output_tail(seen.trace))
+        return failed(expected, observed, _seen(Symptom.NOT_LAUNCHED, seen), output_tail(seen.trace))
     return passed(expected, observed, _describe_pair(found))
 
 
@@ -57,7 +96,7 @@ def judge_topic(default_run: LaunchRun, seen: LaunchRun) -> Verdict:
         (f"{space}/{name}" for space in spaces if f"{space}/{name}" in topics_in_use(seen.trace.graph)), f"/{name}"
     )
     return failed(
-        expected, _describe_graph(seen), diagnose_topic(default_run, seen, wanted), causes.output_tail(seen.trace)
+        expected, _describe_graph(seen), _wrong_topic(default_run, seen, wanted), output_tail(seen.trace)
     )
 
 
@@ -75,13 +114,13 @@ def judge_namespace(
             right and _has_moved(default_run, another, pairs_in_namespace(another.trace.graph, space=SECOND_NAMESPACE))
         ):
             expected = f"with {another.typed}, both nodes and the topic are under /{SECOND_NAMESPACE}"
-            cause = diagnose_namespace(default_run, another)
-            return failed(expected, _describe_graph(another), cause, causes.output_tail(another.trace))
+            cause = _wrong_namespace(default_run, another)
+            return failed(expected, _describe_graph(another), cause, output_tail(another.trace))
     elif shared_topics(default_run.trace.graph):
         right = _has_moved(default_run, alone, within) and _has_messages(default_run, alone, within)
     if not right:
         return failed(
-            expected, _describe_graph(alone), diagnose_namespace(default_run, alone), causes.output_tail(alone.trace)
+            expected, _describe_graph(alone), _wrong_namespace(default_run, alone), output_tail(alone.trace)
         )
     topic = both.arguments["topic"]
     expected = f"with {both.typed}, both nodes and /{NAMESPACE}/{topic} are under /{NAMESPACE}"
@@ -92,7 +131,7 @@ def judge_namespace(
         right = has_pair_in_namespace(both.trace.graph)
     if not right:
         return failed(
-            expected, _describe_graph(both), diagnose_namespace(default_run, both), causes.output_tail(both.trace)
+            expected, _describe_graph(both), _wrong_namespace(default_run, both), output_tail(both.trace)
         )
     expected = f"with namespace:={NAMESPACE}, alone and with a topic, both nodes and the topic are under /{NAMESPACE}"
     return passed(expected, _describe_graph(both), [*_describe_pair(within[0])] if within else ())
@@ -102,8 +141,8 @@ def judge_communicates(seen: LaunchRun) -> Verdict:
     expected = "without arguments, the subscriber gets what the publisher sends"
     found = pairs(seen.trace.graph)
     if not found:
-        return failed(expected, _describe_graph(seen), diagnose_pair(seen), causes.output_tail(seen.trace))
-    reasons: list[tuple[Pair, Cause]] = []
+        return failed(expected, _describe_graph(seen), _seen(Symptom.NOT_CONNECTED, seen), output_tail(seen.trace))
+    reasons: list[Observation] = []
     for pair in found:
         reason = _diagnose_delivery(seen, pair)
         if reason is None:
@@ -112,49 +151,80 @@ def judge_communicates(seen: LaunchRun) -> Verdict:
             logs = logs_of_messages(pair, seen.trace.logs, seen.trace.samples_on(topic))
             observed = f"{counted(count, 'message')} on {topic}" if count else f"connected on {topic}"
             return passed(expected, observed, [*_describe_pair(pair), *(str(log) for log in logs[:2])])
-        reasons.append((pair, diagnose_program(seen, reason)))
-    pair, reason = reasons[0]
-    return failed(expected, _describe_graph(seen), reason, causes.output_tail(seen.trace))
+        reasons.append(reason)
+    return failed(expected, _describe_graph(seen), reasons[0], output_tail(seen.trace))
 
 
-def _diagnose_delivery(seen: LaunchRun, pair: Pair) -> Cause | None:
-    """Why the messages of this pair do not arrive; None where they do."""
+def _diagnose_delivery(seen: LaunchRun, pair: Pair) -> Observation | None:
+    """What is seen of messages of this pair that do not arrive; None where they do."""
     publisher, subscription = pair
     if publisher.type != subscription.type:
-        return Cause(
-            "wrong type",
-            f"on {publisher.topic}, {publisher.node} sends {publisher.type}, "
-            f"and {subscription.node} wants {subscription.type}",
-            "choose two programs whose messages have the same type",
+        return _seen(
+            Symptom.NOT_CONNECTED,
+            seen,
+            says=f"on {publisher.topic}, {publisher.node} sends {publisher.type}, and {subscription.node} wants "
+            f"{subscription.type}",
+            do="Choose two programs whose messages have the same type.",
         )
-    if (cause := causes.diagnose_incompatible_qos(publisher, subscription)) is not None:
-        return cause
+    if any(incompatible_policies(publisher.qos, subscription.qos)):
+        return _seen(Symptom.NOT_CONNECTED, seen, topic=publisher.topic)
     if not seen.trace.samples_on(publisher.topic) and publisher.topic not in seen.hidden:
-        return (
-            diagnose_launch(seen.trace)
-            or diagnose_simulation_time(seen, publisher.node)
-            or Cause(
-                "no messages",
-                f"{publisher.node} publishes nothing on {publisher.topic}",
-                "start it alone, and look at its output",
-            )
+        return _seen(
+            Symptom.NOT_CONNECTED,
+            seen,
+            says=f"{publisher.node} publishes nothing on {publisher.topic}",
+            do="Start it alone, and look at its output.",
+            silent=publisher.node,
         )
     alive = subscription.node in seen.answering
     mute = subscription.node not in seen.trace.graph.parameter_nodes
     logged = logs_of_messages(pair, seen.trace.logs, seen.trace.samples_on(publisher.topic))
     if seen.disconnected:
-        return diagnose_launch(seen.trace) or Cause(
-            "a node that ends",
-            f"{publisher.node} and {subscription.node} were connected, but one of them is gone",
-            "see the last lines of its output",
+        return _seen(
+            Symptom.NOT_CONNECTED,
+            seen,
+            says=f"{publisher.node} and {subscription.node} were connected, but one of them is gone",
+            do="See in the last lines of the output which program has ended, and why.",
         )
     if alive or (mute and seen.trace.exit is None) or (logged and not ended_processes(seen.trace.output)):
         return None
-    return diagnose_launch(seen.trace) or Cause(
-        "no spin",
-        f"{subscription.node} has a subscription, but answers no request: its callbacks are never run",
-        "call rclpy.spin(node) in the program, and let no callback block",
+    return _seen(
+        Symptom.NOT_CONNECTED,
+        seen,
+        says=f"{subscription.node} has a subscription, but answers no request: its callbacks are never run",
+        do="Let the program spin its node, and let no callback block.",
     )
+
+
+def _wrong_topic(default_run: LaunchRun, seen: LaunchRun, wanted: str) -> Observation:
+    """With another topic given, one of the nodes does not use `wanted`, or the default topic is still used."""
+    graph = seen.trace.graph
+    still_used = sorted(shared_topics(default_run.trace.graph) & topics_in_use(graph))
+    users = sorted({each.node for each in (*publishers(graph), *subscriptions(graph)) if each.topic in still_used})
+    unheard = not still_used and wanted in shared_topics(graph)
+    return _seen(
+        Symptom.WRONG_NAMES,
+        seen,
+        says=f"both nodes are on {wanted}, but nothing is sent there" if unheard else "",
+        do="Start both by hand with this topic, and look at their output." if unheard else "",
+        argument="topic",
+        wanted=wanted,
+        still_used=tuple(still_used),
+        users=tuple(users),
+    )
+
+
+def _wrong_namespace(default_run: LaunchRun, seen: LaunchRun) -> Observation:
+    """With a namespace given, one of the nodes or their topic is not in it."""
+    namespace, topic = seen.arguments.get("namespace", NAMESPACE), seen.arguments.get("topic")
+    endpoints = (*publishers(seen.trace.graph), *subscriptions(seen.trace.graph))
+    under = f"/{namespace}/"
+    within = {each.node for each in endpoints if each.node.startswith(under)}
+    if topic is not None and endpoints and all(f"{each.node}/".startswith(under) for each in endpoints):
+        in_it = all(each.topic.startswith(under) for each in endpoints)
+        if len(within) > 1 and in_it and not any(is_namespace_doubled(each.topic, namespace) for each in endpoints):
+            return _wrong_topic(default_run, seen, f"{under}{topic}")
+    return _seen(Symptom.WRONG_NAMES, seen, argument="namespace", wanted=namespace)
 
 
 def judge_shutdown(seen: LaunchRun) -> Verdict:
@@ -175,10 +245,11 @@ def judge_shutdown(seen: LaunchRun) -> Verdict:
         return failed(
             expected,
             f"ended {ended.took_s:.2f} s after Ctrl+C with {ended.exit}; {len(ended.survivors)} left",
-            Cause(
-                "process left behind",
-                f"still there: {ended.survivors[0][:200]}",
-                f"start it with Node or ExecuteProcess, which end it, and not by Python code in {seen.trace.file}",
+            Symptom.DOES_NOT_END.seen(
+                replace(seen.trace, sources=programs),
+                says=f"still there after the launch: {ended.survivors[0][:120]}",
+                do="Let the launch description start it, and no Python code: then launch ends it, too.",
+                left_behind=True,
             ),
             [command[:200] for command in ended.survivors[:6]],
         )

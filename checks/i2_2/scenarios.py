@@ -21,9 +21,9 @@ from checks.i2_2.facts import (
     pairs_on_topic_named,
     shared_topics,
 )
-from checks.i2_2.processes import ended_processes
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.launch_output import ended_processes
 from tutor.judge.trace import Trace
 from tutor.judge.waiting import MESSAGE_GAP_S, OTHER_NAME_S, START_S
 from tutor.ros_model import Graph

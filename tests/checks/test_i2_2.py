@@ -9,10 +9,11 @@ from typing import Any
 
 import pytest
 
-from checks.i2_2 import facts, judges, processes
+from checks.i2_2 import CHECK, facts, judges
 from checks.i2_2.facts import LaunchRun
 from tests.checks.builders import FOLDER, START, assert_failed, assert_passed, ending, exited, lines
 from tutor.errors import NeedsInstalledRos
+from tutor.judge import launch_output
 from tutor.judge.trace import LogRecord, Sample, Trace
 from tutor.judge.verdict import Status
 from tutor.ros_model import Graph, QoS, ServiceEndpoint, TopicEndpoint
@@ -567,14 +568,14 @@ def test_a_traceback_of_a_node_fails_though_the_launch_exits_cleanly() -> None:
 
 def test_output_is_attributed_to_its_process() -> None:
     output = lines("[a-1] one\n[INFO] [a-1]: process started with pid [3]\n\x1b[32m[b-2] two\x1b[0m\nplain")
-    assert [line.text for line in processes.written_by(output, "a-1")] == ["one"]
-    assert [line.text for line in processes.written_by(output, "b-2")] == ["two"]
-    assert processes.writers(output) == ["a-1", "b-2"]
+    assert [line.text for line in launch_output.written_by(output, "a-1")] == ["one"]
+    assert [line.text for line in launch_output.written_by(output, "b-2")] == ["two"]
+    assert launch_output.writers(output) == ["a-1", "b-2"]
 
 
 def test_ended_processes() -> None:
     output = lines(f"{DEAD}\n[INFO] [talker-1]: process has finished cleanly [pid 11]")
-    assert [(each.process, each.code) for each in processes.ended_processes(output)] == [
+    assert [(each.process, each.code) for each in launch_output.ended_processes(output)] == [
         ("hearer-2", 1),
         ("talker-1", 0),
     ]

@@ -20,6 +20,8 @@ __all__ = ["KnownException", "RaisedException", "add_table", "load", "parse", "r
 _EXPLAINED = tuple(symptom for symptom in EVERY_SYMPTOM if symptom is not Symptom.BAD_VALUE_ACCEPTED)
 """A bad value that is accepted and then raises an exception was accepted in the first place."""
 
+_UNSAID = object()
+
 _ORDER = ("launch", "parameters", "attributes", "calls", "messages", "process", "imports", "python")
 
 
@@ -56,9 +58,13 @@ def _find(known: KnownException, case: Case) -> Iterator[Found]:
 def raised_in(case: Case) -> list[RaisedException]:
     """The exceptions of the last traceback's chain, the likeliest root first; none if the program wrote none.
 
+    A criterion that says what was `raised` (a Traceback or None) knows better, such as in a launch of many programs.
+
     The origin comes first; if the program handles it, and a call in its handler fails, the last exception does.
     """
-    last = last_traceback(case.trace)
+    last = case.about("raised", _UNSAID)
+    if last is _UNSAID:
+        last = last_traceback(case.trace)
     if last is None:
         return []
     chain = [last]

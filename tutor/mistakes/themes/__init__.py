@@ -11,6 +11,12 @@ from tutor.mistakes.themes import setting_up as setting_up
 from tutor.mistakes.themes import blocked_callbacks as blocked_callbacks
 from tutor.mistakes.themes import spinning as spinning
 from tutor.mistakes.themes import executors as executors
+from tutor.mistakes.themes import launch_start as launch_start
+from tutor.mistakes.themes import launch_loading as launch_loading
+from tutor.mistakes.themes import launch_remappings as launch_remappings
+from tutor.mistakes.themes import launch_names as launch_names
+from tutor.mistakes.themes import launch_effects as launch_effects
+from tutor.mistakes.themes import launch_nodes as launch_nodes
 from tutor.mistakes.themes import nodes as nodes
 from tutor.mistakes.themes import qos as qos
 from tutor.mistakes.themes import topics as topics

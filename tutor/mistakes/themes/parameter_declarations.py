@@ -177,7 +177,7 @@ def declared_under_another_name(case: Case) -> Iterator[Found]:
 
 @mistake(
     "arguments-left-out",
-    explains=_START,
+    explains=(*_START, Symptom.WRONG_NAMES),
     says="{line} keeps the command line's arguments from the node, and the parameters given there with them: {code}",
     do="Let rclpy take the command line's arguments itself.",
 )

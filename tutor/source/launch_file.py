@@ -1,4 +1,4 @@
-"""I2.2: the calls in a launch file, used to word a diagnosis, never for a verdict.
+"""The calls in a launch file, with imported classes under their own names.
 
 Only the syntax tree is read; a file that cannot be parsed has no calls.
 """
@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import ast
 import copy
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from tutor.judge.source import SourceFile, called_name
+from tutor.source.file import SourceFile, called_name
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ class Call:
 
 
 @dataclass(frozen=True)
-class Source:
+class LaunchFile:
     """A launch file as source text, with import aliases resolved.
 
     With `from a import Name as N` or `import a`, both N(...) and a.Name(...) are read as Name(...).
@@ -54,43 +54,14 @@ class Source:
     def _file(self) -> SourceFile:
         return _ResolvedFile(self.text)
 
-    @property
-    def readable(self) -> bool:
-        """Whether Python can parse the file, and it is not empty."""
-        return bool(self._file.tree.body)
-
-    def own(self, name: str) -> str:
-        """The file's own expression for a class: "Name", "N" or "a.Name"; `name` itself if it does not import it."""
-        classes = _AliasResolver(SourceFile(self.text)).classes()
-        return next((written for written, plain in classes if plain == name), name)
-
     def calls(self, *names: str) -> list[Call]:
         """The calls of functions or methods with these names, in file order."""
         return [_call(each, self._file) for each in self._file.calls(*names)]
-
-    def assignments(self) -> list[tuple[str, str]]:
-        """Each assignment as (target, value), such as ("self.rate", "10"), in file order."""
-        found = [each for each in self._file.nodes if isinstance(each, ast.Assign | ast.AnnAssign) and each.value]
-        found.sort(key=lambda each: each.lineno)
-        return [
-            (ast.unparse(target), ast.unparse(each.value))
-            for each in found
-            for target in (each.targets if isinstance(each, ast.Assign) else [each.target])
-            if each.value is not None
-        ]
-
-    def texts(self) -> list[tuple[str, ...]]:
-        """The strings composed by an f-string, + or join(), each as the source text of its parts."""
-        return [parts for each in self._file.nodes if (parts := _parts(each, self._file))]
 
     def uses(self, name: str) -> int:
         """How often the variable with this name is read."""
         names = [each for each in self._file.nodes if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load)]
         return [each.id for each in names].count(name)
-
-    def imports(self, name: str) -> bool:
-        """Whether something is imported under this name."""
-        return any((alias.asname or alias.name).split(".")[0] == name for _, alias in self._file.imports)
 
 
 class _ResolvedFile(SourceFile):
@@ -113,13 +84,6 @@ class _AliasResolver(ast.NodeTransformer):
             for node, alias in file.imports
             if isinstance(node, ast.ImportFrom) and alias.asname and alias.name[:1].isupper()
         }
-
-    def classes(self) -> Iterator[tuple[str, str]]:
-        """Each class that is imported under an alias or by its module, as (written, original name)."""
-        yield from self._renamed.items()
-        for node in self._file.nodes:
-            if isinstance(node, ast.Attribute) and self._is_of_module(node):
-                yield ast.unparse(node), node.attr
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
         return ast.copy_location(ast.Name(self._renamed.get(node.id, node.id), node.ctx), node)
@@ -173,32 +137,3 @@ def _call(node: ast.Call, file: SourceFile) -> Call:
         within=function.name if function is not None else "",
         kept=file.assigned_to(node),
     )
-
-
-def _parts(node: ast.AST, file: SourceFile) -> tuple[str, ...]:
-    """The parts of a composed string; () if the node is not one, or only a part of one."""
-    match node:
-        case ast.JoinedStr():
-            return tuple(
-                ast.unparse(each.value) if isinstance(each, ast.FormattedValue) else ast.unparse(each)
-                for each in node.values
-            )
-        case ast.BinOp(op=ast.Add()) if not isinstance(next(file.ancestors(node), None), ast.BinOp):
-            return tuple(summands(node))
-        case ast.Call(
-            func=ast.Attribute(value=ast.Constant(value=str() as separator), attr="join"), args=[ast.List(elts=parts)]
-        ):
-            with_separators = [[ast.unparse(part), repr(separator)] for part in parts]
-            return tuple(each for pair in with_separators for each in pair)[:-1]
-        case _:
-            return ()
-
-
-def summands(node: ast.expr) -> list[str]:
-    """The source text of the parts that + joins, without the str() around any of them."""
-    match node:
-        case ast.BinOp(left=left, op=ast.Add(), right=right):
-            return [*summands(left), *summands(right)]
-        case ast.Call(func=ast.Name(id="str"), args=[inner]):
-            return [ast.unparse(inner)]
-    return [ast.unparse(node)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from checks.i2_2.reading import Source
+from tutor.source.launch_file import LaunchFile
 
 CODE = """\
 import random
@@ -28,7 +28,7 @@ class Sensor(Base):
 
 
 def test_calls_with_arguments_and_context() -> None:
-    first, later = Source(CODE).calls("create_timer")
+    first, later = LaunchFile(CODE).calls("create_timer")
     assert (first.line, first.within, first.kept) == (8, "__init__", "self.timer")
     assert first.given == ("1.0 / self.rate", "self.tick")
     assert first.where == "line 8: self.create_timer(1.0 / self.rate, self.tick)"
@@ -39,23 +39,11 @@ def test_calls_with_arguments_and_context() -> None:
     )
 
 
-def test_assignments_and_names() -> None:
-    source = Source(CODE)
-    assert source.assignments()[0] == ("self.rate", "self.get_parameter('rate').value")
-    assert source.imports("random")
-    assert source.imports("Base")
-    assert not source.imports("Node")
-    assert source.uses("count") == 1
-
-
-def test_concatenated_texts() -> None:
-    texts = set(Source(CODE).texts())
-    assert ("'a'", "'/'", "self.name") in texts
-    assert any(parts[-2:] == ("self.rate", "'!'") for parts in texts)
+def test_how_often_a_name_is_read() -> None:
+    assert LaunchFile(CODE).uses("count") == 1
 
 
 def test_an_unparsable_file_yields_nothing() -> None:
-    for source in (Source(), Source("def ("), Source("\0")):
+    for source in (LaunchFile(), LaunchFile("def ("), LaunchFile("\0")):
         assert source.calls("print") == []
-        assert source.assignments() == []
         assert not source.imports("rclpy")

@@ -1,0 +1,204 @@
+"""Names that only some nodes of a launch have, and arguments without any effect."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Evidence, Found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.mistakes.themes.launch_names import endpoints_of, last_part, reaches_no_node, remappings_of, value_of
+from tutor.ros_model import Graph, TopicEndpoint
+
+_NAMES = (Symptom.WRONG_NAMES,)
+
+
+@mistake(
+    "absolute-topic",
+    explains=_NAMES,
+    evidence=Evidence.SYMPTOM,
+    says="the nodes are under /{namespace}, but {node} uses {topic}: {because}",
+    do="Leave out the slash in front of the name: then it is taken within the namespace.",
+    example=in_run(
+        Symptom.WRONG_NAMES,
+        argument="namespace",
+        wanted="hall",
+        graph=Graph(("/hall/bell",), (TopicEndpoint("/ring", "t", "/hall/bell"),)),
+    ),
+)
+def absolute(case: Case) -> Iterator[Found]:
+    """A topic's name begins with a slash.
+
+    A name with a slash in front is absolute, and no namespace changes it. Without the slash, it is in the namespace
+    of its node.
+
+    Bad:
+
+        remappings=[('ring', '/doorbell')]
+
+    Good:
+
+        remappings=[('ring', 'doorbell')]
+
+    See it: `ros2 topic list`.
+    """
+    if case.about("argument") != "namespace":
+        return
+    namespace = case.about("wanted")
+    under = f"/{namespace}/"
+    slash = next((target for _, target in remappings_of(case) if target.startswith("/")), None)
+    because = f"the remapping to {slash} begins with a slash" if slash else "its name begins with a slash"
+    endpoints = endpoints_of(case)
+    if all(endpoint.node.startswith(under) for endpoint in endpoints):
+        for endpoint in endpoints:
+            if not endpoint.topic.startswith(under):
+                words = {"namespace": namespace, "node": endpoint.node, "topic": endpoint.topic, "because": because}
+                yield Found(words)
+
+
+@mistake(
+    "default-topic-still-used",
+    explains=_NAMES,
+    evidence=Evidence.SYMPTOM,
+    says="{nodes} still on {topics}",
+    do="Give every node that uses the topic the same remappings.",
+    example=in_run(Symptom.WRONG_NAMES, argument="topic", wanted="/dong", still_used=("/ring",), users=("/bell",)),
+)
+def still_used(case: Case) -> Iterator[Found]:
+    """Something stays on the default topic.
+
+    A topic is renamed for those nodes that have the remapping. Another node, or another copy of the same one, goes on
+    with the name in its code.
+
+    Bad:
+
+        Node(package='house', executable='bell', remappings=[('ring', LaunchConfiguration('sound'))])
+        Node(package='house', executable='bell', name='old_bell')
+
+    Good:
+
+        Node(package='house', executable='bell', remappings=[('ring', LaunchConfiguration('sound'))])
+
+    See it: `ros2 topic info -v TOPIC`.
+    """
+    if case.about("still_used") and case.about("wanted") in {endpoint.topic for endpoint in endpoints_of(case)}:
+        yield Found({"nodes": ", ".join(case.about("users")), "topics": ", ".join(case.about("still_used"))})
+
+
+@mistake(
+    "namespace-of-its-own",
+    explains=_NAMES,
+    evidence=Evidence.RUN,
+    says="{node} is in the namespace {namespace}, and so it uses {topic} in place of {wanted}",
+    do="Give both nodes the same namespace.",
+    example=in_run(
+        Symptom.WRONG_NAMES,
+        argument="topic",
+        wanted="/dong",
+        graph=Graph(("/attic/bell",), (TopicEndpoint("/attic/dong", "t", "/attic/bell"),)),
+    ),
+)
+def own_namespace(case: Case) -> Iterator[Found]:
+    """A node is in a namespace of its own.
+
+    A relative topic name is taken within the namespace of its node, so the same name is another topic in another
+    namespace.
+
+    Bad:
+
+        Node(package='house', executable='bell', namespace='attic', remappings=[('ring', 'doorbell')])
+        Node(package='house', executable='door', remappings=[('ring', 'doorbell')])
+
+    Good:
+
+        Node(package='house', executable='bell', remappings=[('ring', 'doorbell')])
+        Node(package='house', executable='door', remappings=[('ring', 'doorbell')])
+
+    See it: `ros2 node list`, `ros2 topic list`.
+    """
+    wanted = str(case.about("wanted", ""))
+    for endpoint in endpoints_of(case) if case.about("argument") == "topic" else ():
+        namespace = endpoint.node.rpartition("/")[0]
+        if namespace and f"{namespace}/{last_part(wanted)}" == endpoint.topic != wanted:
+            words = {"node": endpoint.node, "namespace": namespace, "topic": endpoint.topic, "wanted": wanted}
+            yield Found(words)
+
+
+@mistake(
+    "only-one-node-is-renamed",
+    explains=_NAMES,
+    evidence=Evidence.SYMPTOM,
+    says="{what}",
+    do="Give every node the same remappings, and the same namespace.",
+    example=in_run(
+        Symptom.WRONG_NAMES,
+        argument="topic",
+        wanted="/dong",
+        graph=Graph(
+            ("/bell", "/door"), (TopicEndpoint("/dong", "t", "/bell"),), (TopicEndpoint("/ring", "t", "/door"),)
+        ),
+    ),
+)
+def one_node(case: Case) -> Iterator[Found]:
+    """Only one of two nodes is renamed.
+
+    Remappings and namespaces are a matter of each node. What one node has, the other does not.
+
+    Bad:
+
+        Node(package='house', executable='bell', remappings=[('ring', 'doorbell')])
+        Node(package='house', executable='door')
+
+    Good:
+
+        Node(package='house', executable='bell', remappings=[('ring', 'doorbell')])
+        Node(package='house', executable='door', remappings=[('ring', 'doorbell')])
+
+    See it: `ros2 topic info -v TOPIC`.
+    """
+    endpoints, wanted = endpoints_of(case), str(case.about("wanted", ""))
+    if case.about("argument") == "topic":
+        inside = sorted({each.node for each in endpoints if each.topic == wanted})
+        outside = sorted({f"{each.node} uses {each.topic}" for each in endpoints if each.topic != wanted})
+        where = wanted
+    else:
+        where = f"/{wanted}"
+        inside = sorted({each.node for each in endpoints if each.node.startswith(f"{where}/")})
+        outside = sorted({each.node for each in endpoints if not each.node.startswith(f"{where}/")})
+    if inside and outside:
+        are = "uses" if case.about("argument") == "topic" else "is under"
+        yield Found({"what": f"{', '.join(inside)} {are} {where}, and {', '.join(outside)}{_not(case)}"})
+
+
+def _not(case: Case) -> str:
+    return "" if case.about("argument") == "topic" else " is not"
+
+
+@mistake(
+    "argument-without-effect",
+    explains=_NAMES,
+    evidence=Evidence.SYMPTOM,
+    says="{argument}:={value} is given, and its value reaches no node",
+    do="Use the value of the argument in every node: a topic in its remappings, a namespace as its namespace.",
+    example=in_run(Symptom.WRONG_NAMES, argument="topic", wanted="/dong"),
+)
+def no_effect(case: Case) -> Iterator[Found]:
+    """A launch argument is declared, and used nowhere.
+
+    A declaration only says that there is such an argument. Its value is what LaunchConfiguration stands for, and counts
+    where that is given to a node.
+
+    Bad:
+
+        DeclareLaunchArgument('sound', default_value='ding')
+        Node(package='house', executable='bell')
+
+    Good:
+
+        DeclareLaunchArgument('sound', default_value='ding')
+        Node(package='house', executable='bell', remappings=[('ring', LaunchConfiguration('sound'))])
+
+    See it: `ros2 topic list`.
+    """
+    if case.about("argument") is not None and reaches_no_node(case):
+        yield Found({"argument": case.about("argument"), "value": value_of(case)})

@@ -1,0 +1,277 @@
+"""Launch arguments, namespaces and remappings: why a node or topic has another name than asked for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Evidence, Found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.mistakes.themes.launch_start import at_call, launch_file
+from tutor.ros_model import Graph, TopicEndpoint, is_standard_topic
+from tutor.source.launch_file import Call, LaunchFile
+
+_NAMES = (Symptom.WRONG_NAMES,)
+REMAP = re.compile(r"(?:-r|--remap) (?P<source>[^\s:=]+):=(?P<target>\S+)")
+
+
+def endpoints_of(case: Case) -> list[TopicEndpoint]:
+    """The publishers and subscriptions, without those of ROS itself."""
+    graph = case.trace.graph
+    return [each for each in (*graph.publishers, *graph.subscriptions) if not is_standard_topic(each.topic)]
+
+
+def value_of(case: Case) -> str:
+    """The value that was given for the argument."""
+    return str(case.about("wanted", "")).rpartition("/")[2]
+
+
+def reaches_no_node(case: Case) -> bool:
+    """Whether the argument's value is on the command line of no node (launch itself always has it)."""
+    nodes = [command for command in case.about("command_lines", ()) if case.trace.file not in command]
+    return not any(value_of(case) in command for command in nodes)
+
+
+def remappings_of(case: Case) -> list[tuple[str, str]]:
+    """The remappings on the nodes' command lines, as (source, target)."""
+    commands = case.about("command_lines", ())
+    return [(found["source"], found["target"]) for command in commands for found in REMAP.finditer(command)]
+
+
+def last_part(name: str) -> str:
+    """The name without its namespace."""
+    return name.rpartition("/")[2]
+
+
+def nodes_of(file: LaunchFile) -> list[Call]:
+    """The calls that describe a node."""
+    return file.calls("Node", "LifecycleNode")
+
+
+def _uses(argument: str) -> re.Pattern[str]:
+    return re.compile(rf"LaunchConfiguration\('{argument}'")
+
+
+def _names_of(file: LaunchFile, argument: str) -> set[str]:
+    """The variables that keep the argument's value."""
+    return {
+        call.kept for call in file.calls("LaunchConfiguration") if call.argument(0, "variable_name") == f"'{argument}'"
+    }
+
+
+def _is_used(file: LaunchFile, argument: str, code: str) -> bool:
+    names = _names_of(file, argument) - {""}
+    return bool(_uses(argument).search(code)) or any(re.search(rf"(?<!['\w]){name}(?!['\w])", code) for name in names)
+
+
+@mistake(
+    "namespace-applied-twice",
+    explains=_NAMES,
+    evidence=Evidence.RUN,
+    says="{name} is in the namespace {namespace} twice",
+    do="Use one of the two ways: the namespace of each node, or one that is pushed for all.",
+    example=in_run(
+        Symptom.WRONG_NAMES,
+        argument="namespace",
+        wanted="hall",
+        graph=Graph(("/hall/hall/bell",), (TopicEndpoint("/hall/hall/ring", "t", "/hall/hall/bell"),)),
+    ),
+)
+def twice(case: Case) -> Iterator[Found]:
+    """A namespace is applied twice.
+
+    PushRosNamespace puts all nodes of its group into a namespace, and namespace= a single node. Together they nest.
+
+    Bad:
+
+        PushRosNamespace('hall')
+        Node(package='house', executable='bell', namespace='hall')
+
+    Good:
+
+        PushRosNamespace('hall')
+        Node(package='house', executable='bell')
+
+    See it: `ros2 node list`.
+    """
+    doubled = f"/{case.about('wanted')}/{case.about('wanted')}/"
+    for endpoint in endpoints_of(case) if case.about("argument") == "namespace" else ():
+        for name in (endpoint.node, endpoint.topic):
+            if name.startswith(doubled):
+                yield Found({"name": name, "namespace": case.about("wanted")})
+
+
+@mistake(
+    "wrong-argument-name",
+    explains=_NAMES,
+    evidence=Evidence.RUN,
+    says="{argument}:= changes nothing, since the launch file declares {declared}",
+    do="Use exactly this name where the argument is declared and where its value is read.",
+    example=in_run(Symptom.WRONG_NAMES, argument="sound", wanted="ding"),
+)
+def argument_name(case: Case) -> Iterator[Found]:
+    """A launch argument has another name, or is not declared.
+
+    name:=value on the command line sets the launch configuration of this name. If no argument is called so, nothing
+    reads it, and launch does not complain.
+
+    Bad:
+
+        DeclareLaunchArgument('sounds', default_value='ding')
+
+    Good:
+
+        DeclareLaunchArgument('sound', default_value='ding')
+
+    See it: `ros2 launch FILE --show-args`.
+    """
+    argument, declared = case.about("argument"), case.trace.launch_arguments
+    if argument is not None and argument not in declared and reaches_no_node(case):
+        calls = launch_file(case).calls("DeclareLaunchArgument")
+        yield at_call(case, next(iter(calls), None), argument=argument, declared=", ".join(declared) or "no argument")
+
+
+@mistake(
+    "argument-overwritten",
+    explains=_NAMES,
+    says="{line} sets {name} itself, for all that is evaluated from then on: {code}",
+    do="Leave the value to the one who starts the launch.",
+    example=in_run(Symptom.WRONG_NAMES, argument="sound"),
+)
+def argument_overwritten(case: Case) -> Iterator[Found]:
+    """A launch file sets its own argument.
+
+    SetLaunchConfiguration replaces the value that was given on the command line, for what comes after it and for
+    handlers of events.
+
+    Bad:
+
+        SetLaunchConfiguration('sound', 'ding')
+
+    Good:
+
+        DeclareLaunchArgument('sound', default_value='ding')
+
+    See it: `ros2 launch FILE sound:=dong`, and what is started.
+    """
+    name = case.about("argument", "")
+    for call in launch_file(case).calls("SetLaunchConfiguration"):
+        fixed = call.argument(1, "value").startswith(("'", '"'))
+        if call.argument(0, "name") == f"'{name}'" and fixed and "condition" not in call.named:
+            yield at_call(case, call, name=name)
+
+
+@mistake(
+    "setting-lost-with-its-group",
+    explains=_NAMES,
+    says="{line} sets {name} in a group, and the end of the group takes it back: {code}",
+    do="Set it outside of the group, or make the group not scoped.",
+)
+def lost_with_group(case: Case) -> Iterator[Found]:
+    """A configuration is set in a group, and read outside.
+
+    A GroupAction is scoped: at its end, launch configurations are again what they were before it.
+
+    Bad:
+
+        GroupAction([SetLaunchConfiguration('target', 'hall')])
+        Node(package='house', executable='bell', namespace=LaunchConfiguration('target'))
+
+    Good:
+
+        SetLaunchConfiguration('target', 'hall')
+        Node(package='house', executable='bell', namespace=LaunchConfiguration('target'))
+
+    See it: `ros2 node list`.
+    """
+    file = launch_file(case)
+    for group in file.calls("GroupAction"):
+        for call in file.calls("SetLaunchConfiguration"):
+            name = call.argument(0, "name")
+            inside = call.code in group.code and "scoped" not in group.named
+            reads = [each for each in file.calls("LaunchConfiguration") if each.argument(0, "variable_name") == name]
+            if inside and any(read.code not in group.code for read in reads):
+                yield at_call(case, call, name=name.strip("'\""))
+
+
+@mistake(
+    "namespace-not-pushed-to-the-node",
+    name="namespace not used",
+    explains=_NAMES,
+    says="{line}: {why}: {code}",
+    do="Put the nodes and what pushes the namespace into one group, the namespace first.",
+    example=in_run(Symptom.WRONG_NAMES, argument="namespace", wanted="hall"),
+)
+def not_pushed(case: Case) -> Iterator[Found]:
+    """A pushed namespace does not reach a node.
+
+    PushRosNamespace changes what comes after it in the same list or group, if its condition is met. A node before it,
+    or one that a handler of an event starts later, is not in that namespace.
+
+    Bad:
+
+        Node(package='house', executable='bell')
+        PushRosNamespace('hall')
+
+    Good:
+
+        PushRosNamespace('hall')
+        Node(package='house', executable='bell')
+
+    See it: `ros2 node list`.
+    """
+    if case.about("argument") != "namespace":
+        return
+    file = launch_file(case)
+    for pushed in file.calls("PushRosNamespace", "PushROSNamespace"):
+        handlers = file.calls("OnProcessExit", "OnProcessStart", "TimerAction", "OnExecutionComplete", "OnShutdown")
+        late = [node for node in nodes_of(file) if any(node.code in handler.code for handler in handlers)]
+        if "condition" in pushed.named:
+            why = f"it has condition={pushed.named['condition']}, and is left out when that is false"
+        elif late:
+            why = f"the Node in line {late[0].line} is started by a handler later, outside of this namespace"
+        else:
+            why = "it only affects what comes after it in the same list"
+        yield at_call(case, pushed, why=why)
+
+
+@mistake(
+    "value-in-the-wrong-place",
+    name="topic hard-coded",
+    explains=_NAMES,
+    says="{line}: the Node has {keyword}={given}, which {why}",
+    do="Put the argument's value where a node's names are set: its remappings, and its namespace.",
+    example=in_run(Symptom.WRONG_NAMES, argument="topic", wanted="/dong"),
+)
+def wrong_place(case: Case) -> Iterator[Found]:
+    """An argument's value is put in the wrong place of a node.
+
+    parameters= sets ROS parameters, arguments= what the program itself parses, name= the node's name. A topic is
+    renamed by remappings=, and a node is put into a namespace by namespace=. A text in quotation marks is that text,
+    not the value of the argument.
+
+    Bad:
+
+        Node(package='house', executable='bell', parameters=[{'topic': LaunchConfiguration('topic')}])
+
+    Good:
+
+        Node(package='house', executable='bell', remappings=[('ring', LaunchConfiguration('topic'))])
+
+    See it: `ros2 node info NODE`.
+    """
+    argument, file = str(case.about("argument", "")), launch_file(case)
+    right = "namespace" if argument == "namespace" else "remappings"
+    for node in nodes_of(file):
+        for keyword in ("parameters", "arguments", "ros_arguments", "name", "namespace", "remappings"):
+            given = node.named.get(keyword, "")
+            if keyword != right and _is_used(file, argument, given):
+                yield at_call(case, node, keyword=keyword, given=_short(given), why="renames nothing")
+            elif keyword == right and given and not _is_used(file, argument, given) and reaches_no_node(case):
+                why = f"has a fixed text in it, and not the value of {argument}"
+                yield at_call(case, node, keyword=keyword, given=_short(given), why=why)
+
+
+def _short(code: str) -> str:
+    return code if len(code) <= 60 else f"{code[:57]}..."

@@ -1,0 +1,172 @@
+"""Nodes that a launch file describes and does not start, and nodes that do not meet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Evidence, Found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.mistakes.themes.launch_names import nodes_of
+from tutor.mistakes.themes.launch_start import LAUNCH, at_call, launch_file
+from tutor.ros_model import Graph, TopicEndpoint
+
+_LATER = {
+    "OnProcessExit": "only when another process has ended",
+    "OnProcessStart": "only when another process has started",
+    "TimerAction": "only after some time",
+    "OnExecutionComplete": "only when another action is complete",
+    "OnShutdown": "only when the launch ends",
+}
+
+
+@mistake(
+    "node-not-started",
+    explains=[Symptom.NOT_LAUNCHED],
+    says="{what}",
+    do="Put the node itself into the list of the LaunchDescription, without a condition.",
+)
+def not_started(case: Case) -> Iterator[Found]:
+    """A node is described, and not started.
+
+    launch starts the nodes that are in the list of the LaunchDescription, when their condition is met. What is in a
+    handler of an event starts when that event comes, or never.
+
+    Bad:
+
+        bell = Node(package='house', executable='bell')
+        return LaunchDescription([])
+
+    Good:
+
+        bell = Node(package='house', executable='bell')
+        return LaunchDescription([bell])
+
+    See it: `ros2 launch FILE --print`.
+    """
+    file = launch_file(case)
+    for node in nodes_of(file):
+        if "condition" in node.named:
+            what = f"the Node in line {node.line} has condition={node.named['condition']}, which is not met"
+            yield at_call(case, node, what=what)
+        elif node.kept and not file.uses(node.kept):
+            yield at_call(
+                case, node, what=f"{node.kept} (line {node.line}) is made, but is not in the launch description"
+            )
+    for call in file.calls(*_LATER):
+        yield at_call(case, call, what=f"what {call.name} in line {call.line} holds is started {_LATER[call.name]}")
+
+
+@mistake(
+    "one-side-missing",
+    explains=[Symptom.NOT_LAUNCHED],
+    evidence=Evidence.SYMPTOM,
+    says="{what}",
+    do="Start two programs, one that publishes and one that subscribes, with a Node for each.",
+    example=in_run(Symptom.NOT_LAUNCHED, graph=Graph(("/bell",), (TopicEndpoint("/ring", "t", "/bell"),))),
+)
+def one_side(case: Case) -> Iterator[Found]:
+    """There is a publisher and no subscriber, or the other way round.
+
+    Two nodes talk to each other only if one publishes and another one subscribes.
+
+    Bad:
+
+        LaunchDescription([Node(package='house', executable='bell')])
+
+    Good:
+
+        LaunchDescription([
+            Node(package='house', executable='bell'),
+            Node(package='house', executable='door'),
+        ])
+
+    See it: `ros2 topic info -v TOPIC`.
+    """
+    graph = case.trace.graph
+    senders = sorted({each.node for each in graph.publishers if not each.topic.startswith(("/rosout", "/parameter"))})
+    receivers = sorted({each.node for each in graph.subscriptions if not each.topic.startswith("/parameter")})
+    if not graph.nodes:
+        return
+    if senders and not receivers:
+        yield Found({"what": f"{', '.join(senders)} publishes, and nothing subscribes"})
+    elif receivers and not senders:
+        yield Found({"what": f"{', '.join(receivers)} subscribes, and nothing publishes"})
+    elif senders:
+        yield Found({"what": f"{', '.join(senders)} does both by itself"})
+    else:
+        yield Found({"what": f"{', '.join(graph.nodes)}: neither publishes nor subscribes"})
+
+
+@mistake(
+    "waits-for-a-simulator",
+    name="simulated time",
+    explains=LAUNCH,
+    evidence=Evidence.RUN,
+    says="{node} has use_sim_time set, so its timers wait for a simulator's /clock, and there is none",
+    do="Leave use_sim_time off where no simulator runs.",
+    example=in_run(Symptom.NOT_CONNECTED, graph=Graph(("/bell",), (), (TopicEndpoint("/clock", "t", "/bell"),))),
+)
+def simulator(case: Case) -> Iterator[Found]:
+    """A node waits for the clock of a simulation.
+
+    With use_sim_time, a node's time is that of the topic /clock. While nobody publishes there, no timer is ever due.
+
+    Bad:
+
+        Node(package='house', executable='bell', parameters=[{'use_sim_time': True}])
+
+    Good:
+
+        Node(package='house', executable='bell')
+
+    See it: `ros2 topic info -v /clock`.
+    """
+    graph = case.trace.graph
+    if not any(endpoint.topic == "/clock" for endpoint in graph.publishers):
+        for endpoint in graph.subscriptions:
+            if endpoint.topic == "/clock":
+                yield Found({"node": endpoint.node})
+
+
+@mistake(
+    "different-topics",
+    name="wrong topic",
+    explains=[Symptom.NOT_CONNECTED],
+    evidence=Evidence.SYMPTOM,
+    says="{what}",
+    do="Remap both to the same name.",
+    example=in_run(
+        Symptom.NOT_CONNECTED,
+        graph=Graph(
+            ("/bell", "/door"), (TopicEndpoint("/ring", "t", "/bell"),), (TopicEndpoint("/horn", "t", "/door"),)
+        ),
+    ),
+)
+def different_topics(case: Case) -> Iterator[Found]:
+    """Publisher and subscriber use different topics.
+
+    Each node has a name for its topic in its code. Two programs that were not written for each other need remappings to
+    meet.
+
+    Bad:
+
+        Node(package='house', executable='bell')
+        Node(package='house', executable='door', remappings=[('horn', 'rings')])
+
+    Good:
+
+        Node(package='house', executable='bell')
+        Node(package='house', executable='door', remappings=[('horn', 'ring')])
+
+    See it: `ros2 topic list`.
+    """
+    graph = case.trace.graph
+    ours = ("/rosout", "/parameter_events")
+    senders = sorted({f"{each.node} publishes on {each.topic}" for each in graph.publishers if each.topic not in ours})
+    heard = sorted(
+        {f"{each.node} subscribes to {each.topic}" for each in graph.subscriptions if each.topic not in ours}
+    )
+    sent = {each.topic for each in graph.publishers}
+    if senders and heard and not any(each.topic in sent for each in graph.subscriptions if each.topic not in ours):
+        yield Found({"what": f"{', '.join(senders)}; {', '.join(heard)}"})

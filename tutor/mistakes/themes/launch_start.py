@@ -1,0 +1,283 @@
+"""Launch files that cannot be loaded, or start nothing: what launch itself says about it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from tutor.judge.launch_output import written_by
+from tutor.judge.symptom import Symptom
+from tutor.judge.trace import Exit
+from tutor.mistakes.entry import Case, Evidence, Found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.ros_model import Graph
+from tutor.source.launch_file import Call, LaunchFile
+
+LAUNCH = (Symptom.NOT_LAUNCHED, Symptom.WRONG_NAMES, Symptom.NOT_CONNECTED)
+
+_NO_PACKAGE = re.compile(r"package '(?P<name>[^']*)' not found", re.IGNORECASE)
+_NO_PROGRAM = re.compile(r"executable '(?P<name>[^']*)' not found (?:in|on)[^\n]*")
+_NO_VALUE = re.compile(r"launch configuration '(?P<name>[^']*)' does not exist")
+_NO_DEFAULT = re.compile(r"missing required argument '(?P<name>[^']*)'")
+_INVALID_RULE = re.compile(r"Couldn't parse remap rule: '-r [^\s:=]+:=(?P<target>[^']+)'")
+_NOT_PAIRS = re.compile(r"TypeError: Expected 'remap_rule'|remap_rule.*(?:tuple|unpack)")
+_NOT_TEXT = re.compile(
+    r"TypeError: (?:can only concatenate str|sequence item|unsupported operand)[^\n]*"
+    r"(?:LaunchConfiguration|Substitution)"
+)
+_UNRESOLVED = re.compile(r"<launch\S* object at 0x")
+ERROR = re.compile(r"^\[ERROR\] \[launch\]: |Caught exception in launch[^:]*: ")
+
+
+def launch_file(case: Case) -> LaunchFile:
+    """The launch file that was started."""
+    return LaunchFile(case.file.text)
+
+
+def at_call(case: Case, call: Call | None, **words: object) -> Found:
+    """A mistake at a call of the launch file; without a place if there is none."""
+    if call is None:
+        return Found(dict(words))
+    return Found(dict(words), case.file.name, call.line, case.file.line(call.line))
+
+
+def _own_text(case: Case) -> str:
+    return "\n".join(line.text for line in written_by(case.trace.output, None))
+
+
+def says_itself(pattern: re.Pattern[str], case: Case) -> re.Match[str] | None:
+    """What launch itself says, if the launch is broken."""
+    return pattern.search(_own_text(case)) if case.trace.exit is not None or not case.trace.graph.nodes else None
+
+
+def line_of(found: re.Match[str]) -> str:
+    """The line of launch's output in which this was found."""
+    text, at = found.string, found.start()
+    line = text[text.rfind("\n", 0, at) + 1 :].partition("\n")[0]
+    return ERROR.sub("", ERROR.sub("", line)).strip().removeprefix("- ")[:200]
+
+
+def output_of(*lines: str) -> dict[str, object]:
+    """The launch of an example that wrote these lines and ended."""
+    return {"output": lines, "graph": Graph(), "exit": Exit(1, None, 0.5)}
+
+
+@mistake(
+    "launch-argument-not-declared",
+    explains=LAUNCH,
+    evidence=Evidence.PROCESS,
+    says="{what}",
+    do="Declare the argument, under this name, at the beginning of the launch description.",
+    example=in_run(Symptom.NOT_LAUNCHED, **output_of("launch configuration 'sound' does not exist")),
+)
+def not_declared(case: Case) -> Iterator[Found]:
+    """A launch configuration is read that does not exist.
+
+    LaunchConfiguration('sound') stands for a value that a DeclareLaunchArgument('sound') has set. The entries of a
+    launch description are executed in order, so the declaration comes first; a declaration that is not in the list
+    counts for nothing, and perform() in generate_launch_description() asks before there is any value.
+
+    Bad:
+
+        return LaunchDescription([
+            Node(package='house', executable='bell', namespace=LaunchConfiguration('sound')),
+        ])
+
+    Good:
+
+        return LaunchDescription([
+            DeclareLaunchArgument('sound', default_value='ding'),
+            Node(package='house', executable='bell', namespace=LaunchConfiguration('sound')),
+        ])
+
+    See it: `ros2 launch FILE --show-args`.
+
+    Lesson: i2.2, on launch arguments.
+    """
+    if (said := says_itself(_NO_VALUE, case)) is None:
+        return
+    name, file = said["name"], launch_file(case)
+    for call in file.calls("perform"):
+        if call.within == "generate_launch_description":
+            what = (
+                f"line {call.line} asks for the value of {name} while the launch is only described: there is none yet"
+            )
+            yield at_call(case, call, what=what)
+    for call in file.calls("DeclareLaunchArgument"):
+        if call.argument(0, "name") == f"'{name}'":
+            late = f"the argument {name} is declared (line {call.line}) after what reads it"
+            left_out = f"line {call.line} makes the argument {name}, but it is not in the launch description"
+            yield at_call(case, call, what=left_out if call.kept and not file.uses(call.kept) else late)
+    others = [call.argument(0, "name") for call in file.calls("DeclareLaunchArgument")]
+    more = f"; declared are {', '.join(others)}" if others else ""
+    yield Found({"what": f"the value of {name} is read, but no argument {name} is declared{more}"})
+
+
+@mistake(
+    "argument-without-a-default",
+    explains=LAUNCH,
+    evidence=Evidence.PROCESS,
+    says="the argument {name} has no default_value, so a launch without arguments is refused",
+    do="Give its declaration a default_value.",
+    example=in_run(Symptom.NOT_LAUNCHED, **output_of("missing required argument 'sound'")),
+)
+def no_default(case: Case) -> Iterator[Found]:
+    """A launch argument has no default.
+
+    An argument without a default_value has to be given each time; without it, launch starts nothing.
+
+    Bad:
+
+        DeclareLaunchArgument('sound')
+
+    Good:
+
+        DeclareLaunchArgument('sound', default_value='ding')
+
+    See it: `ros2 launch FILE --show-args`.
+    """
+    if said := says_itself(_NO_DEFAULT, case):
+        calls = [c for c in launch_file(case).calls("DeclareLaunchArgument") if said["name"] in c.argument(0, "name")]
+        yield at_call(case, next(iter(calls), None), name=said["name"])
+
+
+@mistake(
+    "remappings-not-a-list-of-pairs",
+    explains=LAUNCH,
+    evidence=Evidence.PROCESS,
+    says="remappings takes a list of pairs, and got something else",
+    do="Write each remapping as a pair in round brackets, and the pairs into a list.",
+    example=in_run(Symptom.NOT_LAUNCHED, **output_of("TypeError: Expected 'remap_rule' to be ...")),
+)
+def not_pairs(case: Case) -> Iterator[Found]:
+    """Remappings are no list of pairs.
+
+    Each remapping is a pair: the name in the node's code, and the new one. A node may have several, so remappings
+    takes a list of them.
+
+    Bad:
+
+        Node(package='house', executable='bell', remappings=('ring', 'doorbell'))
+
+    Good:
+
+        Node(package='house', executable='bell', remappings=[('ring', 'doorbell')])
+
+    See it: the error of `ros2 launch FILE`.
+    """
+    if says_itself(_NOT_PAIRS, case):
+        given = [call for call in launch_file(case).calls("Node") if "remappings" in call.named]
+        yield at_call(case, next(iter(given), None))
+
+
+@mistake(
+    "substitution-made-text-too-early",
+    explains=LAUNCH,
+    evidence=Evidence.PROCESS,
+    says="a substitution such as LaunchConfiguration is made part of a text before its value is known",
+    do="Give a list of the parts instead; launch joins them when it runs.",
+    example=in_run(Symptom.NOT_LAUNCHED, **output_of("<launch.substitutions.LaunchConfiguration object at 0x7f>")),
+)
+def early_text(case: Case) -> Iterator[Found]:
+    """A substitution is put into a text.
+
+    While the file is read, LaunchConfiguration('sound') is an object that stands for a value of later. An f-string,
+    str() or + makes text of the object itself: <launch.substitutions… object at 0x…>, or a TypeError.
+
+    Bad:
+
+        Node(package='house', executable='bell', namespace='house/' + LaunchConfiguration('room'))
+
+    Good:
+
+        Node(package='house', executable='bell', namespace=['house/', LaunchConfiguration('room')])
+
+    See it: `ros2 node list` with names that contain "object at".
+    """
+    if any(_UNRESOLVED.search(line.text) for line in case.trace.output) or says_itself(_NOT_TEXT, case):
+        yield Found()
+
+
+@mistake(
+    "invalid-name",
+    explains=LAUNCH,
+    evidence=Evidence.PROCESS,
+    says="{name} is no valid name in ROS: letters, digits and _ only, and no digit first",
+    do="Choose another name.",
+    example=in_run(Symptom.NOT_LAUNCHED, **output_of("Couldn't parse remap rule: '-r ring:=door-bell'")),
+)
+def invalid_name(case: Case) -> Iterator[Found]:
+    """A name is not allowed in ROS.
+
+    Names of nodes, topics and namespaces consist of letters, digits and underscores, with slashes between their
+    parts. No part begins with a digit.
+
+    Bad:
+
+        remappings=[('ring', 'door-bell')]
+
+    Good:
+
+        remappings=[('ring', 'door_bell')]
+
+    See it: the error of `ros2 launch FILE`.
+    """
+    if said := _INVALID_RULE.search("\n".join(line.text for line in case.trace.output)):
+        yield Found({"name": said["target"].strip("/")})
+
+
+@mistake(
+    "package-not-found",
+    explains=LAUNCH,
+    evidence=Evidence.PROCESS,
+    says="there is no package {name}",
+    do="Check the spelling of package=, and that the package is there (ros2 pkg list).",
+    example=in_run(Symptom.NOT_LAUNCHED, **output_of("package 'hous' not found, searching: ...")),
+)
+def no_package(case: Case) -> Iterator[Found]:
+    """A package is not found.
+
+    Node(package=…) names a ROS package that is installed, or built and sourced in this terminal.
+
+    Bad:
+
+        Node(package='hous', executable='bell')
+
+    Good:
+
+        Node(package='house', executable='bell')
+
+    See it: `ros2 pkg list`.
+    """
+    if said := says_itself(_NO_PACKAGE, case):
+        calls = [call for call in launch_file(case).calls("Node") if said["name"] in call.argument(0, "package")]
+        yield at_call(case, next(iter(calls), None), name=said["name"])
+
+
+@mistake(
+    "executable-not-found",
+    explains=LAUNCH,
+    evidence=Evidence.PROCESS,
+    says="{said}",
+    do="Check the spelling of executable= (ros2 pkg executables PACKAGE).",
+    example=in_run(Symptom.NOT_LAUNCHED, **output_of("executable 'bel' not found in the package 'house'")),
+)
+def no_program(case: Case) -> Iterator[Found]:
+    """A package has no such executable.
+
+    An executable is a console script of setup.py, or an installed program, by its name there: without .py, and not the
+    name of the node.
+
+    Bad:
+
+        Node(package='house', executable='bell.py')
+
+    Good:
+
+        Node(package='house', executable='bell')
+
+    See it: `ros2 pkg executables PACKAGE`.
+    """
+    if said := says_itself(_NO_PROGRAM, case):
+        calls = [call for call in launch_file(case).calls("Node") if said["name"] in call.argument(1, "executable")]
+        yield at_call(case, next(iter(calls), None), said=line_of(said))
