@@ -60,9 +60,16 @@ def absolute(case: Case) -> Iterator[Found]:
     "default-topic-still-used",
     explains=_NAMES,
     evidence=Evidence.SYMPTOM,
-    says="{nodes} still on {topics}",
+    says="still on {topics}: {users}",
     do="Give every node that uses the topic the same remappings.",
-    example=in_run(Symptom.WRONG_NAMES, argument="topic", wanted="/dong", still_used=("/ring",), users=("/bell",)),
+    example=in_run(
+        Symptom.WRONG_NAMES,
+        argument="topic",
+        wanted="/dong",
+        still_used=("/ring",),
+        users=("/old_bell",),
+        graph=Graph(("/bell", "/old_bell"), (TopicEndpoint("/dong", "t", "/bell"),)),
+    ),
 )
 def still_used(case: Case) -> Iterator[Found]:
     """Something stays on the default topic.
@@ -82,7 +89,7 @@ def still_used(case: Case) -> Iterator[Found]:
     See it: `ros2 topic info -v TOPIC`.
     """
     if case.about("still_used") and case.about("wanted") in {endpoint.topic for endpoint in endpoints_of(case)}:
-        yield Found({"nodes": ", ".join(case.about("users")), "topics": ", ".join(case.about("still_used"))})
+        yield Found({"users": ", ".join(case.about("users")), "topics": ", ".join(case.about("still_used"))})
 
 
 @mistake(
