@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from tutor.judge.check import Check
 from tutor.judge.trace import CallAnswer, Ending, Exit, LogRecord, OutputLine, Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.verdict import Status, Undecided, Verdict
+from tutor.judge.verdict import Failure, Status, Undecided, Verdict
+from tutor.mistakes.diagnosis import explain
 from tutor.ros_model import Graph, Parameter, ServiceEndpoint, TopicEndpoint
 
 FOLDER = "/home/me/ws"
@@ -146,10 +148,19 @@ def assert_undecided(verdict: Verdict) -> None:
     assert isinstance(verdict, Undecided), verdict
 
 
-def assert_failed(verdict: Verdict | None, cause: str, *words: str) -> None:
-    """Fail unless the verdict failed with the cause of this name, is complete, and contains these words."""
+def explained(verdict: Verdict, check: Check) -> Verdict:
+    """The verdict with its cause and next step, if it is a failure whose reason is still to be found."""
+    return explain(verdict, check) if isinstance(verdict, Failure) else verdict
+
+
+def assert_failed(verdict: Verdict | None, cause: str, *words: str, check: Check | None = None) -> None:
+    """Fail unless the verdict failed with the cause of this name, is complete, and contains these words.
+
+    `check`: whose catalogue says why.
+    """
     assert verdict is not None
     assert verdict.status is Status.FAILED, verdict
+    verdict = explained(verdict, check) if check is not None else verdict
     assert verdict.cause.partition(":")[0] == cause, verdict
     assert verdict.expected
     assert verdict.observed

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import random
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checks.i1_1 import CHECK
 from checks.i1_1.facts import (
     MATCHED_S,
     TOPIC,
@@ -34,13 +36,13 @@ from checks.i1_1.judges import (
     judge_rate,
     judge_shutdown,
 )
+from tests.checks import builders
 from tests.checks.builders import (
     CRASHED,
     KEYBOARD_INTERRUPT,
     NO_NODE,
     NODE_UP,
     START,
-    assert_failed,
     assert_passed,
     ending,
     graph,
@@ -53,6 +55,8 @@ from tests.checks.builders import (
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Echo, Trace
 from tutor.ros_model import Parameter, QoS, TopicEndpoint
+
+assert_failed = partial(builders.assert_failed, check=CHECK)
 
 PUBLISHING = graph(publishers={TOPIC: TYPE})
 MESSAGES = samples(TOPIC, 2.0, data=23.5)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checks.i2_1 import CHECK
 from checks.i2_1.facts import (
     BAD_RATES,
     DOWN_HZ,
@@ -34,6 +36,7 @@ from checks.i2_1.facts import (
 from checks.i2_1.judges import judge_bad_launch, judge_defaults, judge_launch, judge_launch_so_far, judge_shutdown
 from checks.i2_1.runtime import judge_changes, judge_runtime, judge_timer
 from checks.i2_1.validation import judge_atomic, judge_validation, judge_validation_so_far
+from tests.checks import builders
 from tests.checks.builders import (
     CRASH,
     CRASHED,
@@ -41,7 +44,6 @@ from tests.checks.builders import (
     NO_NODE,
     NODE_UP,
     answer,
-    assert_failed,
     assert_passed,
     ending,
     exited,
@@ -58,6 +60,8 @@ from tutor.judge.rates import Rate
 from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import Parameter
+
+assert_failed = partial(builders.assert_failed, check=CHECK)
 
 PUBLISHING = graph(publishers={TOPIC: TYPE})
 RUNNING = trace(*samples(TOPIC, 1.0), graph=PUBLISHING)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +12,15 @@ import pytest
 
 from checks.i2_2 import CHECK, facts, judges
 from checks.i2_2.facts import LaunchRun
-from tests.checks.builders import FOLDER, START, assert_failed, assert_passed, ending, exited, lines
+from tests.checks import builders
+from tests.checks.builders import FOLDER, START, assert_passed, ending, exited, lines
 from tutor.errors import NeedsInstalledRos
 from tutor.judge import launch_output
 from tutor.judge.trace import LogRecord, Sample, Trace
 from tutor.judge.verdict import Status
 from tutor.ros_model import Graph, QoS, ServiceEndpoint, TopicEndpoint
+
+assert_failed = partial(builders.assert_failed, check=CHECK)
 
 STRING = "std_msgs/msg/String"
 TALKER, LISTENER = "/talker", "/listener"

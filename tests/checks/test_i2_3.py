@@ -5,12 +5,14 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checks.i2_3 import CHECK
 from checks.i2_3.facts import (
     SERVICE,
     TYPE,
@@ -38,13 +40,13 @@ from checks.i2_3.listening import logs_since
 from checks.i2_3.pace import Fault, measure_timer
 from checks.i2_3.repeats import MAX_AT_ONCE_TRIES, MAX_TRIES, TRIES, needs_repeat, needs_repeat_at_once
 from checks.i2_3.ticks import Series, all_series, timer_series
+from tests.checks import builders
 from tests.checks.builders import (
     CRASHED,
     KEYBOARD_INTERRUPT,
     NO_NODE,
     NODE_UP,
     START,
-    assert_failed,
     assert_passed,
     assert_undecided,
     ending,
@@ -56,6 +58,8 @@ from tests.checks.builders import (
 )
 from tutor.judge.trace import CallAnswer, LogRecord
 from tutor.judge.verdict import Status, Verdict
+
+assert_failed = partial(builders.assert_failed, check=CHECK)
 
 SERVING = graph(services={SERVICE: TYPE})
 CALLED_AT = START + 0.3
