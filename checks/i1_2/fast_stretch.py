@@ -6,16 +6,17 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from checks.i1_2 import backlog, losses
-from checks.i1_2.causes import (
-    EVERY_MESSAGE,
-    diagnose_count,
-    diagnose_incomplete_summary,
-    diagnose_interval,
-    diagnose_no_summary,
-    last_logs,
-)
 from checks.i1_2.facts import FAST_MESSAGES, STALL_S, SUMMARY_EVERY, TOPIC, Trial
-from checks.i1_2.judges import EXPECTED_COUNT, EXPECTED_SUMMARY
+from checks.i1_2.faults import (
+    EVERY_MESSAGE,
+    find_incomplete,
+    find_wrong_count,
+    find_wrong_interval,
+    in_words,
+    last_logs,
+    wrong_log,
+)
+from checks.i1_2.judges import EXPECTED_COUNT, EXPECTED_SUMMARY, see_no_summary
 from checks.i1_2.summaries import Summary, find_summaries, is_complete, possible_totals
 from tutor.judge.verdict import Verdict, failed
 
@@ -38,9 +39,9 @@ def judge_fast_count(fast: Trial) -> Verdict | None:
         return None
     last = summaries[-1]
     return failed(
-        f"{EXPECTED_COUNT}: {' or '.join(map(str, possible_totals(last, fast)))}",
+        f"{EXPECTED_COUNT}: {in_words(possible_totals(last, fast))}",
         f"the summary that came after {last.messages} messages does not say so",
-        diagnose_count(last, fast),
+        wrong_log(fast.trace, find_wrong_count(last, fast)),
         [str(summary) for summary in summaries],
     )
 
@@ -54,7 +55,7 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
     if not fast.lines:
         silent = fast.spins and len(fast.sent) >= FAST_MESSAGES and backlog.was_sent_fast_enough(fast)
         observed = f"none, after {len(fast.sent)} messages"
-        return failed(EXPECTED_SUMMARY, observed, diagnose_no_summary(fast), last_logs(fast)) if silent else None
+        return failed(EXPECTED_SUMMARY, observed, see_no_summary(fast), last_logs(fast)) if silent else None
     summaries = _fast_summaries(fast)
     if not summaries:
         return None
@@ -62,19 +63,21 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
     whole = all(is_complete(summary, fast) for summary in summaries)
     if whole and len(summaries) >= 1.5 * len(fast.sent) / SUMMARY_EVERY:
         when = ", ".join(str(summary.messages) for summary in summaries[:12])
-        cause = diagnose_interval(summaries, fast, len(fast.sent))
+        fault = find_wrong_interval(summaries, fast, len(fast.sent))
         observed = f"summaries after {when} messages, of {len(fast.sent)}"
         apart = {after.messages - before.messages for before, after in pairwise(summaries)}
         # At different distances, some may be several that look like one because the messages came fast.
-        is_clear = cause is not None and (cause.name == EVERY_MESSAGE or len(apart) == 1)
-        return failed(EXPECTED_SUMMARY, observed, cause, evidence) if cause and is_clear else None
+        is_clear = fault is not None and (fault["fault"] == EVERY_MESSAGE or len(apart) == 1)
+        if fault is None or not is_clear:
+            return None
+        return failed(EXPECTED_SUMMARY, observed, wrong_log(fast.trace, fault), evidence)
     if any(summary.messages % SUMMARY_EVERY > 1 for summary in summaries):  # perhaps timed by a wrong count
         return None
-    missing = [diagnose_incomplete_summary(summary, fast) for summary in summaries[1:]]  # the first may be complete
-    cause = missing[-1]
-    if cause is None or {each and each.name for each in missing} != {cause.name}:
+    missing = [find_incomplete(summary, fast) for summary in summaries[1:]]  # the first may be complete
+    last = missing[-1]
+    if last is None or {each and each["fault"] for each in missing} != {last["fault"]}:
         return None
-    return failed(EXPECTED_SUMMARY, f"it is incomplete {summaries[-1]}", cause, evidence)
+    return failed(EXPECTED_SUMMARY, f"it is incomplete {summaries[-1]}", wrong_log(fast.trace, last), evidence)
 
 
 def _fast_summaries(fast: Trial) -> Sequence[Summary]:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from checks.i1_2 import gap_steps, losses, steps
-from checks.i1_2.causes import diagnose_end
-from checks.i1_2.facts import Trial
+from checks.i1_2 import losses
+from checks.i1_2.facts import TOPIC, TYPE, Trial
+from checks.i1_2.faults import Fault, ended, wrong_log
 from checks.i1_2.negative_losses import find_negative_loss
 from checks.i1_2.rates import sent_hz
 from checks.i1_2.reading import Line
 from checks.i1_2.reports import is_before_jump, kinds_about_first_message, new_lines
 from checks.i1_2.summaries import find_summaries
-from tutor.judge import causes
-from tutor.judge.causes import printing
 from tutor.judge.rates import TOLERANCE
+from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Level
-from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
+from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
+from tutor.judge.wording import output_tail
 
 SETTLING_MESSAGES = 2
 """An alarm about a jump is logged before this many more messages have been sent."""
@@ -48,8 +48,8 @@ def judge_rising(jump: Trial, jump_twice: Trial, steady: Trial) -> Verdict:
 
 def judge_jump_after_zero(after_zero: Trial, steady: Trial, jump: Trial) -> Verdict | None:
     """Fail a node that reports other jumps, but not one from 0."""
-    if (ended := _fail_if_ended(after_zero)) is not None:
-        return ended
+    if (over := _fail_if_ended(after_zero)) is not None:
+        return over
     if not after_zero.jumps:
         return None
     # What is said about a first message may be late, and that one is 0 in the steady run, too.
@@ -58,7 +58,7 @@ def judge_jump_after_zero(after_zero: Trial, steady: Trial, jump: Trial) -> Verd
         return None
     observed = f"N jumped from 0 to {after_zero.sent[1].number}; nothing new was logged"
     evidence = [line.text for line in after_zero.lines[:6]]
-    return failed(EXPECTED, observed, gap_steps.diagnose_zero(after_zero.trace), evidence)
+    return failed(EXPECTED, observed, _unnoticed(after_zero, {"fault": "0-taken-for-no-number"}), evidence)
 
 
 def judge_fall(restart: Trial, jump: Trial, jump_twice: Trial, steady: Trial) -> Verdict | None:
@@ -69,13 +69,7 @@ def judge_fall(restart: Trial, jump: Trial, jump_twice: Trial, steady: Trial) ->
     return failed(
         f"{EXPECTED}; when N falls, no negative number of messages is missing",
         f"N fell from {before.number} to {after.number}: {line.text}",
-        Cause(
-            "negative number of missing messages",
-            "N falls when the talker starts over: then the difference of the two numbers is no count of messages, and "
-            "nothing shows that any is missing",
-            "where N is lower than the last one, say that the talker was restarted, if you like; say that messages are "
-            "missing, and add up how many, only where it is higher than the last one + 1",
-        ),
+        wrong_log(restart.trace, {"fault": "negative-number-of-missing-messages", "line_logged": line.text}),
         [line.text],
     )
 
@@ -83,9 +77,9 @@ def judge_fall(restart: Trial, jump: Trial, jump_twice: Trial, steady: Trial) ->
 def _fail_if_ended(trial: Trial) -> Verdict | None:
     if trial.trace.exit is None:
         return None
-    words = causes.output_tail(trial.trace)
+    words = output_tail(trial.trace)
     observed = f"the node ended after {len(trial.sent)} messages"
-    return failed(EXPECTED, observed, diagnose_end(trial, "a jump of N"), words)
+    return failed(EXPECTED, observed, ended(trial, "a jump of N"), words)
 
 
 def judge_jumps(jump: Trial, steady: Trial, jump_twice: Trial | None = None) -> Verdict:
@@ -95,21 +89,17 @@ def judge_jumps(jump: Trial, steady: Trial, jump_twice: Trial | None = None) -> 
     messages that keeps rising is told from a count of messages since the last jump.
     """
     expected = EXPECTED
-    if (ended := _fail_if_ended(jump)) is not None:
-        return ended
+    if (over := _fail_if_ended(jump)) is not None:
+        return over
     reports = new_lines(jump, since=jump.sent[jump.before_break].at, usual=(steady,))
     jumped = [f"from {jump.sent[index - 1].number} to {jump.sent[index].number}" for index in jump.jumps]
     observed = f"N jumped {', and '.join(jumped)}"
     if reports and (again := _find_repeated_alarms(reports, jump)):
         texts = [line.text for line in again]
-        cause = gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
-            "false alarm",
-            f"it still says so when N rises by one again: {again[-1].text}",
-            steps.compare_numbers(jump.trace, texts) or gap_steps.COMPARE,
-        )
-        return failed(expected, observed, cause, texts[:6])
-    if jump_twice is not None and (rising := _diagnose_rising_count(jump, jump_twice, steady)) is not None:
-        return failed(expected, observed, *rising)
+        what = f"it still says so when N rises by one again: {again[-1].text}"
+        return failed(expected, observed, wrong_log(jump.trace, {"fault": "false-alarm", "what": what}), texts[:6])
+    if jump_twice is not None and (rising := _find_rising_count(jump, jump_twice, steady)) is not None:
+        return failed(expected, observed, wrong_log(jump.trace, rising[0]), rising[1])
     unused = list(reports)
     for index, how in zip(jump.jumps, jumped, strict=True):
         own = next((line for line in unused if _is_about_jump(line, index, jump)), None)
@@ -120,7 +110,7 @@ def judge_jumps(jump: Trial, steady: Trial, jump_twice: Trial | None = None) -> 
             if alarms and all(trial.was_hurried(line.messages) for trial, line in alarms):
                 return undecided("to tell whether the node lost messages")
             since = [line.text for line in jump.lines if line.messages > index]
-            why = _diagnose_no_warning(index, jump, [line for _, line in alarms])
+            why = _see_no_warning(index, jump, [line for _, line in alarms])
             return failed(expected, f"N jumped {how}; nothing new was logged", why, since[:6])
     return passed(expected, observed, [line.text for line in reports[:3]])
 
@@ -152,7 +142,7 @@ def _find_repeated_alarms(reports: Sequence[Line], jump: Trial) -> list[Line]:
     return []
 
 
-def _diagnose_rising_count(jump: Trial, jump_twice: Trial, steady: Trial) -> tuple[Cause, list[str]] | None:
+def _find_rising_count(jump: Trial, jump_twice: Trial, steady: Trial) -> tuple[Fault, list[str]] | None:
     """Find a number that rises at the jump and keeps rising afterwards; also return the lines that show it.
 
     It must have been constant before, and not be lower if N jumps twice, unlike a count of messages since the last
@@ -185,12 +175,11 @@ def _diagnose_rising_count(jump: Trial, jump_twice: Trial, steady: Trial) -> tup
                 and max(values_before) < rose[0] < rose[-1] < min(ends, default=rose[-1]) + between / 2
             ):
                 texts = [line.text for line in (since[0], since[-1])]
-                return gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
-                    "false alarm",
+                what = (
                     f"the loss that it reports keeps rising while N rises by one again: {since[0].numbers[place].text} "
-                    f"after {since[0].messages} messages, {since[-1].numbers[place].text} after {since[-1].messages}",
-                    steps.compare_numbers(jump.trace, texts) or gap_steps.COMPARE,
-                ), texts
+                    f"after {since[0].messages} messages, {since[-1].numbers[place].text} after {since[-1].messages}"
+                )
+                return {"fault": "false-alarm", "what": what}, texts
     return None
 
 
@@ -213,28 +202,21 @@ def _find_false_alarms(index: int, jump: Trial, steady: Trial) -> list[tuple[Tri
     return found if len(found) < 0.7 * (len(steady.sent) + jump.before_break - 2) else []
 
 
-def _diagnose_no_warning(index: int, jump: Trial, false: Sequence[Line]) -> Cause:
-    """Why the jump to the message with this index is not reported, given the false alarms (`_find_false_alarms`)."""
+def _see_no_warning(index: int, jump: Trial, false: Sequence[Line]) -> Observation:
+    """The jump to the message with this index is not reported; `false`: the false alarms (`_find_false_alarms`)."""
     if false:
-        texts = [line.text for line in false]
-        return gap_steps.diagnose_alarm(jump.trace, texts) or Cause(
-            "false alarm",
-            f"it also says so where N rises by one: {false[0].text}",
-            steps.compare_numbers(jump.trace, texts)
-            or "compare numbers, not texts: int(msg.data.split(':')[1]) must be the last number + 1",
-        )
+        what = f"it also says so where N rises by one: {false[0].text}"
+        return wrong_log(jump.trace, {"fault": "false-alarm", "what": what})
     words = ("gap", "miss", "lost", "skip", "lücke", "jump")
     after = [line for line in jump.trace.output if line.at >= jump.sent[index].at and line.stream == "stdout"]
-    printed = next((line.text for line in after if any(word in line.text.casefold() for word in words)), None)
-    if printed is not None:
-        call = printing.find_print(jump.trace, printed)
-        step = printing.log_instead_of_print(jump.trace, call) if call else steps.compare_numbers(jump.trace)
-        return Cause("printed, not logged", f"it is only printed: {printed}", step or "self.get_logger().warning(...)")
+    printed = {line.text for line in after if any(word in line.text.casefold() for word in words)}
     missed = jump.missed(index)[-1]
-    return gap_steps.diagnose_no_messages(jump.trace) or Cause(
-        "gap not noticed",
-        f"{missed} number{'s are' if missed > 1 else ' is'} missing, "
-        "and nothing distinguishes this from any other message",
-        steps.compare_numbers(jump.trace)
-        or "keep the last N; where the next one is not that + 1, self.get_logger().warning(...) how many are missing",
+    amount = f"{missed} number{'s are' if missed > 1 else ' is'} missing"
+    return _unnoticed(jump, {"fault": "gap-not-noticed", "missed": amount, "recognise": printed.__contains__})
+
+
+def _unnoticed(jump: Trial, fault: Fault) -> Observation:
+    """A jump of N is in no log message."""
+    return Symptom.NOT_LOGGED.seen(
+        jump.trace, stuck=jump.stuck, answers=jump.spins, topic=TOPIC, type=TYPE, what="the gap", **fault
     )

@@ -4,22 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from checks.i1_2 import backlog, kept_rate, losses, rates, slowness
-from checks.i1_2.causes import (
-    diagnose_count,
-    diagnose_fewer_summaries,
-    diagnose_incomplete_summary,
-    diagnose_interval,
-    diagnose_no_summary,
-    diagnose_swapped,
-    every_ten,
+from checks.i1_2 import backlog, kept_rate, losses, rates
+from checks.i1_2.facts import FAST_HZ, OURS, RESTARTED_HZ, SUMMARY_EVERY, TOPIC, TYPE, Trial
+from checks.i1_2.faults import (
+    find_incomplete,
+    find_wrong_count,
+    find_wrong_interval,
+    in_words,
     last_logs,
+    swapped,
+    too_many,
+    wrong_log,
 )
-from checks.i1_2.facts import FAST_HZ, RESTARTED_HZ, SUMMARY_EVERY, Trial
+from checks.i1_2.reading import parse_log
 from checks.i1_2.summaries import Summary, count_complete, find_summaries, possible_totals
 from checks.i1_2.totals import counts_truly, total_as_rate, true_total
 from tutor.judge import ending
-from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
+from tutor.judge.symptom import Observation, Symptom
+from tutor.judge.trace import LogRecord
+from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
 
 EXPECTED_SUMMARY = f"one summary for every {SUMMARY_EVERY} messages, with the first and the last message's content"
 BUSY_S = 0.5
@@ -34,7 +37,7 @@ def judge_count(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     renewing = next((trial for trial in (steady, fast) if losses.renews_subscription(trial)), None)
     if renewing is not None and find_summaries(steady):
         observed, evidence = losses.describe_renewals(renewing), [str(summary) for summary in find_summaries(renewing)]
-        return failed(EXPECTED_COUNT, observed, losses.diagnose_renewals(), evidence[:6])
+        return failed(EXPECTED_COUNT, observed, losses.see_renewals(renewing), evidence[:6])
     verdict = judge_slow_count(steady, jump)
     if not verdict.passed:
         return verdict
@@ -46,7 +49,7 @@ def judge_count(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     return failed(
         f"{EXPECTED_COUNT}, at {FAST_HZ:g} a second, too",
         f"{lost.counted} messages up to the last that it quotes; {lost.summary}",
-        slowness.diagnose_lost(fast.trace, lost),
+        wrong_log(fast.trace, {"fault": "cannot-keep-up", "counted": lost.counted}),
         [str(summary) for summary in find_summaries(fast)[:6]],
     )
 
@@ -61,9 +64,9 @@ def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
     if wrong:
         trial, summary = wrong[-1]  # after the jump, N and the count differ most, so that the cause is clearest
         return failed(
-            f"{expected}: {' or '.join(map(str, possible_totals(summary, trial)))}",
+            f"{expected}: {in_words(possible_totals(summary, trial))}",
             f"the summary that came after {summary.messages} messages does not say so",
-            diagnose_count(summary, trial),
+            wrong_log(trial.trace, find_wrong_count(summary, trial)),
             [str(other) for _, other in seen],
         )
     if all(total_as_rate(summary, trial) for trial, summary in seen):
@@ -71,7 +74,7 @@ def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
         return failed(
             expected,
             f"the summary that came after {summary.messages} messages does not say so",
-            diagnose_swapped(summary, trial),
+            wrong_log(trial.trace, swapped(summary, trial)),
             [str(other) for _, other in seen],
         )
     stated = ", ".join(str(true_total(summary, trial)) for trial, summary in seen)
@@ -98,13 +101,13 @@ def judge_stated_rate(steady: Trial, jump: Trial, restart: Trial | None = None) 
     if stated is not None and all(total_as_rate(summary, steady) for summary in summaries):
         wrong = summaries[-1]
         observed = f"after {wrong.messages} messages it states {', '.join(n.text for n in wrong.numbers)}"
-        return failed(expected, observed, diagnose_swapped(wrong, steady), evidence)
+        return failed(expected, observed, wrong_log(steady.trace, swapped(wrong, steady)), evidence)
     if stated is None:
         wrong = next((r for r, a in zip(summaries, allowed, strict=True) if not a.among(r)), summaries[-1])
         return failed(
             expected,
             f"after {wrong.messages} messages it states {', '.join(n.text for n in wrong.numbers) or 'no number'}",
-            rates.diagnose_wrong_rate(wrong, summaries, steady),
+            wrong_log(steady.trace, rates.find_wrong_rate(wrong, summaries, steady)),
             evidence,
         )
     if rates.is_doubtful_rate(stated, summaries, steady):
@@ -113,7 +116,7 @@ def judge_stated_rate(steady: Trial, jump: Trial, restart: Trial | None = None) 
         return failed(
             "each summary states the messages per second, also when they change",
             f"{kept.text} at first, and still {kept.text} when another talker sends {RESTARTED_HZ:g} a second",
-            kept_rate.diagnose_kept_rate(kept, restart),
+            wrong_log(restart.trace, {"fault": "rate-never-updated", "rate": kept.text}),
             [str(summary) for summary in find_summaries(restart)],
         )
     return passed(expected, f"{', '.join(number.text for number in stated)} messages per second", evidence)
@@ -132,7 +135,7 @@ def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     return failed(
         f"{EXPECTED_SUMMARY}, at {FAST_HZ:g} a second, too",
         f"of {len(fast.sent)} messages, none since message {backlog.count_summarised(fast, steady)}",
-        diagnose_fewer_summaries(fast),
+        Symptom.NOT_LOGGED.seen(fast.trace, topic=TOPIC, type=TYPE, fault="fewer-summaries"),
         [str(summary) for summary in find_summaries(fast)[:6]],
     )
 
@@ -143,32 +146,30 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
     if not find_summaries(steady):
         if (many := count_complete(steady)) > len(steady.sent) // SUMMARY_EVERY:
             text = f"{many} summaries for {len(steady.sent)} messages"
-            again = Cause("too many summaries", "one summary is written again and again", every_ten(steady))
+            again = wrong_log(steady.trace, too_many(many, len(steady.sent)))
             return failed(expected, text, again, last_logs(steady))
-        return failed(
-            expected, f"none, after {len(steady.sent)} messages", diagnose_no_summary(steady), last_logs(steady)
-        )
+        return failed(expected, f"none, after {len(steady.sent)} messages", see_no_summary(steady), last_logs(steady))
     # A node that exits or miscounts from the jump on fails other criteria.
     survives_jump = jump.trace.exit is None and counts_truly(jump)
     for trial, messages in ((steady, len(steady.sent)), (jump, len(jump.sent) if survives_jump else jump.before_break)):
         summaries = [summary for summary in find_summaries(trial) if summary.messages <= messages]
         evidence = [str(summary) for summary in summaries[:8]]
-        if (cause := diagnose_interval(summaries, trial, messages)) is not None:
+        if (fault := find_wrong_interval(summaries, trial, messages)) is not None:
             if _counts_wrongly(summaries, trial):
                 return skipped("not judged, because `count` did not pass: summaries are timed by a wrong count")
             observed = (
                 f"summaries after {', '.join(str(summary.messages) for summary in summaries[:12]) or 'no'} messages"
             )
-            return failed(expected, f"{observed}, of {messages}", cause, evidence)
+            return failed(expected, f"{observed}, of {messages}", wrong_log(trial.trace, fault), evidence)
         for summary in summaries:
-            if (cause := diagnose_incomplete_summary(summary, trial)) is not None:
-                return failed(expected, f"it is incomplete {summary}", cause, evidence)
+            if (fault := find_incomplete(summary, trial)) is not None:
+                return failed(expected, f"it is incomplete {summary}", wrong_log(trial.trace, fault), evidence)
     late = find_summaries(jump)
     if not survives_jump and jump.trace.exit is None and len(late) > len(jump.sent) // SUMMARY_EVERY + 1:
         return failed(
             expected,
             f"{len(late)} summaries for {len(jump.sent)} messages",
-            Cause("too many summaries", "from some message on, a summary comes too often", every_ten(jump)),
+            wrong_log(jump.trace, too_many(len(late), len(jump.sent))),
             [str(summary) for summary in late[-6:]],
         )
     complete = find_summaries(steady)
@@ -176,6 +177,25 @@ def judge_slow_summary(steady: Trial, jump: Trial) -> Verdict:
         expected,
         f"{len(complete)} for {len(steady.sent)} messages, with both contents",
         [str(summary) for summary in complete],
+    )
+
+
+def see_no_summary(trial: Trial) -> Observation:
+    """The node logs no summary, or is not there to log one."""
+    about = {"topic": TOPIC, "type": TYPE}
+    idle = not trial.spins and not trial.lines
+    if trial.trace.exit is not None or not trial.sent or idle:
+        return Symptom.NOTHING_RECEIVED.seen(trial.trace, stuck=trial.stuck, answers=trial.spins, ours=OURS, **about)
+    return Symptom.NOT_LOGGED.seen(
+        trial.trace,
+        stuck=trial.stuck,
+        answers=trial.spins,
+        fault="no-summary",
+        what="what the node has to say",
+        recognise=lambda text: bool(parse_log(LogRecord(20, "", text, 0.0, 0.0), 1).quoted),
+        at_end=trial.ending.output if trial.ending else (),
+        logged=bool(trial.lines),
+        **about,
     )
 
 

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from checks.i1_2 import backlog
 from checks.i1_2.facts import TOPIC, Trial
+from checks.i1_2.faults import wrong_log
 from checks.i1_2.totals import counts_truly
-from tutor.judge.verdict import Cause
+from tutor.judge.symptom import Observation
 
 SEE_COUNT = "not judged, because the node loses messages: see `count`"
 
@@ -34,10 +35,6 @@ def describe_renewals(trial: Trial) -> str:
     return f"{trial.new_subscriptions} new subscriptions on {TOPIC} while {len(trial.sent)} messages came"
 
 
-def diagnose_renewals() -> Cause:
-    """Why a node that renews its subscription loses messages."""
-    return Cause(
-        "a subscription for each message",
-        "whatever is sent after one subscription has ended, and before the next one is matched, is lost",
-        "make one subscription when the node starts, and let rclpy.spin() call its callback for each message",
-    )
+def see_renewals(trial: Trial) -> Observation:
+    """The node makes a new subscription again and again."""
+    return wrong_log(trial.trace, {"fault": "a-subscription-for-each-message", "renewals": trial.new_subscriptions})

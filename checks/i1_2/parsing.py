@@ -6,7 +6,7 @@ import ast
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tutor.judge.source import Function, values_of
+from tutor.source import Function, values_of
 
 EXAMPLES = ("Hello World: 107", "Hello World: 38", "Hello World: 4")
 
@@ -76,11 +76,10 @@ class _Evaluator:
 
 @dataclass(frozen=True, slots=True)
 class Misread:
-    """An expression that takes the number from the wrong place. `text`: what it reads; `right`: correct code."""
+    """An expression that takes the number from the wrong place. `text`: what it reads."""
 
     node: ast.Call
     text: str
-    right: str
 
 
 def find_misread(functions: Sequence[Function]) -> Misread | None:
@@ -109,8 +108,8 @@ def _check_example(function: Function, node: ast.Call, text: str) -> Misread | N
         if read == right:
             return None
         reads = f"{read!r} out of"
-    description = f"line {node.lineno}: {ast.unparse(node)} reads {reads} “{text}”"
-    return Misread(node, description, f"int({base}.rpartition(':')[2])")
+    description = f"{ast.unparse(node)} reads {reads} “{text}”"
+    return Misread(node, description)
 
 
 def _find_text_expression(function: Function, node: ast.expr, depth: int = 0) -> str | None:

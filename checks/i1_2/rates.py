@@ -6,14 +6,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
 
-from checks.i1_2 import steps
 from checks.i1_2.facts import STALL_S, SUMMARY_EVERY, Trial
+from checks.i1_2.faults import Fault
 from checks.i1_2.reading import Number
 from checks.i1_2.summaries import Summary, find_summaries, last_due_count, possible_totals, slots
-from tutor.judge.causes import slips
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.rewriting.node import find_in_files
-from tutor.judge.verdict import Cause
 
 DELAY_S = 0.01
 """Maximum latency of a message on an idle machine."""
@@ -153,50 +150,29 @@ def _well_measured(summary: Summary, trial: Trial) -> Iterator[Range]:
         yield Range((1 - CLOSE_TOLERANCE) * low, (1 + CLOSE_TOLERANCE) * high)
 
 
-def diagnose_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: Trial) -> Cause:
-    """Which mistake explains the numbers in `summary`, which states no true rate."""
+def find_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: Trial) -> Fault:
+    """What the numbers in `summary`, which states no true rate, are instead."""
     found = numbers_except_count(summary, trial)
-    texts, numbers = [line.text for line in summary.lines], [number.text for number in found]
-    if (unformatted := find_in_files(trial.trace, lambda file: slips.diagnose_missing_f(file, texts))) is not None:
-        return unformatted
-    if (power := find_in_files(trial.trace, slips.diagnose_xor)) is not None:
-        return power
-    hint = steps.measure_rate(trial.trace, texts, numbers) or (
-        "self.total_count / (time.time() - self.start_time), where start_time is when the first message came"
-    )
     true = true_rates(summary, trial)
     for number in found:
         if number.value > 0 and 1 / number.value in true:
-            return Cause(
-                "period instead of a rate",
-                f"{number.text} are the seconds from one message to the next",
-                hint,
-            )
+            return {"fault": "period-instead-of-a-rate", "number": number.text}
     for number in found:
         if number.value / 60 in true:
-            return Cause("rate per minute", f"{number.text} is messages per minute", hint)
+            return {"fault": "rate-per-minute", "number": number.text}
         if any(number.value * by in true for by in (1e-3, 1e3, 1e6, 1e9)):
-            return Cause("rate in another unit", f"{number.text} is off by a factor of a thousand, or of several", hint)
+            return {"fault": "rate-in-another-unit", "number": number.text}
     waited = [_clock_lead(each, trial) for each in summaries]
     for number, span in _clock_lead(summary, trial):
         if span.high > 0.7 and all(any(span.meets(same) for _, same in each) for each in waited):
-            return Cause(
-                "counted from the node's start",
-                f"{number.text} is right if the clock starts {span.high:.1f} s before the first message",
-                hint,
-            )
+            return {"fault": "counted-from-the-nodes-start", "number": number.text, "lead_s": span.high}
     if all(_find_whole_seconds(each, trial) for each in summaries):
         number, whole_s = _find_whole_seconds(summary, trial)[0]
-        return Cause(
-            "seconds cut off",
-            f"{number.text} is {_covered_count(summary, trial)} messages in {whole_s} s, but it took longer",
-            hint,
-        )
+        covered = _covered_count(summary, trial)
+        return {"fault": "seconds-cut-off", "number": number.text, "covered": covered, "whole_s": whole_s}
     if not found:
-        return Cause("no rate", "it contains no number other than the count", hint)
-    return find_in_files(trial.trace, slips.diagnose_never_none) or Cause(
-        "wrong rate", f"none of {', '.join(number.text for number in found)} is the rate", hint
-    )
+        return {"fault": "no-rate"}
+    return {"fault": "wrong-rate", "what": f"none of {', '.join(number.text for number in found)} is the rate"}
 
 
 def _find_whole_seconds(summary: Summary, trial: Trial) -> list[tuple[Number, int]]:

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from checks.i1_2 import losses, steps
-from checks.i1_2.causes import diagnose_end
-from checks.i1_2.facts import OURS, SUMMARY_EVERY, Trial
+from checks.i1_2 import losses
+from checks.i1_2.facts import OURS, SUMMARY_EVERY, TOPIC, TYPE, Trial
+from checks.i1_2.faults import EVERY_MESSAGE, Fault, ended, too_many, wrong_log
 from checks.i1_2.judges import NO_SUMMARY, judge_slow_summary
 from checks.i1_2.reports import new_lines
 from checks.i1_2.summaries import Summary, find_summaries
 from checks.i1_2.totals import counts_truly, true_total
-from tutor.judge import causes
-from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
+from tutor.judge.symptom import Symptom
+from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
+from tutor.judge.wording import output_tail
 
 
 def judge_restart(restart: Trial, steady: Trial, jump: Trial, fast: Trial) -> Verdict:
@@ -28,19 +29,17 @@ def judge_new_publisher(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
     expected = "the publisher goes away, a new one starts over at 0: the node lives on and keeps counting"
     if not find_summaries(steady):
         return skipped(NO_SUMMARY)
-    words = causes.output_tail(restart.trace)
+    words = output_tail(restart.trace)
     sent, before = len(restart.sent), restart.before_break
     if restart.trace.exit is not None:
         return failed(
-            expected, f"the node ended after {sent} of our messages", diagnose_end(restart, "another publisher"), words
+            expected, f"the node ended after {sent} of our messages", ended(restart, "another publisher"), words
         )
     if not before or sent <= before:
         return failed(
             expected,
             f"the new publisher found no subscription on {OURS.topic}",
-            steps.keep_node_up(
-                restart.trace, causes.diagnose_nothing_received(restart.trace, OURS, answers=restart.spins)
-            ),
+            Symptom.NOTHING_RECEIVED.seen(restart.trace, answers=restart.spins, topic=TOPIC, type=TYPE, ours=OURS),
             words,
         )
     after = [summary for summary in find_summaries(restart) if summary.messages > before]
@@ -50,12 +49,7 @@ def judge_new_publisher(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
         return failed(
             expected,
             f"{observed}; no summary since",
-            Cause(
-                "stopped counting",
-                "the node is there, but sums up nothing that the new publisher sends",
-                steps.go_on_after_restart(restart.trace)
-                or "do nothing special when N falls: keep counting, or reset everything and say so",
-            ),
+            wrong_log(restart.trace, {"fault": "stopped-counting"}),
             evidence,
         )
     if not counts_truly(steady, jump):
@@ -69,25 +63,18 @@ def judge_new_publisher(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
             continue
         if not restarted and _may_lack_lost_messages(summary, restart):
             return undecided("to tell whether the node lost messages")
-        cause = (
-            Cause(
-                "starts over silently",
-                f"it says {restarted} after {summary.messages} messages, and no log message says that it started over",
-                steps.announce_restart(restart.trace)
-                or "go on with the total, or log that the publisher was restarted and that you count from zero",
-            )
+        fault: Fault = (
+            {"fault": "starts-over-silently", "restarted": restarted, "messages": summary.messages}
             if restarted
-            else Cause(
-                "wrong count after a restart",
-                f"{summary.messages} messages in all, {summary.messages - before} of them from the new publisher: "
-                "it states neither",
-                steps.go_on_after_restart(restart.trace)
-                or "do not compute the total from N; keep counting, or reset everything and say so",
-            )
+            else {
+                "fault": "wrong-count-after-a-restart",
+                "messages": summary.messages,
+                "new": summary.messages - before,
+            }
         )
-        return failed(expected, f"{observed}; {summary}", cause, evidence)
-    if judge_slow_summary(steady, jump).passed and (changed := _diagnose_summaries(after, restart, steady)):
-        return failed(expected, observed, changed, evidence)
+        return failed(expected, f"{observed}; {summary}", wrong_log(restart.trace, fault), evidence)
+    if judge_slow_summary(steady, jump).passed and (changed := _find_fault(after, restart, steady)):
+        return failed(expected, observed, wrong_log(restart.trace, changed), evidence)
     return passed(expected, observed, [*evidence, *reports[:2]])
 
 
@@ -98,25 +85,16 @@ def _may_lack_lost_messages(summary: Summary, restart: Trial) -> bool:
     return hurried and any(total > 0 and summary.states(total) for total in fewer)
 
 
-def _diagnose_summaries(after: Sequence[Summary], restart: Trial, steady: Trial) -> Cause | None:
+def _find_fault(after: Sequence[Summary], restart: Trial, steady: Trial) -> Fault | None:
     """Find faults in the summaries since the restart that do not depend on where the node begins to count."""
     before = restart.before_break
     new = len(restart.sent) - before
     times = max(len(after), _count_summaries(after, find_summaries(steady)))
     if times >= 0.7 * new:
-        return Cause(
-            "summary for every message",
-            f"{times} summaries for {new} messages of the new publisher",
-            steps.go_on_after_restart(restart.trace)
-            or "once N has fallen, go on as before: a summary for every ten messages",
-        )
+        return too_many(times, new) | {"fault": EVERY_MESSAGE}
     own = [summary for summary in after if summary.messages > before + 1]  # may not quote only the old publisher
     if own and not any(_quotes_new_publisher(summary, restart) for summary in own):
-        return Cause(
-            "last message missing",
-            "no summary quotes what the new publisher has sent last",
-            steps.go_on_after_restart(restart.trace) or "self.last_message = msg.data for each message, whatever its N",
-        )
+        return {"fault": "last-message-missing", "what": "no summary quotes what the new publisher has sent last"}
     return None
 
 

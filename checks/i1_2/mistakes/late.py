@@ -1,0 +1,236 @@
+"""I1.2: messages that are counted late, never, or twice."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from checks.i1_2.mistakes.entries import CATALOGUE, shown, told
+from tutor.judge.symptom import Symptom
+from tutor.mistakes import Case, Evidence, Found, found
+from tutor.mistakes.examples import in_run
+from tutor.mistakes.themes.setting_up import set_up_twice
+from tutor.source import argument, calls_in
+
+_LOGS = (Symptom.WRONG_LOG, Symptom.NOT_LOGGED)
+_SPINS_ONCE = ("spin_once", "_spin_once", "spin_once_until_future_complete")
+
+
+@CATALOGUE.mistake(
+    "two-subscriptions",
+    explains=_LOGS,
+    evidence=Evidence.RUN,
+    says="{subscriptions} subscriptions on {topic} each call the callback, so that every message counts twice{where}",
+    do="Keep one of them.",
+    example=in_run(Symptom.WRONG_LOG, subscriptions=2, topic="/ring"),
+)
+def two_subscriptions(case: Case) -> Iterator[Found]:
+    """A node subscribes twice.
+
+    Each subscription gets each message, and calls its callback. Two of them with the same callback do everything twice.
+
+    Bad:
+
+        self.create_subscription(Bool, 'ring', self.on_ring, 10)
+        self.create_subscription(Bool, 'ring', self.on_ring, 10)
+
+    Good:
+
+        self.create_subscription(Bool, 'ring', self.on_ring, 10)
+
+    See it: `ros2 topic info TOPIC` counts the subscriptions.
+    """
+    if not case.about("subscriptions") or any(True for _ in set_up_twice(case)):
+        return
+    calls = [(file, call) for file in case.files for call in file.calls("create_subscription")]
+    lines = " and ".join(str(call.lineno) for _, call in calls)
+    words = {"subscriptions": case.about("subscriptions"), "topic": case.about("topic")}
+    if len(calls) > 1:
+        yield found(*calls[-1], where=f": lines {lines}", **words)
+    yield Found({"where": "", **words})
+
+
+@CATALOGUE.mistake(
+    "own-messages",
+    explains=_LOGS,
+    evidence=Evidence.RUN,
+    says="{node} itself publishes on {topic}, and so counts its own messages, too",
+    do="Take the publisher on {topic} out of this node.",
+    example=in_run(Symptom.WRONG_LOG, own_publisher="/bell", topic="/ring"),
+)
+def own_messages(case: Case) -> Iterator[Found]:
+    """A node hears itself.
+
+    A subscription gets what anybody publishes on its topic, also the node that it belongs to.
+
+    Bad:
+
+        self.create_subscription(Bool, 'ring', self.on_ring, 10)
+        self.rings = self.create_publisher(Bool, 'ring', 10)
+
+    Good:
+
+        self.create_subscription(Bool, 'ring', self.on_ring, 10)
+
+    See it: `ros2 topic info -v TOPIC` shows who publishes.
+    """
+    if case.about("own_publisher"):
+        yield Found({"node": case.about("own_publisher"), "topic": case.about("topic")})
+
+
+@CATALOGUE.mistake(
+    "nap-between-messages",
+    explains=_LOGS,
+    evidence=Evidence.RUN,
+    says="{late}, since {line} makes the loop that spins the node sleep: {code}",
+    do="Take the sleep out; spin_once waits by itself for the next message.",
+    example=in_run(Symptom.WRONG_LOG, late="some messages never reach the callback"),
+)
+def nap(case: Case) -> Iterator[Found]:
+    """The loop that spins the node sleeps.
+
+    spin_once() handles one message, or waits for one. With a sleep beside it, only so many are handled in a second;
+    the others wait in the queue until it is full, and are lost.
+
+    Bad:
+
+        while rclpy.ok():
+            rclpy.spin_once(node)
+            time.sleep(0.2)
+
+    Good:
+
+        while rclpy.ok():
+            rclpy.spin_once(node)
+
+    See it: `ros2 topic pub -r 25 TOPIC TYPE VALUES`, and the log.
+    """
+    for file in case.files if case.about("late") else ():
+        for loop in file.nodes:
+            if isinstance(loop, ast.While | ast.For) and calls_in(loop, *_SPINS_ONCE):
+                yield from (found(file, each, late=case.about("late")) for each in calls_in(loop, "sleep"))
+
+
+@CATALOGUE.mistake(
+    "slow-callback",
+    explains=_LOGS,
+    evidence=Evidence.RUN,
+    says="{late}, since the callback sleeps at {line}: {code}",
+    do="Let the callback return at once: while it runs, no other message comes.",
+    example=in_run(Symptom.WRONG_LOG, late="a message is handled when 9 newer ones have come, or never"),
+)
+def slow_callback(case: Case) -> Iterator[Found]:
+    """A callback takes longer than the next message.
+
+    An executor runs one callback after the other. Messages that come meanwhile wait in the queue of the subscription,
+    and the oldest are dropped when it is full.
+
+    Bad:
+
+        def __init__(self):
+            self.create_subscription(Bool, 'ring', self.on_ring, 10)
+
+        def on_ring(self, message):
+            time.sleep(0.5)
+
+    Good:
+
+        def __init__(self):
+            self.create_subscription(Bool, 'ring', self.on_ring, 10)
+
+        def on_ring(self, message):
+            self.rings += 1
+
+    See it: `ros2 topic pub -r 25 TOPIC TYPE VALUES`, and the log.
+    """
+    for function in case.program.callbacks("create_subscription") if case.about("late") else ():
+        # A sleep inside a loop that waits for something is not the cause of the delay.
+        loops = [loop for loop in ast.walk(function) if isinstance(loop, ast.While)]
+        waiting = {each for loop in loops for each in calls_in(loop, "sleep")}
+        for call in calls_in(function, "sleep"):
+            if call not in waiting:
+                yield found(case.program.holding(call), call, late=case.about("late"))
+
+
+@CATALOGUE.mistake(
+    "queue-too-short",
+    explains=[Symptom.WRONG_LOG],
+    says="up to the last message that it quotes there were {counted}; {line} makes a queue for one only: {code}",
+    do="Give the subscription a longer queue.",
+    example=in_run(Symptom.WRONG_LOG, fault="cannot-keep-up", counted=57),
+)
+def short_queue(case: Case) -> Iterator[Found]:
+    """A subscription keeps one message only.
+
+    The depth of the QoS says how many messages wait for the callback. With a depth of 1, one that comes before the last
+    was handled replaces it.
+
+    Bad:
+
+        self.create_subscription(Bool, 'ring', self.on_ring, 1)
+
+    Good:
+
+        self.create_subscription(Bool, 'ring', self.on_ring, 10)
+
+    See it: `ros2 topic pub -r 25 TOPIC TYPE VALUES`, and the log.
+    """
+    for file in case.files if case.about("fault") == "cannot-keep-up" else ():
+        for call in file.calls("create_subscription"):
+            depth = argument(call, "qos_profile")
+            if isinstance(depth, ast.Constant) and depth.value == 1:
+                yield found(file, call, counted=case.about("counted"))
+
+
+@shown(
+    "cannot-keep-up",
+    says="up to the last message that it quotes there were {counted}: the node drops some, or is too slow for them",
+    do="Find what takes long in the callback or beside it, or what leaves messages out before they are counted.",
+    counted=57,
+)
+def cannot_keep_up(case: Case) -> Iterator[Found]:
+    """Messages are lost when they come fast.
+
+    A queue holds some messages until their callback runs. If that takes longer than the messages are apart, the queue
+    fills up, and the oldest are dropped.
+
+    Bad:
+
+        def on_ring(self, message):
+            self.write_the_whole_guest_book()
+
+    Good:
+
+        def on_ring(self, message):
+            self.guests.append(message.data)
+
+    See it: `ros2 topic pub -r 25 TOPIC TYPE VALUES`, and the log.
+    """
+    return told(case, "cannot-keep-up")
+
+
+@shown(
+    "a-subscription-for-each-message",
+    says="it subscribed anew {renewals} times: what is sent between two subscriptions is lost",
+    do="Make one subscription when the node starts, and let its callback handle each message.",
+    renewals=17,
+)
+def renewed_subscription(case: Case) -> Iterator[Found]:
+    """A node subscribes anew for each message.
+
+    wait_for_message() makes a subscription, waits for one message and gives the subscription up. What is sent before
+    the next one is matched is lost.
+
+    Bad:
+
+        while rclpy.ok():
+            ok, message = wait_for_message(Bool, node, 'ring')
+
+    Good:
+
+        node.create_subscription(Bool, 'ring', on_ring, 10)
+        rclpy.spin(node)
+
+    See it: `ros2 topic info TOPIC`, again and again: the number of subscriptions goes up and down.
+    """
+    return told(case, "a-subscription-for-each-message")

@@ -1,0 +1,158 @@
+"""I1.2: what goes wrong when another publisher starts over."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from checks.i1_2.mistakes.entries import CATALOGUE, shown, told
+from tutor.judge.symptom import Symptom
+from tutor.mistakes import Case, Found, found
+from tutor.mistakes.examples import in_run
+
+_CAUSED_BY_RESETS = (
+    "wrong-count",
+    "first-message-overwritten",
+    "starts-over-silently",
+    "wrong-count-after-a-restart",
+)
+
+
+@CATALOGUE.mistake(
+    "texts-compared",
+    explains=[Symptom.WRONG_LOG],
+    says="{line} compares texts, and as a text, “Hello World: 10” is less than “Hello World: 9”: {code}",
+    do="Take the numbers out of the texts, and compare those.",
+    example=in_run(Symptom.WRONG_LOG, fault="starts-over-silently", restarted=10, messages=23),
+)
+def texts_compared(case: Case) -> Iterator[Found]:
+    """Numbers in texts are compared as texts.
+
+    Python compares texts character by character: "10" comes before "9", since "1" does.
+
+    Bad:
+
+        def __init__(self):
+            self.create_subscription(String, 'visitors', self.on_visitor, 10)
+
+        def on_visitor(self, message):
+            if message.data < self.last:
+                self.new_day()
+            self.last = message.data
+
+    Good:
+
+        def __init__(self):
+            self.create_subscription(String, 'visitors', self.on_visitor, 10)
+
+        def on_visitor(self, message):
+            if int(message.data) < self.last:
+                self.new_day()
+            self.last = int(message.data)
+
+    See it: `python3 -c "print('10' < '9')"`.
+    """
+    if case.about("fault") not in _CAUSED_BY_RESETS:
+        return
+    assigned = [node for node in case.program.nodes() if isinstance(node, ast.Assign)]
+    kept = {
+        ast.unparse(target)
+        for node in assigned
+        if isinstance(node.value, ast.Attribute) and node.value.attr == "data"
+        for target in node.targets
+    }
+    for function in case.program.callbacks("create_subscription"):
+        for node in ast.walk(function):
+            if isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE):
+                operands = (node.left, *node.comparators)
+                if len(operands) == 2 and all(_is_text(each, kept) for each in operands):
+                    yield found(case.program.holding(node), node)
+
+
+def _is_text(operand: ast.expr, kept: set[str]) -> bool:
+    """Whether an operand is a message's text: `msg.data`, or a variable in `kept` that holds one."""
+    return (isinstance(operand, ast.Attribute) and operand.attr == "data") or ast.unparse(operand) in kept
+
+
+@shown(
+    "stopped-counting",
+    says="the node is there, but sums up nothing that the new publisher sends",
+    do="Follow a message whose number is lower than, or the same as, an earlier one: what keeps it from being counted?",
+)
+def stopped(case: Case) -> Iterator[Found]:
+    """A subscriber takes no notice of a new publisher.
+
+    A publisher that starts again begins with its first number. Whoever leaves out what is lower, or what was there
+    before, hears nothing of it.
+
+    Bad:
+
+        if message.number <= self.highest:
+            return
+
+    Good:
+
+        if message.number <= self.highest:
+            self.get_logger().info('the counter was set back')
+
+    See it: stop the publisher and start it again.
+    """
+    return told(case, "stopped-counting")
+
+
+@shown(
+    "starts-over-silently",
+    says="it says {restarted} after {messages} messages, and no log message says that it started over",
+    do="Go on with the total, or log that the publisher has started again and that you count from zero.",
+    restarted=10,
+    messages=23,
+)
+def silently(case: Case) -> Iterator[Found]:
+    """A count starts over, and nobody is told.
+
+    A total that falls is a riddle for whoever reads the log. Either it goes on, or the log says why.
+
+    Bad:
+
+        if number < self.last_number:
+            self.visitors = 0
+
+    Good:
+
+        if number < self.last_number:
+            self.visitors = 0
+            self.get_logger().warning('a new day: counting from zero')
+
+    See it: stop the publisher and start it again.
+    """
+    return told(case, "starts-over-silently")
+
+
+@shown(
+    "wrong-count-after-a-restart",
+    says="{messages} messages in all, {new} of them from the new publisher: it states neither",
+    do="Find what changes the count when the number falls: each message, also that one, counts once.",
+    messages=20,
+    new=7,
+)
+def wrong_after(case: Case) -> Iterator[Found]:
+    """A count is wrong once the publisher has started again.
+
+    A count that is computed from the publisher's numbers falls with them; a reset that leaves the message out that
+    caused it is one short.
+
+    Bad:
+
+        if number < self.last_number:
+            self.visitors = 0
+            return
+
+    Good:
+
+        if number < self.last_number:
+            self.visitors = 0
+        self.visitors += 1
+
+    See it: stop the publisher and start it again.
+    """
+    return told(case, "wrong-count-after-a-restart")

@@ -1,0 +1,309 @@
+"""I1.2: summaries that are missing, too many, or incomplete."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from checks.i1_2.mistakes.entries import CATALOGUE, shown, told
+from tutor.judge.symptom import Symptom
+from tutor.mistakes import Case, Found, found
+from tutor.mistakes.examples import in_run
+
+_EVERY = "Look at the condition for a summary: it should hold once for every tenth message, whenever that comes."
+
+
+@CATALOGUE.mistake(
+    "content-cut-off",
+    explains=[Symptom.WRONG_LOG],
+    says="{line} cuts the text before its number: {code}",
+    do="Keep the whole text.",
+    example=in_run(Symptom.WRONG_LOG, fault="first-message-missing", cut=True, content="Hello World: 0"),
+)
+def cut_off(case: Case) -> Iterator[Found]:
+    """A text is cut to its first characters.
+
+    text[:8] has eight characters at most. What comes after, such as a number at the end, is lost.
+
+    Bad:
+
+        shown = message.data[:8]
+
+    Good:
+
+        shown = message.data
+
+    See it: the log.
+    """
+    for file in case.files if case.about("fault") == "first-message-missing" and case.about("cut") else ():
+        for node in file.nodes:
+            match node:
+                case ast.Subscript(slice=ast.Slice(lower=None, upper=ast.expr() as upper, step=None)) if (
+                    not ast.unparse(upper).startswith("-")
+                ):
+                    yield found(file, node)
+
+
+@shown(
+    "first-message-overwritten",
+    says="“{content}” was the first one, but it quotes “{quoted}”",
+    do="Find each line that sets the first message: only one may, and only when there is none yet.",
+    content="Hello World: 0",
+    quoted="Hello World: 10",
+)
+def first_overwritten(case: Case) -> Iterator[Found]:
+    """The first of something is set again.
+
+    What is to be kept has to be set under a condition that holds only once, and nothing may set it back.
+
+    Bad:
+
+        def on_ring(self, message):
+            self.first_visitor = message.data
+
+    Good:
+
+        def on_ring(self, message):
+            if self.first_visitor is None:
+                self.first_visitor = message.data
+
+    See it: log it with each message.
+    """
+    return told(case, "first-message-overwritten")
+
+
+@shown(
+    "first-message-missing",
+    says="“{content}” is not in it",
+    do="Put the content of the first message that came into the summary.",
+    content="Hello World: 0",
+)
+def first_missing(case: Case) -> Iterator[Found]:
+    """The first message is not in the summary.
+
+    A callback gets one message at a time. What later ones need of the first has to be kept in an attribute.
+
+    Bad:
+
+        self.get_logger().info(f'now {message.data}')
+
+    Good:
+
+        self.get_logger().info(f'{self.first_visitor} was first, now {message.data}')
+
+    See it: the log.
+    """
+    return told(case, "first-message-missing")
+
+
+@shown(
+    "last-message-missing",
+    says="{what}",
+    do="See which message the summary takes for the last: it should be the one that has just come.",
+    what="“Hello World: 9” is not in it",
+)
+def last_missing(case: Case) -> Iterator[Found]:
+    """The latest message is not in the summary.
+
+    The last message is the one that the callback has just been given: not the one before it, and not the one with the
+    highest number.
+
+    Bad:
+
+        self.get_logger().info(f'last: {self.visitor}')
+        self.visitor = message.data
+
+    Good:
+
+        self.visitor = message.data
+        self.get_logger().info(f'last: {self.visitor}')
+
+    See it: the log, beside `ros2 topic echo TOPIC`.
+    """
+    return told(case, "last-message-missing")
+
+
+@shown(
+    "first-and-last-swapped",
+    says="it calls “{content}” the last one, and the last one the first",
+    do="Compare each of the two values with the word in front of it.",
+    content="Hello World: 0",
+)
+def labels_swapped(case: Case) -> Iterator[Found]:
+    """First and last have changed places.
+
+    Nothing checks that a text says of a value what it is.
+
+    Bad:
+
+        f'first: {self.latest_visitor}, last: {self.first_visitor}'
+
+    Good:
+
+        f'first: {self.first_visitor}, last: {self.latest_visitor}'
+
+    See it: the log.
+    """
+    return told(case, "first-and-last-swapped")
+
+
+@shown(
+    "summary-for-every-message",
+    says="there are {summaries} summaries for {messages} messages",
+    do=_EVERY,
+    summaries=20,
+    messages=20,
+)
+def every_message(case: Case) -> Iterator[Found]:
+    """Something is done for every message that is meant for every so many.
+
+    A callback runs for each message. What is meant for each hundredth needs a condition on the count that holds once
+    in a hundred.
+
+    Bad:
+
+        if self.visitors >= 100:
+            self.ring()
+
+    Good:
+
+        if self.visitors % 100 == 0:
+            self.ring()
+
+    See it: the log beside the messages.
+    """
+    return told(case, "summary-for-every-message")
+
+
+@shown(
+    "too-many-summaries",
+    says="there are {summaries} summaries for {messages} messages",
+    do=_EVERY,
+    summaries=4,
+    messages=20,
+)
+def too_many(case: Case) -> Iterator[Found]:
+    """Something is done more often than asked for.
+
+    A timer knows nothing of the messages, and finds the same count several times. A condition that two places check is
+    met twice.
+
+    Bad:
+
+        self.create_timer(1.0, self.ring_if_full)
+
+    Good:
+
+        self.visitors += 1
+        self.ring_if_full()
+
+    See it: the time stamps in the log.
+    """
+    return told(case, "too-many-summaries")
+
+
+@shown("missing-summary", says="{what}", do=_EVERY, what="there is none after 10 messages, and none comes soon after")
+def missing(case: Case) -> Iterator[Found]:
+    """A summary does not come when it is due.
+
+    A condition on a count that changes elsewhere, or that holds once only, is not met when it should be.
+
+    Bad:
+
+        if self.visitors == 100:
+            self.ring()
+
+    Good:
+
+        if self.visitors % 100 == 0:
+            self.ring()
+
+    See it: log the count with each message.
+    """
+    return told(case, "missing-summary")
+
+
+@shown(
+    "fewer-summaries",
+    name="missing summary",
+    symptom=Symptom.NOT_LOGGED,
+    says="when messages come fast, most summaries are left out",
+    do="Let each tenth message bring its summary, however soon it comes after the one before.",
+)
+def fewer(case: Case) -> Iterator[Found]:
+    """Summaries are left out when messages come fast.
+
+    What a timer looks at once a second misses what happens in between; so does a log call that is throttled.
+
+    Bad:
+
+        self.create_timer(1.0, self.ring_if_full)
+
+    Good:
+
+        self.visitors += 1
+        self.ring_if_full()
+
+    See it: `ros2 topic pub -r 25 TOPIC TYPE VALUES`, and the log.
+    """
+    return told(case, "fewer-summaries")
+
+
+@shown(
+    "no-summary",
+    symptom=Symptom.NOT_LOGGED,
+    says="{seen_instead}",
+    do="Let the callback log a summary with the node's own logger, and see with one message by hand how far it gets.",
+    logged=True,
+)
+def no_summary(case: Case) -> Iterator[Found]:
+    """Messages come, and nothing sums them up.
+
+    The callback of a subscription is the place where a node learns of a message, so that is where it counts, and
+    where it can log.
+
+    Bad:
+
+        def on_ring(self, message):
+            pass
+
+    Good:
+
+        def on_ring(self, message):
+            self.visitors += 1
+            self.get_logger().info(f'{self.visitors} visitors')
+
+    See it: `ros2 topic echo /rosout`.
+    """
+    if case.about("fault") == "no-summary":
+        logs = "none of its log messages sums up the messages"
+        yield Found({"seen_instead": logs if case.about("logged") else "no log message follows from a message"})
+
+
+@CATALOGUE.mistake(
+    "log-throttled",
+    explains=[Symptom.NOT_LOGGED],
+    says="{line} lets one summary pass in throttle_duration_sec, and leaves out the others: {code}",
+    do="Log the summary without throttle_duration_sec.",
+    example=in_run(Symptom.NOT_LOGGED, fault="fewer-summaries"),
+)
+def throttled(case: Case) -> Iterator[Found]:
+    """A log call is throttled.
+
+    With throttle_duration_sec, a log call makes at most one message in so many seconds. That is good against floods of
+    the same warning, and wrong for what everybody has to see.
+
+    Bad:
+
+        self.get_logger().info(f'{self.visitors} visitors', throttle_duration_sec=1.0)
+
+    Good:
+
+        self.get_logger().info(f'{self.visitors} visitors')
+
+    See it: `ros2 topic pub -r 25 TOPIC TYPE VALUES`, and the log.
+    """
+    for file in case.files if case.about("fault") == "fewer-summaries" else ():
+        for node in file.nodes:
+            if isinstance(node, ast.Call) and any(each.arg == "throttle_duration_sec" for each in node.keywords):
+                yield found(file, node)
