@@ -58,7 +58,7 @@ def judge_jump_after_zero(after_zero: Trial, steady: Trial, jump: Trial) -> Verd
         return None
     observed = f"N jumped from 0 to {after_zero.sent[1].number}; nothing new was logged"
     evidence = [line.text for line in after_zero.lines[:6]]
-    return failed(EXPECTED, observed, _unnoticed(after_zero, {"fault": "0-taken-for-no-number"}), evidence)
+    return failed(EXPECTED, observed, _unnoticed(after_zero, steady, {"fault": "0-taken-for-no-number"}), evidence)
 
 
 def judge_fall(restart: Trial, jump: Trial, jump_twice: Trial, steady: Trial) -> Verdict | None:
@@ -110,7 +110,7 @@ def judge_jumps(jump: Trial, steady: Trial, jump_twice: Trial | None = None) -> 
             if alarms and all(trial.was_hurried(line.messages) for trial, line in alarms):
                 return undecided("to tell whether the node lost messages")
             since = [line.text for line in jump.lines if line.messages > index]
-            why = _see_no_warning(index, jump, [line for _, line in alarms])
+            why = _see_no_warning(index, jump, steady, [line for _, line in alarms])
             return failed(expected, f"N jumped {how}; nothing new was logged", why, since[:6])
     return passed(expected, observed, [line.text for line in reports[:3]])
 
@@ -202,7 +202,7 @@ def _find_false_alarms(index: int, jump: Trial, steady: Trial) -> list[tuple[Tri
     return found if len(found) < 0.7 * (len(steady.sent) + jump.before_break - 2) else []
 
 
-def _see_no_warning(index: int, jump: Trial, false: Sequence[Line]) -> Observation:
+def _see_no_warning(index: int, jump: Trial, steady: Trial, false: Sequence[Line]) -> Observation:
     """The jump to the message with this index is not reported; `false`: the false alarms (`_find_false_alarms`)."""
     if false:
         what = f"it also says so where N rises by one: {false[0].text}"
@@ -212,11 +212,12 @@ def _see_no_warning(index: int, jump: Trial, false: Sequence[Line]) -> Observati
     printed = {line.text for line in after if any(word in line.text.casefold() for word in words)}
     missed = jump.missed(index)[-1]
     amount = f"{missed} number{'s are' if missed > 1 else ' is'} missing"
-    return _unnoticed(jump, {"fault": "gap-not-noticed", "missed": amount, "recognise": printed.__contains__})
+    return _unnoticed(jump, steady, {"fault": "gap-not-noticed", "missed": amount, "recognise": printed.__contains__})
 
 
-def _unnoticed(jump: Trial, fault: Fault) -> Observation:
-    """A jump of N is in no log message."""
+def _unnoticed(jump: Trial, steady: Trial, fault: Fault) -> Observation:
+    """A jump of N is in no log message; a node that does not spin has shown so in one of the two trials."""
+    asked = jump if not jump.spins else steady
     return Symptom.NOT_LOGGED.seen(
-        jump.trace, stuck=jump.stuck, answers=jump.spins, topic=TOPIC, type=TYPE, what="the gap", **fault
+        jump.trace, stuck=asked.stuck, answers=asked.spins, topic=TOPIC, type=TYPE, what="the gap", **fault
     )

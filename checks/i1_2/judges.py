@@ -195,6 +195,7 @@ def see_no_summary(trial: Trial) -> Observation:
         recognise=lambda text: bool(parse_log(LogRecord(20, "", text, 0.0, 0.0), 1).quoted),
         at_end=trial.ending.output if trial.ending else (),
         logged=bool(trial.lines),
+        only_debug=not trial.lines,
         **about,
     )
 

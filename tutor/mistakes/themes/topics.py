@@ -153,6 +153,37 @@ def no_publisher(case: Case) -> Iterator[Found]:
 
 
 @mistake(
+    "subscription-destroyed",
+    explains=[Symptom.NOTHING_RECEIVED],
+    says="{nodes} has given up its subscription on {topic}, at {line}: {code}",
+    do="Keep the subscription for as long as the node lives.",
+    example=in_run(Symptom.NOTHING_RECEIVED, topic="/horn"),
+)
+def subscription_destroyed(case: Case) -> Iterator[Found]:
+    """A node gives up its subscription.
+
+    A subscription lives until it is destroyed, whoever publishes. It needs no renewal when a publisher goes: the next
+    one is found by itself.
+
+    Bad:
+
+        if self.count_publishers('horn') == 0:
+            self.destroy_subscription(self.horn)
+
+    Good:
+
+        if self.count_publishers('horn') == 0:
+            self.get_logger().info('nobody sounds the horn any more')
+
+    See it: `ros2 topic info TOPIC` counts the subscriptions.
+    """
+    topic = case.about("topic")
+    if topic and not any(each.topic == topic for each in case.trace.graph.subscriptions):
+        for file in case.files:
+            yield from (found(file, call, topic=topic) for call in file.calls("destroy_subscription"))
+
+
+@mistake(
     "no-subscription",
     explains=[Symptom.NOTHING_RECEIVED],
     evidence=Evidence.SYMPTOM,
