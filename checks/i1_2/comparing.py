@@ -14,7 +14,7 @@ def find_truth_test(function: Function) -> ast.expr | None:
     used = {
         ast.unparse(each)
         for node in inside
-        if isinstance(node, ast.Compare | ast.BinOp)
+        if isinstance(node, ast.Compare) or (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub))
         for each in ast.iter_child_nodes(node)
         if isinstance(each, ast.Name | ast.Attribute)
     }
@@ -73,6 +73,9 @@ def find_lower_only(function: Function) -> ast.expr | None:
     if not lower or any(not _uses_operator(each[1], ast.Lt, ast.LtE, ast.Is, ast.IsNot) for each in found):
         return None
     last, node = lower[0]
+    computed = (each for each in ast.walk(function) if isinstance(each, ast.BinOp | ast.Call))
+    if any(last in map(ast.unparse, ast.iter_child_nodes(each)) for each in computed):  # to find the missing ones
+        return None
     early = any(assigns_to(each, last) for each in function.body if each.lineno < node.lineno)
     return None if early else node
 

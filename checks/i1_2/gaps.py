@@ -217,7 +217,7 @@ def _see_no_warning(index: int, jump: Trial, steady: Trial, false: Sequence[Line
 
 def _unnoticed(jump: Trial, steady: Trial, fault: Fault) -> Observation:
     """A jump of N is in no log message; a node that does not spin has shown so in one of the two trials."""
-    asked = jump if not jump.spins else steady
+    asked = jump if steady.spins else steady
     return Symptom.NOT_LOGGED.seen(
         jump.trace, stuck=asked.stuck, answers=asked.spins, topic=TOPIC, type=TYPE, what="the gap", **fault
     )

@@ -10,18 +10,19 @@ from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Found, found
 from tutor.mistakes.examples import in_run
 
-_CAUSED_BY_RESETS = (
+_FAULTS = (
     "wrong-count",
     "first-message-overwritten",
     "starts-over-silently",
     "wrong-count-after-a-restart",
+    "false-alarm",
 )
 
 
 @CATALOGUE.mistake(
     "texts-compared",
     explains=[Symptom.WRONG_LOG],
-    says="{line} compares texts, and as a text, “Hello World: 10” is less than “Hello World: 9”: {code}",
+    says="{line} compares texts, and as a text, “10” is less than “9”: {code}",
     do="Take the numbers out of the texts, and compare those.",
     example=in_run(Symptom.WRONG_LOG, fault="starts-over-silently", restarted=10, messages=23),
 )
@@ -52,26 +53,43 @@ def texts_compared(case: Case) -> Iterator[Found]:
 
     See it: `python3 -c "print('10' < '9')"`.
     """
-    if case.about("fault") not in _CAUSED_BY_RESETS:
+    if case.about("fault") not in _FAULTS:
         return
-    assigned = [node for node in case.program.nodes() if isinstance(node, ast.Assign)]
-    kept = {
-        ast.unparse(target)
-        for node in assigned
-        if isinstance(node.value, ast.Attribute) and node.value.attr == "data"
-        for target in node.targets
-    }
+    texts = _texts(case)
     for function in case.program.callbacks("create_subscription"):
         for node in ast.walk(function):
             if isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE):
                 operands = (node.left, *node.comparators)
-                if len(operands) == 2 and all(_is_text(each, kept) for each in operands):
+                if len(operands) == 2 and all(_is_text(each, texts) for each in operands):
                     yield found(case.program.holding(node), node)
 
 
-def _is_text(operand: ast.expr, kept: set[str]) -> bool:
-    """Whether an operand is a message's text: `msg.data`, or a variable in `kept` that holds one."""
-    return (isinstance(operand, ast.Attribute) and operand.attr == "data") or ast.unparse(operand) in kept
+def _texts(case: Case) -> set[str]:
+    """The variables that hold nothing but texts, or None."""
+    given: dict[str, list[ast.expr]] = {}
+    for node in case.program.nodes():
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                given.setdefault(ast.unparse(target), []).append(node.value)
+    texts: set[str] = set()
+    for _ in range(2):  # a variable may be set to another one
+        for name, values in given.items():
+            values = [each for each in values if not (isinstance(each, ast.Constant) and each.value is None)]
+            if values and all(_is_text(each, texts) for each in values):
+                texts.add(name)
+    return texts
+
+
+def _is_text(value: ast.expr, texts: set[str]) -> bool:
+    """Whether an expression is a text: a message's data, a part of one, or one of the variables `texts`."""
+    match value:
+        case ast.Attribute(attr="data") | ast.Constant(value=str()):
+            return True
+        case ast.Call(func=ast.Attribute(attr="strip" | "lstrip" | "rstrip" | "removeprefix" | "replace")):
+            return True
+        case ast.Subscript(value=ast.Call(func=ast.Attribute(attr="split" | "rsplit" | "partition" | "rpartition"))):
+            return not isinstance(value.slice, ast.Slice)
+    return ast.unparse(value) in texts
 
 
 @shown(

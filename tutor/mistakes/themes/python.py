@@ -62,6 +62,7 @@ def caret(case: Case) -> Iterator[Found]:
 
 @mistake(
     "never-none",
+    name="never None",
     explains=_VALUES,
     says="{line} waits for {name} to be None, but it begins as {value}: {code}",
     do="Let {name} begin as None.",

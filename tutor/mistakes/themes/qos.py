@@ -60,6 +60,7 @@ def incompatible_qos(case: Case) -> Iterator[Found]:
 
 @mistake(
     "not-a-ros-topic",
+    name="not a ROS topic",
     explains=(Symptom.NO_MESSAGES, Symptom.NOTHING_RECEIVED),
     says="{line} leaves out the prefix by which ROS nodes find topics in DDS, so no other ROS node sees this one",
     do="Leave avoid_ros_namespace_conventions off.",
