@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from tutor.judge.rates import Rate, describe
-from tutor.judge.trace import Echo, Ending, OutputLine, Trace
+from tutor.judge.trace import Echo, Ending, OutputLine, Sample, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import window_s
 from tutor.ros_model import Parameter
@@ -30,6 +31,15 @@ FAST_COLLECT_S = 4.0
 
 MIN_VALUES = 3
 """Fewer values than this from a plain start show neither a pattern nor a range."""
+
+MATCHED_S = 1.3
+"""Messages sent within this time of the first sign of a publisher do not count: whether they reach us is a race.
+
+Some nodes also pause for a second before a first message.
+"""
+
+GO_ON_S = 0.9
+"""Messages go on arriving if those that count span this time."""
 
 ECHO_LIMIT_S = 14.0
 """Time limit of the echo: enough even for a topic with only an occasional message."""
@@ -55,7 +65,8 @@ FALLBACK_VALUES = {"Hz": (5.0, 1.0, 3.0, 10.0), "s": (1.0, 2.0, 0.2, 0.4), "ms":
 class PlainStart:
     """A start without parameters, interrupted with Ctrl+C at the end.
 
-    `parameters`: None if the node answered no parameter call. `echo`: None if there was no message to wait for.
+    `counted_from`: messages sent before this time do not count (see `MATCHED_S`), in seconds since the epoch.
+    `parameters`: None if the node answered no parameter call. `echo`: None if messages do not go on arriving.
     `ending`: None if the process had already exited. `stuck`: the stack, innermost frame first, of a node that neither
     published nor answered. `stuck_for_ever`: by that stack, it will never publish.
     """
@@ -66,6 +77,12 @@ class PlainStart:
     ending: Ending | None
     stuck: tuple[Frame, ...] = ()
     stuck_for_ever: bool = False
+    counted_from: float = 0.0
+
+    @property
+    def messages_go_on(self) -> bool:
+        """Whether messages went on arriving, in whichever part of its start the node sent those that may be missing."""
+        return go_on(self.trace.samples_on(TOPIC), self.counted_from)
 
 
 @dataclass(frozen=True)
@@ -151,6 +168,12 @@ def possible_units(name: str) -> tuple[str, ...]:
     if as_period and not as_rate:
         return ("s", "ms")
     return ("Hz", "s", "ms")
+
+
+def go_on(samples: Sequence[Sample], counted_from: float) -> bool:
+    """Whether the samples that were sent after this time span `GO_ON_S`."""
+    first = next((sample.source_time for sample in samples if sample.source_time >= counted_from), math.inf)
+    return bool(samples) and samples[-1].source_time - first >= GO_ON_S
 
 
 def numeric_parameters(declared: Iterable[Parameter]) -> list[Parameter]:

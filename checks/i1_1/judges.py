@@ -47,20 +47,25 @@ def _with_steps[**P](judge: Callable[P, Verdict]) -> Callable[P, Verdict]:
 
 @_with_steps
 def judge_publishes(seen: PlainStart) -> Verdict:
-    expected = f"{TYPE} messages on {TOPIC}"
-    samples = seen.trace.samples_on(TOPIC)
+    expected = f"{TYPE} messages go on arriving on {TOPIC}"
+    samples, began = seen.trace.samples_on(TOPIC), seen.trace.started_at
+    evidence = [f"data: {sample.message['data']}" for sample in samples[:1]]
+    if seen.messages_go_on:
+        observed = f"{len(samples)} messages, the first {samples[0].received_at - began:.2f} s after the start"
+        return passed(expected, observed, evidence)
+    observed = "no such message arrived"
     if samples:
-        return passed(
-            expected,
-            f"{len(samples)} messages, the first {samples[0].received_at - seen.trace.started_at:.2f} s "
-            f"after the start",
-            [f"data: {samples[0].message['data']}"],
-        )
-    answers = seen.parameters is not None
+        number = f"{len(samples)} messages" if len(samples) > 1 else "one message"
+        observed = f"{number} until {samples[-1].received_at - began:.1f} s after the start, then no more"
     cause = causes.diagnose_no_messages(
-        seen.trace, TOPIC, TYPE, answers=answers, stuck=seen.stuck, step=steps.add_publisher(seen.trace)
+        seen.trace,
+        TOPIC,
+        TYPE,
+        answers=seen.parameters is not None,
+        stuck=seen.stuck,
+        step=steps.add_publisher(seen.trace),
     )
-    return failed(expected, "no such message", cause, causes.output_tail(seen.trace))
+    return failed(expected, observed, cause, [*evidence, *causes.output_tail(seen.trace)])
 
 
 @_with_steps
@@ -131,8 +136,8 @@ def _find_stuck_value(run: Sequence[float]) -> randomness.Pattern | None:
 def judge_echo(seen: PlainStart) -> Verdict:
     expected = f"`ros2 topic echo {TOPIC}` shows the values"
     echo = seen.echo
-    if echo is None:  # the first message came after the wait for it had timed out
-        return failed(expected, "the first message came too late", i1_1_causes.diagnose_stopped(seen.trace))
+    if echo is None:
+        return failed(expected, "messages do not go on arriving", i1_1_causes.diagnose_stopped(seen.trace))
     # A subscription counts, too: the real echo takes the type from all that is on the topic, and refuses two.
     graph = seen.trace.graph
     found = {each.type for each in (*graph.publishers, *graph.subscriptions) if each.topic == TOPIC}

@@ -130,7 +130,7 @@ async def _probe_declared(
         inverted = any(are_inverted(each, min_measured=2) for each in group_probes(tried))
         if group is with_known_unit and inverted:
             return RateProbes(declared, tuple(tried))
-    if not any(p.name == SUGGESTED_RATE for p in numeric) and (await bench.facts(plain_start)).trace.samples_on(TOPIC):
+    if not any(p.name == SUGGESTED_RATE for p in numeric) and (await bench.facts(plain_start)).messages_go_on:
         # The node may answer no parameter call, or accept parameters that it does not declare.
         if declared is not None:
             fast = await bench.facts(probe_fast)

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checks.i1_1.facts import (
+    MATCHED_S,
     TOPIC,
     TYPE,
     UNITS,
@@ -38,6 +39,7 @@ from tests.checks.builders import (
     KEYBOARD_INTERRUPT,
     NO_NODE,
     NODE_UP,
+    START,
     assert_failed,
     assert_passed,
     ending,
@@ -66,7 +68,7 @@ def plain_start(seen: Trace, **more: Any) -> PlainStart:
 
 
 @pytest.mark.parametrize("parameters", [None, ()])
-@pytest.mark.parametrize("seen", [trace(*MESSAGES, graph=PUBLISHING), trace(MESSAGES[0], graph=NODE_UP)])
+@pytest.mark.parametrize("seen", [trace(*MESSAGES, graph=PUBLISHING), trace(*MESSAGES, graph=NODE_UP)])
 def test_publishes_passes(seen: Trace, parameters: Any) -> None:
     assert_passed(judge_publishes(plain_start(seen, parameters=parameters)))
 
@@ -85,6 +87,26 @@ def test_publishes_passes(seen: Trace, parameters: Any) -> None:
 )
 def test_publishes_fails(seen: Trace, parameters: Any, cause: str) -> None:
     assert_failed(judge_publishes(plain_start(seen, parameters=parameters)), cause)
+
+
+@pytest.mark.parametrize(
+    ("sent_s", "goes_on"),
+    [
+        ([0.1], False),
+        ([0.1, 0.2, 0.3, 0.4, 0.5], False),
+        ([3.0, 3.1, 3.2], False),  # after a long pause at the start
+        ([0.1, 1.1, 2.1], False),  # whether the second one counts would be a race
+        ([0.1, 6.0, 11.0], True),
+        ([0.6, 1.1, 1.6, 2.1, 2.6], True),
+    ],
+)
+@pytest.mark.parametrize("missed", [0, 1])
+def test_publishes_does_not_depend_on_what_was_missed_at_the_start(
+    sent_s: list[float], goes_on: bool, missed: int
+) -> None:
+    seen = trace(*(sample(TOPIC, 23.5, START + at) for at in sent_s[missed:]), graph=PUBLISHING)
+    verdict = judge_publishes(plain_start(seen, counted_from=START + MATCHED_S))
+    assert verdict.passed == goes_on
 
 
 @given(st.lists(st.lists(st.floats(20, 30), min_size=1).map(tuple), min_size=1).map(tuple))
@@ -385,5 +407,5 @@ def test_shutdown() -> None:
 
 
 def test_the_first_message_is_shown_in_the_format_of_ros2_topic_echo() -> None:
-    verdict = judge_publishes(plain_start(trace(sample(TOPIC, 21.25, 1001.0))))
+    verdict = judge_publishes(plain_start(trace(*samples(TOPIC, 2.0, data=21.25))))
     assert verdict.evidence == ("data: 21.25",)
