@@ -20,12 +20,21 @@ class CriterionResult:
 
 
 @dataclass(frozen=True, slots=True)
+class Lookup:
+    """Where files were missing: `looked_for` are their paths, `found` the names of what is in the first folder."""
+
+    looked_for: tuple[str, ...]
+    found: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class ExerciseResult:
     """One judged exercise. `submission` holds the names of the judged files; empty if there were none.
 
     `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure. `digests`: the
     digest of each of these files when the check began (see `tutor.workspace.digests`). `given`: the ids of the criteria
-    that the submission can only meet by code that came with the skeleton.
+    that the submission can only meet by code that came with the skeleton. `lookup`: what was looked for, if there was
+    nothing to judge.
     """
 
     id: str
@@ -36,6 +45,7 @@ class ExerciseResult:
     unjudged: tuple[str, ...] = ()
     digests: Mapping[str, str] = field(default_factory=dict)
     given: tuple[str, ...] = ()
+    lookup: Lookup | None = None
 
     @property
     def missing(self) -> str:
@@ -46,10 +56,11 @@ class ExerciseResult:
     def verdict(self) -> Status:
         """`PASSED` if every required criterion passed; `ERROR` if one could not be judged and none failed.
 
-        A check of bonus criteria only has passed, since nothing required is missing. A missing submission has failed.
+        A check of bonus criteria only has passed, since nothing required is missing. A missing submission has failed
+        beside others that were judged; where nothing at all was, its criteria say `ERROR`, and so does it.
         """
         if self.missing:
-            return Status.FAILED
+            return Status.ERROR if self.criteria[0].verdict.status is Status.ERROR else Status.FAILED
         required = [c.verdict.status for c in self.criteria if not c.bonus]
         return overall(required) if required or not self.criteria else Status.PASSED
 
@@ -75,12 +86,16 @@ class Restriction:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Everything that one `check` found. `isolation` is empty unless it was requested."""
+    """Everything that one `check` found. `isolation` is empty unless it was requested.
+
+    `message`: why nothing could be judged; empty if something was.
+    """
 
     environment: Environment
     exercises: tuple[ExerciseResult, ...]
     duration_s: float
     isolation: tuple[Restriction, ...] = ()
+    message: str = ""
 
     @property
     def verdict(self) -> Status:

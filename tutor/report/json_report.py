@@ -17,6 +17,7 @@ def render(report: Report) -> str:
     document: dict[str, Any] = {
         "schema": SCHEMA,
         "verdict": report.verdict.value,
+        **({"message": printable(report.message)} if report.message else {}),
         "duration_s": round(report.duration_s, 3),
         "environment": asdict(report.environment),
         "exercises": [_exercise(exercise) for exercise in report.exercises],
@@ -33,7 +34,17 @@ def _exercise(exercise: ExerciseResult) -> dict[str, Any]:
         "verdict": exercise.verdict.value,
         "duration_s": round(exercise.duration_s, 3),
         "submission": list(exercise.submission),
+        **({"missing": _missing(exercise)} if exercise.missing else {}),
         "criteria": [_criterion(criterion) for criterion in exercise.criteria],
+    }
+
+
+def _missing(exercise: ExerciseResult) -> dict[str, Any]:
+    lookup = exercise.lookup
+    return {
+        "message": printable(exercise.missing),
+        "looked_for": [] if lookup is None else [printable(path) for path in lookup.looked_for],
+        "found": [] if lookup is None else [printable(name) for name in lookup.found],
     }
 
 

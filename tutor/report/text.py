@@ -13,7 +13,7 @@ from rich.text import Text
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.report.plain import MARKS, describe, details, isolation_lines, seconds, tally
+from tutor.report.plain import MARKS, describe, details, isolation_lines, missing_lines, seconds, tally
 from tutor.terminal_text import printable
 
 STYLES = {Status.PASSED: "green", Status.FAILED: "red", Status.SKIPPED: "yellow", Status.ERROR: "magenta"}
@@ -81,8 +81,7 @@ def _exercise(exercise: ExerciseResult) -> Iterator[RenderableType | _Step]:
 
 
 def _missing(exercise: ExerciseResult) -> RenderableType:
-    hint = exercise.criteria[0].verdict.hint
-    return Padding(Text(printable(f"{exercise.missing}; {hint}" if hint else exercise.missing), "yellow"), (0, 0, 0, 2))
+    return Padding(Text("\n".join(missing_lines(exercise)), "yellow"), (0, 0, 0, 2))
 
 
 def _headline(criterion: CriterionResult, id_width: int) -> RenderableType:
@@ -130,6 +129,7 @@ def _summary(report: Report) -> RenderableType:
     duration = f"  in {seconds(report.duration_s)}"
     return Text.assemble(
         (f"{MARKS[verdict]} {verdict.value}", f"bold {STYLES[verdict]}"),
+        f": {printable(report.message)}\n" if report.message else "",
         tally_text,
         (
             "\n".join([duration, describe(report.environment), *isolation_lines(report)]),
