@@ -135,6 +135,13 @@ class RateProbes:
     declared: tuple[Parameter, ...] | None
     probes: tuple[RateProbe, ...]
 
+    @property
+    def spins(self) -> bool | None:
+        """Whether the node spins, as it must to answer parameter calls; None if it has no services for these."""
+        if self.declared is None and not any(probe.trace.graph.parameter_nodes for probe in self.probes):
+            return None
+        return self.declared is not None
+
 
 @dataclass(frozen=True)
 class NameProbe:

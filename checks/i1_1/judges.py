@@ -172,7 +172,8 @@ def judge_echo(seen: PlainStart) -> Verdict:
 def judge_rate(found: RateProbes) -> Verdict:
     expected = f"some numeric parameter, set at start-up, sets the rate (±{TOLERANCE:.0%})"
     for group in find_agreeing_groups(found.probes):
-        return passed(expected, f"{group[0].name} is read in {group[0].unit}", [str(probe) for probe in group])
+        observed = f"{group[0].name} is read in {group[0].unit}"
+        return passed(expected, observed, [str(probe) for probe in group], spins=found.spins)
     if not found.probes:
         return failed(expected, "no numeric parameter is declared", i1_1_causes.diagnose_undeclared_rate(None))
     declared = {parameter.name for parameter in found.declared or ()}

@@ -254,6 +254,18 @@ def test_rates_within_20_percent_pass(factors: list[float]) -> None:
     assert_passed(judge_rate(rates(*found)))
 
 
+@pytest.mark.parametrize(
+    ("declared", "services", "spins"),
+    [((RATE,), True, True), (None, True, False), (None, False, None)],
+)
+def test_rate_says_whether_the_node_spins(declared: Any, services: bool, spins: bool | None) -> None:
+    asked = {"/node/list_parameters": "rcl_interfaces/srv/ListParameters"} if services else {}
+    found = [probe(hz, hz, seen=trace(graph=graph(services=asked))) for hz in RATES_HZ]
+    verdict = judge_rate(rates(*found, declared=declared))
+    assert_passed(verdict)
+    assert verdict.spins is spins
+
+
 @given(st.sampled_from(range(3)), st.floats(0.01, 0.79) | st.floats(1.21, 100))
 def test_one_rate_off_by_more_than_20_percent_fails(which: int, factor: float) -> None:
     found = [probe(hz, hz * (factor if i == which else 1)) for i, hz in enumerate(RATES_HZ)]

@@ -12,6 +12,7 @@ from tutor.content import Lesson
 from tutor.engine.bench import RosBench
 from tutor.engine.first_failure import judge_until_failure, skipped_after, skipped_verdict
 from tutor.engine.isolation import Isolation
+from tutor.engine.not_shown import items_not_shown, read_all_sources
 from tutor.engine.provisional import Provisional
 from tutor.engine.so_far import SoFar
 from tutor.engine.start_limiter import StartLimiter
@@ -94,6 +95,7 @@ class Runner:
         self._announce()
         self._started = time.monotonic()
         digests, given = digests_of(self._submission.files), given_criteria(self._lesson, self._submission)
+        sources = read_all_sources(self._submission)
         needed = _with_dependencies(self._check, self._shown)
         try:
             for criterion in needed:
@@ -114,6 +116,7 @@ class Runner:
             unjudged=unjudged,
             digests=digests,
             given=given,
+            not_shown=items_not_shown(self._lesson, sources, results),
         )
         self._on_event(ExerciseJudged(result))
         return result

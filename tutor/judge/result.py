@@ -34,7 +34,7 @@ class ExerciseResult:
     `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure. `digests`: the
     digest of each of these files when the check began (see `tutor.workspace.digests`). `given`: the ids of the criteria
     that the submission can only meet by code that came with the skeleton. `lookup`: what was looked for, if there was
-    nothing to judge.
+    nothing to judge. `not_shown`: the ids of the checklist items of which it shows nothing, whatever it passes.
     """
 
     id: str
@@ -46,6 +46,7 @@ class ExerciseResult:
     digests: Mapping[str, str] = field(default_factory=dict)
     given: tuple[str, ...] = ()
     lookup: Lookup | None = None
+    not_shown: tuple[str, ...] = ()
 
     @property
     def missing(self) -> str:

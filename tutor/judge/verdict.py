@@ -45,7 +45,7 @@ class Verdict:
     """The diagnosis of one criterion: a status, and what was expected, observed, concluded and advised.
 
     `observed` contains numbers with units; `evidence` holds single lines to show verbatim (log lines, samples, the
-    learner's own line of code), oldest first.
+    learner's own line of code), oldest first. `spins`: whether the node was seen to spin, None if nothing shows it.
     """
 
     status: Status
@@ -54,6 +54,7 @@ class Verdict:
     cause: str = ""
     hint: str = ""
     evidence: tuple[str, ...] = ()
+    spins: bool | None = None
 
     @property
     def passed(self) -> bool:
@@ -91,9 +92,9 @@ def undecided(to_do: str) -> Undecided:
     return Undecided(Status.ERROR, cause=f"this machine is too busy {to_do}", hint=BUSY_HINT)
 
 
-def passed(expected: str, observed: str, evidence: Iterable[str] = ()) -> Verdict:
+def passed(expected: str, observed: str, evidence: Iterable[str] = (), *, spins: bool | None = None) -> Verdict:
     """The criterion is met."""
-    return Verdict(Status.PASSED, expected=expected, observed=observed, evidence=tuple(evidence))
+    return Verdict(Status.PASSED, expected=expected, observed=observed, evidence=tuple(evidence), spins=spins)
 
 
 def failed(expected: str, observed: str, cause: Cause, evidence: Iterable[str] = ()) -> Verdict:
