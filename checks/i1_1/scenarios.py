@@ -46,7 +46,8 @@ async def plain_start(bench: Bench) -> PlainStart:
                 counted_from = await _wait_until_messages_go_on(run, await began, stuck)
                 if go_on(run.samples_on(TOPIC), counted_from):
                     echo = await echoing
-                declared = await asking if not stuck.is_for_ever() else None
+                elif not stuck.is_for_ever():
+                    declared = await asking
             elif not stuck.is_for_ever():
                 declared = await run.parameters(ANSWER_S)
             trace = run.trace()
