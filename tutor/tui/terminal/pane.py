@@ -212,8 +212,8 @@ class TerminalPane(Vertical):
         message.stop()
         self._look(show=self._number)
 
-    @on(TerminalView.Changed)
-    def _scrolled(self, message: TerminalView.Changed) -> None:
+    @on(TerminalView.Scrolled)
+    def _scrolled(self, message: TerminalView.Scrolled) -> None:
         message.stop()
         self._hint()
 
