@@ -66,7 +66,7 @@ async def test_two_terminals_share_the_apps_domain_and_ctrl_c_ends_an_echo(
         await me.until(lambda: bool(rates(me)) and abs(rates(me)[-1] - 10.0) < 3.0, "about 10 Hz")
         await me.press("ctrl+c")
         await enter(me, "clear; ros2 topic echo /chatter")
-        await me.until(lambda: "data: Hello" in text(me) and "---" in text(me), "messages")
+        await me.until(lambda: "data: 'Hello #" in text(me) and "---" in text(me), "messages")
         assert me.main.busy
         await me.press("ctrl+c")
         await enter(me, "clear")

@@ -23,8 +23,11 @@ from tutor.process.supervisor import pack_request
 HANGUP_S = 1.0
 """How long the program may take to exit once its terminal is closed, before all of it is killed."""
 
-READ_BYTES, READ_INTERVAL_S = 1 << 16, 0.01
-"""At most this much is read at once, then nothing for a while: a flood waits in the program, not in our memory."""
+READ_BYTES, READ_INTERVAL_S = 1 << 16, 0.015
+"""At most this much is read at once, and from a program that goes on writing, no more often than this.
+
+A flood waits in the program, not in our memory; and a message at 1 kHz costs no wake-up of ours each.
+"""
 
 MAX_UNWRITTEN_BYTES = 1 << 20
 """How much may wait for a program that does not read. What is typed or pasted beyond that is dropped."""
@@ -45,6 +48,7 @@ class TerminalProgram:
         self._on_output, self._on_exit = on_output, on_exit
         self._unwritten = bytearray()
         self._resume: asyncio.TimerHandle | None = None
+        self._read_at = 0.0
         self.exit: Exit | None = None
         """How the program ended; None while it runs."""
         self._exited = asyncio.Event()
@@ -158,20 +162,22 @@ class TerminalProgram:
 
     def _read(self) -> None:
         """Read what is there, within bounds."""
-        found = bytearray()
-        while len(found) < READ_BYTES:
+        found, closed = bytearray(), False
+        while len(found) < READ_BYTES and not closed:
             try:
                 data = os.read(self._master, READ_BYTES)
             except BlockingIOError:
                 break
             except OSError:  # EIO: no process has the terminal open
                 data = b""
-            if not data:
-                self._loop.remove_reader(self._master)
-                break
+            closed = not data
             found += data
-        else:
+        now = self._loop.time()
+        goes_on = now - self._read_at < 2 * READ_INTERVAL_S or len(found) >= READ_BYTES
+        self._read_at = now
+        if closed or goes_on:
             self._loop.remove_reader(self._master)
+        if goes_on and not closed and self._resume is None:
             self._resume = self._loop.call_later(READ_INTERVAL_S, self._read_again)
         if found:
             self._on_output(bytes(found))

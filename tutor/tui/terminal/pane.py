@@ -58,6 +58,7 @@ class TerminalPane(Vertical):
         """Lines to type once the page is there; None once it is."""
         self._shutting_down = False
         self._hint_text = ""
+        self._tabs_width = 0
 
     def compose(self) -> ComposeResult:
         with Horizontal(id="terminal-line"):
@@ -191,7 +192,8 @@ class TerminalPane(Vertical):
         labels = {str(number): self._label(number) for number in sorted(self._terminals)} or {"": ""}
         if labels != tabs.labels:
             tabs.labels = labels
-            tabs.styles.width = sum(cell_len(label) + TAB_EXTRA_WIDTH for label in labels.values()) + TAB_EXTRA_WIDTH
+            self._tabs_width = sum(cell_len(label) + TAB_EXTRA_WIDTH for label in labels.values()) + 1
+            tabs.styles.width = self._tabs_width
         if show is not None:
             tabs.active = str(show or "")
             for number, terminal in self._terminals.items():
@@ -222,6 +224,10 @@ class TerminalPane(Vertical):
         message.stop()
         self.query_one(TabStrip).focus()
 
+    def on_resize(self, event: events.Resize) -> None:
+        """Fit the tabs and the hint into the new width."""
+        self._look()
+
     def on_descendant_focus(self, event: events.DescendantFocus) -> None:
         """Say which keys there are now."""
         self._hint()
@@ -231,15 +237,22 @@ class TerminalPane(Vertical):
         self._hint()
 
     def _hint(self) -> None:
+        """Say which keys there are, in as many words as there is room for beside the tabs."""
         terminal = self.shown
         if terminal is None:
-            text = ""
+            texts: tuple[str, ...] = ()
         elif below := terminal.rows_below:
-            text = f"{below} more rows below · Shift+PgDn, or any key"
+            texts = (f"{below} more rows below · Shift+PgDn, or any key", f"{below} rows below")
         elif terminal.has_focus:
-            text = "Ctrl+] or an F key leaves · Shift+PgUp scrolls back"
+            texts = (
+                "Ctrl+] or an F key leaves · Shift+PgUp scrolls back",
+                "Ctrl+] or an F key leaves",
+                "Ctrl+] leaves",
+            )
         else:
-            text = "Enter types · 1-9 shows · + new · - close"
+            texts = ("Enter types · 1-9 shows · + new · - close", "Enter types · 1-9 shows", "Enter types")
+        room = self.size.width - self._tabs_width - 2
+        text = next((text for text in texts if cell_len(text) <= room), "")
         if text != self._hint_text:
             self._hint_text = text
             self.query_one("#terminal-hint", Static).update(text)

@@ -19,7 +19,7 @@ from tutor.tui.terminal.styled_rows import styled_row
 if TYPE_CHECKING:
     from tutor.tui.terminal.emulator import Emulator
 
-FLOOD_INTERVAL_S, TYPING_INTERVAL_S = 1 / 15, 1 / 60
+FLOOD_INTERVAL_S, TYPING_INTERVAL_S = 1 / 10, 1 / 30
 """Time between two paints while output arrives all the time: in general, and just after a key."""
 
 TYPING_S = 0.3
