@@ -2,8 +2,8 @@
 
     uv run python -m tests.benchmarks.shell [--rates 1000] [--seconds 15]
 
-The whole app runs in its own terminal (a pty). First the echo is in view, and the key that leaves the terminal takes
-turns with the one that goes back into it; then it runs out of view, and a letter is typed at the prompt of another
+The whole app runs in its own terminal (a pty). First the echo is in view, and the key that scrolls back takes turns
+with a letter, which goes to the end again; then it runs out of view, and a letter is typed at the prompt of another
 terminal. The time for which no core was free is reported separately, as in `tests.benchmarks.live`.
 """
 
@@ -26,7 +26,7 @@ from tutor.content import load_course
 from tutor.workspace import Workspace, start
 
 APP = "import sys; from tutor.cli import main; sys.exit(main())"
-LEAVE = b"\x1d"
+LEAVE, SCROLL_UP = b"\x1d", b"\x1b[5;2~"
 MAX_P95_MS, MAX_CPU = 50.0, 0.15
 
 
@@ -43,7 +43,7 @@ def measure(ros_world: PrivateDomain, rate: int, seconds: float, folder: Path) -
     app.press(b"ros2 topic echo /ticks\r")
     app.wait_for_text(b"---")
     app.drain(2.0)
-    in_view = cycle([(LEAVE, b"1-9 shows"), (b"\r", b"or an F key leaves")])
+    in_view = cycle([(SCROLL_UP, b"more rows below"), (b"x", b"or an F key leaves")])
     met = report(app, f"{rate} Hz in view", in_view, seconds)
     app.press(LEAVE)
     app.wait_for_text(b"1-9 shows")

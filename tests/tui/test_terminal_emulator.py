@@ -87,7 +87,7 @@ def test_the_screen_has_colours_wide_characters_a_cursor_and_a_history() -> None
     first, second, *_ = [styled_row(row, 40, Style()) for row in terminal.rows()]
     styles = {segment.text.strip(): segment.style for segment in first}
     red, blue = styles["red"], styles["b"]
-    assert str(red) == "bold red"
+    assert str(red) == "bold color(1)"
     assert str(blue) == "on #010203"
     assert second.text.rstrip() == "漢字 e\u0301"
     assert cursor(terminal) == (3, 2)

@@ -255,7 +255,7 @@ class TerminalPane(Vertical):
         text = next((text for text in texts if cell_len(text) <= room), "")
         if text != self._hint_text:
             self._hint_text = text
-            self.query_one("#terminal-hint", Static).update(text)
+            self.query_one("#terminal-hint", Static).update(text, layout=False)
 
 
 _EMPTY_TEXT = Content.assemble(
