@@ -62,7 +62,8 @@ def measure(ros_world: PrivateDomain, rate: int, seconds: float, folder: Path) -
 def report(app: Terminal, name: str, keys: Iterator[tuple[bytes, bytes]], seconds: float) -> bool:
     """Press keys and wait for the effect of each; print the figures, and return whether the targets were met."""
     before, began = read_usage(app.pid), time.perf_counter()
-    took, own = [], []
+    took: list[float] = []
+    own: list[float] = []
     while time.perf_counter() - began < seconds or len(took) % 2:
         key, effect = next(keys)
         app.drain(random.uniform(0.1, 0.3))
