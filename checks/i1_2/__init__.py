@@ -23,7 +23,7 @@ CHECK = Check(
         Criterion(
             "rate",
             with_deeper_cause(judges.judge_rate),
-            (scenarios.steady, scenarios.jump, scenarios.restart),
+            (scenarios.steady, scenarios.jump, scenarios.restart, scenarios.fast),
         ),
         Criterion(
             "summary",
@@ -34,12 +34,19 @@ CHECK = Check(
         Criterion(
             "restart",
             with_deeper_cause(judge_restart),
-            (scenarios.restart, scenarios.steady, scenarios.jump),
+            (scenarios.restart, scenarios.steady, scenarios.jump, scenarios.fast),
         ),
         Criterion(
             "gaps",
             with_deeper_cause(judge_gaps),
-            (scenarios.jump, scenarios.jump_twice, scenarios.steady),
+            (
+                scenarios.jump,
+                scenarios.jump_twice,
+                scenarios.jump_after_zero,
+                scenarios.restart,
+                scenarios.steady,
+                scenarios.fast,
+            ),
         ),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.fast,), bonus=True),
     ),

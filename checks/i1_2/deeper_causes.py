@@ -49,7 +49,7 @@ def _diagnose_waiting(trials: Sequence[Trial]) -> Cause | None:
     for trial in trials:
         if behind := backlog.messages_behind(trial):
             text = f"it handles a message when {behind} newer ones have come, or never"
-        elif any(backlog.find_lost(trial, each) for each in trials):
+        elif not trial.first_publisher_left_at and any(backlog.find_lost(trial, each) for each in trials):
             text = "some messages never reach its callback"
         elif trial.sent and trial.spins and not trial.lines:
             text = "it is not done with its messages in time"

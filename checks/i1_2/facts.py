@@ -42,6 +42,9 @@ had been 5.00 in another run. One is due soon after each jump, and after a singl
 messages. A node that restarts its count at the first jump reaches ten again before the end.
 """
 
+AFTER_ZERO_MESSAGES = 12
+"""On one more start, N jumps from 0; the next summary is due soon afterwards."""
+
 FIRST_NUMBERS = (90, 97)
 """Range of the first N. It passes 100 before the jump, where nodes that compare texts or two last digits go wrong."""
 LEFT_OUT = (4, 8)
@@ -99,7 +102,7 @@ class Trial:
     `before_second_jump`: the number sent before N jumped once more; 0 if it did not. `first_publisher_left_at`: when
     the first publisher left (seconds since the epoch; 0.0 if it stayed). `cpu_wait_s`: for how long the node waited for
     a CPU while the messages were sent. `spins`: whether the node answered a request; if not, `stuck` holds the stack
-    frames where it was.
+    frames where it was. `new_subscriptions`: how many more the node made while the messages were sent.
     """
 
     trace: Trace
@@ -111,6 +114,7 @@ class Trial:
     stuck: tuple[Frame, ...] = ()
     ending: Ending | None = None
     before_second_jump: int = 0
+    new_subscriptions: int = 0
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from checks.i1_2 import backlog
+from checks.i1_2 import backlog, losses
 from checks.i1_2.causes import (
     EVERY_MESSAGE,
     diagnose_count,
@@ -81,6 +81,7 @@ def _fast_summaries(fast: Trial) -> Sequence[Summary]:
     """The summaries of a fast stretch; none if some may be missing, late or torn because the messages came fast.
 
     Nor if there are two subscriptions that may log each message twice: the slow messages show the cause of that better.
+    Nor if the node makes new ones all the time: what it loses is luck.
     """
     summaries = find_summaries(fast)
     whole = (
@@ -90,4 +91,5 @@ def _fast_summaries(fast: Trial) -> Sequence[Summary]:
     )
     prompt = fast.spins and fast.allowance_s < STALL_S and not backlog.messages_behind(fast)
     alone = sum(each.topic == TOPIC for each in fast.trace.graph.subscriptions) == 1
-    return summaries if whole and prompt and alone else ()
+    steady = not losses.renews_subscription(fast)
+    return summaries if whole and prompt and alone and steady else ()

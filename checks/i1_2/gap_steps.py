@@ -29,6 +29,37 @@ def diagnose_alarm(trace: Trace, false: Sequence[str] = ()) -> Cause | None:
     return _with_step(found, steps.compare_numbers(trace, false))
 
 
+def diagnose_zero(trace: Trace) -> Cause:
+    """Why the node does not report a jump from 0, though it reports others."""
+    tested = next(filter(None, map(_find_truth_test, source.callbacks(trace, "create_subscription"))), None)
+    text = "a jump from another number is noticed: 0 is false in Python, as None is"
+    return Cause(
+        "0 taken for no number",
+        f"{text}, so that {where(tested)} is not true after N = 0" if tested else text,
+        "ask whether there is a last number with “is None” or “is not None”, not by its truth value",
+    )
+
+
+def _find_truth_test(function: Function) -> ast.expr | None:
+    """A variable that is tested for its truth value, and with which the function also compares or computes."""
+    inside = list(ast.walk(function))
+    used = {
+        ast.unparse(each)
+        for node in inside
+        if isinstance(node, ast.Compare | ast.BinOp)
+        for each in ast.iter_child_nodes(node)
+        if isinstance(each, ast.Name | ast.Attribute)
+    }
+    for node in inside:
+        tests = [node.test] if isinstance(node, ast.If | ast.IfExp) else []
+        tests += node.values if isinstance(node, ast.BoolOp) else []
+        for test in tests:
+            tested = test.operand if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not) else test
+            if isinstance(tested, ast.Name | ast.Attribute) and ast.unparse(tested) in used:
+                return tested
+    return None
+
+
 def diagnose_no_messages(trace: Trace) -> Cause | None:
     """Why the node does not report a gap."""
     functions = source.callbacks(trace, "create_subscription")

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from checks.i1_2 import gap_steps, steps
+from checks.i1_2 import gap_steps, losses, steps
 from checks.i1_2.causes import diagnose_end
 from checks.i1_2.facts import Trial
+from checks.i1_2.negative_losses import find_negative_loss
 from checks.i1_2.rates import sent_hz
 from checks.i1_2.reading import Line
-from checks.i1_2.reports import is_before_jump, new_lines
+from checks.i1_2.reports import is_before_jump, kinds_about_first_message, new_lines
 from checks.i1_2.summaries import find_summaries
 from tutor.judge import causes
 from tutor.judge.causes import printing
@@ -21,12 +22,70 @@ SETTLING_MESSAGES = 2
 """An alarm about a jump is logged before this many more messages have been sent."""
 
 
-def judge_gaps(jump: Trial, jump_twice: Trial, steady: Trial) -> Verdict:
+EXPECTED = "when N jumps, a log message or a gap count in the next summary says so; while N rises by one, none does"
+
+
+def judge_gaps(
+    jump: Trial, jump_twice: Trial, jump_after_zero: Trial, restart: Trial, steady: Trial, fast: Trial
+) -> Verdict:
     """Judge `gaps`."""
+    if find_summaries(steady) and losses.is_certain(steady, fast):
+        return skipped(losses.SEE_COUNT)
+    verdict = judge_rising(jump, jump_twice, steady)
+    if not verdict.passed:
+        return verdict
+    failure = judge_jump_after_zero(jump_after_zero, steady, jump) or judge_fall(restart, jump, jump_twice, steady)
+    return failure or verdict
+
+
+def judge_rising(jump: Trial, jump_twice: Trial, steady: Trial) -> Verdict:
+    """Judge `gaps` by the runs in which N rises, and jumps far from 0."""
     if not jump.sent or not jump_twice.sent or (not find_summaries(steady) and not steady.lines):
         return skipped("not judged, because the node logs nothing about the messages: see `summary`")
     verdict = judge_jumps(jump, steady, jump_twice)
     return judge_jumps(jump_twice, steady) if verdict.passed else verdict
+
+
+def judge_jump_after_zero(after_zero: Trial, steady: Trial, jump: Trial) -> Verdict | None:
+    """Fail a node that reports other jumps, but not one from 0."""
+    if (ended := _fail_if_ended(after_zero)) is not None:
+        return ended
+    if not after_zero.jumps:
+        return None
+    # What is said about a first message may be late, and that one is 0 in the steady run, too.
+    usual_kinds = kinds_about_first_message(steady)
+    if new_lines(after_zero, since=after_zero.sent[1].at, usual=(steady, jump), usual_kinds=usual_kinds):
+        return None
+    observed = f"N jumped from 0 to {after_zero.sent[1].number}; nothing new was logged"
+    evidence = [line.text for line in after_zero.lines[:6]]
+    return failed(EXPECTED, observed, gap_steps.diagnose_zero(after_zero.trace), evidence)
+
+
+def judge_fall(restart: Trial, jump: Trial, jump_twice: Trial, steady: Trial) -> Verdict | None:
+    """Fail a node that states a negative number of missing messages when a new publisher starts over at 0."""
+    if (line := find_negative_loss(restart, jump, jump_twice, steady)) is None:
+        return None
+    before, after = restart.sent[restart.before_break - 1 : restart.before_break + 1]
+    return failed(
+        f"{EXPECTED}; when N falls, no negative number of messages is missing",
+        f"N fell from {before.number} to {after.number}: {line.text}",
+        Cause(
+            "negative number of missing messages",
+            "N falls when the talker starts over: then the difference of the two numbers is no count of messages, and "
+            "nothing shows that any is missing",
+            "where N is lower than the last one, say that the talker was restarted, if you like; say that messages are "
+            "missing, and add up how many, only where it is higher than the last one + 1",
+        ),
+        [line.text],
+    )
+
+
+def _fail_if_ended(trial: Trial) -> Verdict | None:
+    if trial.trace.exit is None:
+        return None
+    words = causes.output_tail(trial.trace)
+    observed = f"the node ended after {len(trial.sent)} messages"
+    return failed(EXPECTED, observed, diagnose_end(trial, "a jump of N"), words)
 
 
 def judge_jumps(jump: Trial, steady: Trial, jump_twice: Trial | None = None) -> Verdict:
@@ -35,12 +94,9 @@ def judge_jumps(jump: Trial, steady: Trial, jump_twice: Trial | None = None) -> 
     `jump_twice`: another one, in which it jumps again where it rises by one in the first: with it, a count of lost
     messages that keeps rising is told from a count of messages since the last jump.
     """
-    expected = "when N jumps, a log message or a gap count in the next summary says so; while N rises by one, none does"
-    if jump.trace.exit is not None:
-        words = causes.output_tail(jump.trace)
-        return failed(
-            expected, f"the node ended after {len(jump.sent)} messages", diagnose_end(jump, "a jump of N"), words
-        )
+    expected = EXPECTED
+    if (ended := _fail_if_ended(jump)) is not None:
+        return ended
     reports = new_lines(jump, since=jump.sent[jump.before_break].at, usual=(steady,))
     jumped = [f"from {jump.sent[index - 1].number} to {jump.sent[index].number}" for index in jump.jumps]
     observed = f"N jumped {', and '.join(jumped)}"

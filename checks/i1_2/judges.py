@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from checks.i1_2 import backlog, kept_rate, rates, slowness
+from checks.i1_2 import backlog, kept_rate, losses, rates, slowness
 from checks.i1_2.causes import (
     diagnose_count,
     diagnose_fewer_summaries,
@@ -31,6 +31,10 @@ NO_SUMMARY = "not judged, because there is no summary to read: see `summary`"
 
 def judge_count(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     """Judge `count`."""
+    renewing = next((trial for trial in (steady, fast) if losses.renews_subscription(trial)), None)
+    if renewing is not None and find_summaries(steady):
+        observed, evidence = losses.describe_renewals(renewing), [str(summary) for summary in find_summaries(renewing)]
+        return failed(EXPECTED_COUNT, observed, losses.diagnose_renewals(), evidence[:6])
     verdict = judge_slow_count(steady, jump)
     if not verdict.passed:
         return verdict
@@ -74,8 +78,15 @@ def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
     return passed(expected, f"{len(seen)} summaries state {stated}", [str(summary) for _, summary in seen])
 
 
-def judge_rate(steady: Trial, jump: Trial, restart: Trial | None = None) -> Verdict:
-    """Judge `rate`. `restart`: a run in which the rate changes."""
+def judge_rate(steady: Trial, jump: Trial, restart: Trial, fast: Trial) -> Verdict:
+    """Judge `rate`."""
+    if find_summaries(steady) and losses.is_certain(steady, fast):
+        return skipped(losses.SEE_COUNT)
+    return judge_stated_rate(steady, jump, restart)
+
+
+def judge_stated_rate(steady: Trial, jump: Trial, restart: Trial | None = None) -> Verdict:
+    """Judge `rate` of a node that loses no messages. `restart`: a run in which the rate changes."""
     summaries = [summary for summary in find_summaries(steady) if summary.messages > 1]  # one message gives no rate yet
     if not summaries:
         return skipped(NO_SUMMARY)
@@ -109,6 +120,8 @@ def judge_rate(steady: Trial, jump: Trial, restart: Trial | None = None) -> Verd
 
 
 def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
+    if find_summaries(steady) and losses.is_certain(steady, fast):
+        return skipped(losses.SEE_COUNT)
     verdict = judge_slow_summary(steady, jump)
     if not verdict.passed or backlog.find_lost(fast, steady) is not None:  # `count` reports lost messages
         return verdict

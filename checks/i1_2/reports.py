@@ -13,15 +13,22 @@ from tutor.judge.trace import Level
 from tutor.judge.wording import shape
 
 
-def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial]) -> list[Line]:
+def new_lines(
+    trial: Trial,
+    *,
+    since: float,
+    usual: Sequence[Trial],
+    usual_kinds: frozenset[tuple[int, str]] = frozenset(),
+) -> list[Line]:
     """The lines from `since` on that the node does not log while N rises by one.
 
     These are lines of a new kind, or with a change in a number that was constant before. `usual`: other trials, used up
-    to their own jump. Lines logged with a first message are not alarms, and do not define usual kinds.
+    to their own jump. Lines logged with a first message are not alarms, and do not define usual kinds, except those of
+    `usual_kinds`.
     """
     before = [line for line in trial.lines if line.at < since and not _is_about_first_message(line, trial)]
     elsewhere = [[line for line in other.lines if is_before_jump(line, other)] for other in usual]
-    known = {line.kind for lines in (before, *elsewhere) for line in lines}
+    known = {line.kind for lines in (before, *elsewhere) for line in lines} | usual_kinds
     warnings = {_with_short_lists(line) for lines in (before, *elsewhere) for line in lines if line.level >= Level.WARN}
     in_summaries = {line: summary for summary in find_summaries(trial) for line in summary.lines}
     reports = []
@@ -44,6 +51,11 @@ def _with_short_lists(line: Line) -> str:
     A node that warns about each message, with a list of numbers, does not report a jump by a longer list.
     """
     return re.sub(r"#(?:, ?#)+", "#", shape(line.text))
+
+
+def kinds_about_first_message(trial: Trial) -> frozenset[tuple[int, str]]:
+    """The kinds of lines that may be about a first message."""
+    return frozenset(line.kind for line in trial.lines if _is_about_first_message(line, trial))
 
 
 def is_before_jump(line: Line, trial: Trial) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from checks.i1_2 import steps
+from checks.i1_2 import losses, steps
 from checks.i1_2.causes import diagnose_end
 from checks.i1_2.facts import OURS, SUMMARY_EVERY, Trial
 from checks.i1_2.judges import NO_SUMMARY, judge_slow_summary
@@ -16,8 +16,15 @@ from tutor.judge import causes
 from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
 
 
-def judge_restart(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
+def judge_restart(restart: Trial, steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     """Judge `restart`."""
+    if find_summaries(steady) and losses.is_certain(steady, fast):
+        return skipped(losses.SEE_COUNT)
+    return judge_new_publisher(restart, steady, jump)
+
+
+def judge_new_publisher(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
+    """Judge `restart` of a node that loses no messages."""
     expected = "the publisher goes away, a new one starts over at 0: the node lives on and keeps counting"
     if not find_summaries(steady):
         return skipped(NO_SUMMARY)

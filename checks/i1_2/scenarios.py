@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from checks.i1_2.facts import (
     ABSENT_S,
+    AFTER_ZERO_MESSAGES,
     FAST_HZ,
     FAST_MESSAGES,
     FILE,
@@ -55,6 +56,7 @@ STUCK_S = 1.5
 
 STEADY_EXPECTED_S = QUIET_S + STEADY_MESSAGES / STEADY_HZ[0]
 JUMP_EXPECTED_S = MATCH_S + JUMP_MESSAGES / UNTIMED_HZ
+AFTER_ZERO_EXPECTED_S = MATCH_S + AFTER_ZERO_MESSAGES / UNTIMED_HZ
 FAST_EXPECTED_S = MATCH_S + FAST_MESSAGES / FAST_HZ
 
 
@@ -70,8 +72,15 @@ async def steady(bench: Bench) -> Trial:
             return Trial(run.trace(), spins=match.spins)
         waited_before_s = run.node_cpu_wait_s()
         sent: list[Sent] = []
+        matches = talker.matches
         await _send(bench, run, talker, sent, range(STEADY_MESSAGES), match.hz(random.uniform(*STEADY_HZ)))
-        trial = Trial(run.trace(), tuple(sent), cpu_wait_s=run.node_cpu_wait_s() - waited_before_s, spins=match.spins)
+        trial = Trial(
+            run.trace(),
+            tuple(sent),
+            cpu_wait_s=run.node_cpu_wait_s() - waited_before_s,
+            spins=match.spins,
+            new_subscriptions=talker.matches - matches,
+        )
         trial = await _collect_last_logs(run, trial, match)
         if find_summaries(trial):
             return trial
@@ -124,6 +133,22 @@ async def _jump(bench: Bench, jumps: Sequence[int]) -> Trial:
         return await _collect_last_logs(run, trial, match)
 
 
+async def jump_after_zero(bench: Bench) -> Trial:
+    """Send 0 as the first message, and skip several numbers right after it."""
+    _, left_out = await bench.facts(choose_numbers)
+    numbers = (0, *range(left_out + 1, left_out + AFTER_ZERO_MESSAGES))
+    async with bench.start(FILE, expected_s=AFTER_ZERO_EXPECTED_S) as run, run.publisher(TOPIC, TYPE) as talker:
+        match = await _wait_for_match(bench, run, talker, MATCH_S)
+        if not talker.subscribers:
+            return Trial(run.trace(), spins=match.spins)
+        waited_before_s = run.node_cpu_wait_s()
+        sent: list[Sent] = []
+        await _send(bench, run, talker, sent, numbers, match.hz(UNTIMED_HZ))
+        cpu_wait_s = run.node_cpu_wait_s() - waited_before_s
+        trial = Trial(run.trace(), tuple(sent), min(len(sent), 1), cpu_wait_s=cpu_wait_s, spins=match.spins)
+        return await _collect_last_logs(run, trial, match)
+
+
 @repeat_if_doubtful
 async def fast(bench: Bench) -> Trial:
     """Send messages as fast as a typical sensor for a short while; then press Ctrl+C."""
@@ -134,9 +159,15 @@ async def fast(bench: Bench) -> Trial:
         waited_before_s = run.node_cpu_wait_s()
         sent: list[Sent] = []
         first = random.randint(0, 50)
+        matches = talker.matches
         await _send(bench, run, talker, sent, range(first, first + FAST_MESSAGES), match.hz(FAST_HZ))
-        cpu_wait_s = run.node_cpu_wait_s() - waited_before_s
-        trial = Trial(run.trace(), tuple(sent), cpu_wait_s=cpu_wait_s, spins=match.spins)
+        trial = Trial(
+            run.trace(),
+            tuple(sent),
+            cpu_wait_s=run.node_cpu_wait_s() - waited_before_s,
+            spins=match.spins,
+            new_subscriptions=talker.matches - matches,
+        )
         trial = await _collect_last_logs(run, trial, match)
         bench.report_progress(0.95, "pressing Ctrl+C")
         return replace(trial, ending=await run.interrupt() if run.exit is None else None)

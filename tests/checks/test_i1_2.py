@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from checks.i1_2 import CHECK, fast_stretch, judges
 from checks.i1_2.facts import (
+    AFTER_ZERO_MESSAGES,
     FAST_HZ,
     FAST_MESSAGES,
     FIRST_NUMBERS,
@@ -26,9 +27,9 @@ from checks.i1_2.facts import (
     Sent,
     Trial,
 )
-from checks.i1_2.gaps import judge_gaps, judge_jumps
+from checks.i1_2.gaps import judge_gaps, judge_jumps, judge_rising
 from checks.i1_2.reading import parse_log, values
-from checks.i1_2.restart import judge_restart
+from checks.i1_2.restart import judge_new_publisher, judge_restart
 from checks.i1_2.scenarios import _logs_something_new
 from checks.i1_2.summaries import find_summaries
 from tests.checks.builders import (
@@ -152,6 +153,11 @@ def jump_twice(node: FakeStats, missed: int = LEFT_OUT[0], *, first: int = 95, *
     return jump(node, missed, first=first, twice=True, **more)
 
 
+def jump_after_zero(node: FakeStats, missed: int = LEFT_OUT[0], **more: object) -> Trial:
+    numbers = [0, *range(missed + 1, missed + AFTER_ZERO_MESSAGES)]
+    return feed(node, numbers, 8.0, before_break=1, **more)  # type: ignore[arg-type]
+
+
 def fast(node: FakeStats, **more: object) -> Trial:
     return feed(node, range(7, 7 + FAST_MESSAGES), FAST_HZ, **more)  # type: ignore[arg-type]
 
@@ -168,16 +174,17 @@ def judge_trials(make: Callable[[], FakeStats], **more: object) -> dict[str, Ver
     restart_trial, fast_trial = restart(make(), **more), fast(make(), **more)
     count = judges.judge_count(steady_trial, jump_trial, fast_trial)
     summary = judges.judge_summary(steady_trial, jump_trial, fast_trial)
-    gaps = judge_gaps(jump_trial, twice_trial, steady_trial)
+    zero_trial = jump_after_zero(make(), **more)  # type: ignore[arg-type]
+    gaps = judge_gaps(jump_trial, twice_trial, zero_trial, restart_trial, steady_trial, fast_trial)
     early_count, early_summary = fast_stretch.judge_fast_count(fast_trial), fast_stretch.judge_fast_summary(fast_trial)
     for early, verdict in ((early_count, count), (early_summary, summary)):
         assert early is None or verdict.status is early.status is Status.FAILED
         assert early is None or early.cause.split(":")[0] == verdict.cause.split(":")[0]
     return {
         "count": count,
-        "rate": judges.judge_rate(steady_trial, jump_trial),
+        "rate": judges.judge_stated_rate(steady_trial, jump_trial),
         "summary": summary,
-        "restart": judge_restart(restart_trial, steady_trial, jump_trial),
+        "restart": judge_restart(restart_trial, steady_trial, jump_trial, fast_trial),
         "gaps": gaps,
     }
 
@@ -578,8 +585,8 @@ def test_correct_nodes_pass_whatever_numbers_are_chosen(node: type[FakeStats]) -
         steady_trial, jump_trial = steady(node()), jump(node(), missed, first=first)
         assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
         assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
-        assert_passed(judges.judge_rate(steady_trial, jump_trial))
-        assert_passed(judge_gaps(jump_trial, jump_twice(node(), missed, first=first), steady_trial))
+        assert_passed(judges.judge_stated_rate(steady_trial, jump_trial))
+        assert_passed(judge_rising(jump_trial, jump_twice(node(), missed, first=first), steady_trial))
 
 
 @pytest.mark.parametrize("node", RIGHT)
@@ -630,11 +637,11 @@ def test_correct_nodes_pass_in_any_format(
 
     steady_trial, jump_trial = steady(Formatted(), hz, late_s=late_s), jump(Formatted(), missed, late_s=late_s)
     assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
-    assert_passed(judges.judge_rate(steady_trial, jump_trial))
+    assert_passed(judges.judge_stated_rate(steady_trial, jump_trial))
     assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
     twice = jump_twice(Formatted(), missed, late_s=late_s)
-    assert_passed(judge_gaps(jump_trial, twice, steady_trial))
-    assert_passed(judge_restart(restart(Formatted(), late_s=late_s), steady_trial, jump_trial))
+    assert_passed(judge_rising(jump_trial, twice, steady_trial))
+    assert_passed(judge_new_publisher(restart(Formatted(), late_s=late_s), steady_trial, jump_trial))
 
 
 # Faulty nodes.
@@ -721,7 +728,7 @@ def test_a_wrong_rate_in_a_late_summary_is_diagnosed(wrong: str, late: slice) ->
         logs = list(steady_trial.trace.logs)
         logs[late] = [replace(log, stamp=log.stamp + 0.25) for log in logs[late]]
         seen = replace(steady_trial, trace=replace(steady_trial.trace, logs=tuple(logs)))
-        assert_failed(judges.judge_rate(seen, jump(node())), wrong.removeprefix("rate: "))
+        assert_failed(judges.judge_stated_rate(seen, jump(node())), wrong.removeprefix("rate: "))
 
 
 class HighestAsLast(FakeStats):
@@ -1304,7 +1311,7 @@ def test_a_loss_that_keeps_rising_is_recognised_whatever_number_is_chosen(
     node: type[FakeStats], late_s: float, missed: int
 ) -> None:
     trials = (jump(node(), missed, late_s=late_s), jump_twice(node(), missed, late_s=late_s))
-    assert_failed(judge_gaps(*trials, steady(node(), late_s=late_s)), "false alarm")
+    assert_failed(judge_rising(*trials, steady(node(), late_s=late_s)), "false alarm")
 
 
 @dataclass
@@ -1318,7 +1325,7 @@ class RateOverTheLastSecond(FakeStats):
 
 def test_a_rate_that_rises_after_the_jump_is_no_loss() -> None:
     trials = (jump(RateOverTheLastSecond()), jump_twice(RateOverTheLastSecond()))
-    assert_passed(judge_gaps(*trials, steady(RateOverTheLastSecond())))
+    assert_passed(judge_rising(*trials, steady(RateOverTheLastSecond())))
 
 
 class KeepsTheRate(FakeStats):
@@ -1344,13 +1351,13 @@ class KeepsWholeRate(KeepsTheRate):
 
 def test_a_rate_that_is_kept_when_it_changes_is_wrong() -> None:
     trials = steady(KeepsTheRate()), jump(KeepsTheRate())
-    assert_passed(judges.judge_rate(*trials))
-    assert_failed(judges.judge_rate(*trials, restart(KeepsTheRate())), "rate never updated", "still 8.89")
+    assert_passed(judges.judge_stated_rate(*trials))
+    assert_failed(judges.judge_stated_rate(*trials, restart(KeepsTheRate())), "rate never updated", "still 8.89")
 
 
 @pytest.mark.parametrize("node", [FakeStats, AlsoStatesTheFirstRate, KeepsWholeRate])
 def test_another_rate_that_is_the_same_is_no_mistake(node: type[FakeStats]) -> None:
-    assert_passed(judges.judge_rate(steady(FakeStats()), jump(FakeStats()), restart(node())))
+    assert_passed(judges.judge_stated_rate(steady(FakeStats()), jump(FakeStats()), restart(node())))
 
 
 class CutsTheContent(FakeStats):
@@ -1399,9 +1406,10 @@ class LosesOneEarly(FakeStats):
 
 def test_a_message_that_a_node_may_have_lost_before_a_restart_is_undecided() -> None:
     restarted, others = restart(LosesOneEarly()), (steady(FakeStats()), jump(FakeStats()))
-    assert_failed(judge_restart(restarted, *others), "wrong count after a restart")
-    assert_failed(judge_restart(with_delays(restarted, 8, cpu_wait_s=0.02), *others), "wrong count after a restart")
-    assert_undecided(judge_restart(with_delays(restarted, 8, cpu_wait_s=0.1), *others))
+    assert_failed(judge_new_publisher(restarted, *others), "wrong count after a restart")
+    hurried, starved = (with_delays(restarted, 8, cpu_wait_s=wait_s) for wait_s in (0.02, 0.1))
+    assert_failed(judge_new_publisher(hurried, *others), "wrong count after a restart")
+    assert_undecided(judge_new_publisher(starved, *others))
 
 
 @pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])
@@ -1453,10 +1461,10 @@ def test_a_wrong_number_is_found_in_any_format(written: str, by: int, factor: fl
 
     off, scale = by, 1.0
     assert judges.judge_slow_count(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
-    assert judges.judge_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
+    assert judges.judge_stated_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
     off, scale = 0, factor
     assert judges.judge_slow_count(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
-    assert judges.judge_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
+    assert judges.judge_stated_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
 
 
 def test_a_gap_that_is_only_printed_fails() -> None:
@@ -1510,9 +1518,9 @@ def test_without_a_summary_the_other_criteria_are_skipped() -> None:
     nothing = replace(steady(FakeStats()), trace=trace(graph=LISTENING))
     for verdict in (
         judges.judge_slow_count(nothing, nothing),
-        judges.judge_rate(nothing, nothing),
-        judge_restart(restart(FakeStats()), nothing, nothing),
-        judge_gaps(nothing, nothing, nothing),
+        judges.judge_stated_rate(nothing, nothing),
+        judge_new_publisher(restart(FakeStats()), nothing, nothing),
+        judge_rising(nothing, nothing, nothing),
     ):
         assert verdict.status is Status.SKIPPED
 
@@ -1520,11 +1528,11 @@ def test_without_a_summary_the_other_criteria_are_skipped() -> None:
 def test_a_node_that_exits_on_a_restart_or_a_jump_fails() -> None:
     steady_trial, jump_trial, restart_trial = steady(FakeStats()), jump(FakeStats()), restart(FakeStats())
     ended = replace(restart_trial, trace=replace(restart_trial.trace, exit=exited(0, after_s=4)))
-    assert_failed(judge_restart(ended, steady_trial, jump_trial), "exit at once")
+    assert_failed(judge_new_publisher(ended, steady_trial, jump_trial), "exit at once")
     crashed = trace(graph=LISTENING, logs=jump_trial.trace.logs, err=CRASH, exit=exited(1))
     assert_failed(judge_jumps(replace(jump_trial, trace=crashed), steady_trial), "unhandled exception")
     deaf = replace(restart_trial, sent=restart_trial.sent[:RESTART_AFTER], trace=trace(logs=restart_trial.trace.logs))
-    assert_failed(judge_restart(deaf, steady_trial, jump_trial), "no subscription")
+    assert_failed(judge_new_publisher(deaf, steady_trial, jump_trial), "no subscription")
     assert find_summaries(replace(deaf, trace=restart_trial.trace))[0].messages == 10
 
 
@@ -1671,13 +1679,135 @@ def judge_like_check(
 
     steady_trial, jump_trial = with_source(steady(node(), late_s=late_s)), with_source(jump(node(), late_s=late_s))
     restart_trial, fast_trial = with_source(restart(node(), late_s=late_s)), with_source(fast(node(), late_s=late_s))
+    twice_trial = with_source(jump_twice(node(), late_s=late_s))
+    zero_trial = with_source(jump_after_zero(node(), late_s=late_s))
     return {
         "count": CHECKED["count"](steady_trial, jump_trial, fast_trial),
-        "rate": CHECKED["rate"](steady_trial, jump_trial),
+        "rate": CHECKED["rate"](steady_trial, jump_trial, replace(restart_trial, sent=()), fast_trial),
         "summary": CHECKED["summary"](steady_trial, jump_trial, fast_trial),
-        "restart": CHECKED["restart"](restart_trial, steady_trial, jump_trial),
-        "gaps": CHECKED["gaps"](jump_trial, with_source(jump_twice(node(), late_s=late_s)), steady_trial),
+        "restart": CHECKED["restart"](restart_trial, steady_trial, jump_trial, fast_trial),
+        "gaps": CHECKED["gaps"](jump_trial, twice_trial, zero_trial, restart_trial, steady_trial, fast_trial),
     }
+
+
+class MissesAfterZero(FakeStats):
+    """Takes the last N for none where it is 0."""
+
+    def on_jump(self, last: int, number: int) -> Iterator[Log]:
+        if last:
+            yield from super().on_jump(last, number)
+
+
+class AnnouncesTheFirstLate(MissesAfterZero):
+    """What it says about the first message comes with the second one."""
+
+    def log_received(self, data: str) -> Iterator[Log]:
+        if self.total == 1:
+            yield 20, "receiving messages"
+
+
+@pytest.mark.parametrize("node", [MissesAfterZero, AnnouncesTheFirstLate])
+def test_a_jump_after_zero_must_be_reported(node: type[FakeStats]) -> None:
+    assert_breaks(judge_trials(node), "gaps", "0 taken for no number")
+
+
+def test_the_test_that_zero_does_not_pass_is_named() -> None:
+    source = (
+        "def heard(msg):\n    global last_number\n    n = int(msg.data.split(':')[1])\n"
+        "    if last_number and n != last_number + 1:\n        node.get_logger().warning('gap')\n    last_number = n\n"
+        "node.create_subscription(String, 'chatter', heard, 10)\n"
+    )
+    assert "line 4: last_number is not true after N = 0" in judge_like_check(MissesAfterZero, source)["gaps"].cause
+
+
+def saying_on_any_jump(text: str) -> type[FakeStats]:
+    """A node that logs this text wherever N does not rise by one."""
+
+    class SaysOnAnyJump(FakeStats):
+        def on_jump(self, last: int, number: int) -> Iterator[Log]:
+            missing, step = number - last - 1, number - last
+            yield 30, text.format(missing=missing, step=step, last=last, number=number)
+
+    return SaysOnAnyJump
+
+
+class AddsUpEverything(FakeStats):
+    """Its count of lost messages falls below 0 at a restart; no word says what it is."""
+
+    def on_jump(self, last: int, number: int) -> Iterator[Log]:
+        self.missed += number - last - 1
+        yield from ()
+
+    def summary(self) -> Iterator[Log]:
+        yield 20, f"{self.total} {self.missed} {self.rate():.2f} {self.first} {self.last}"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "missing {missing} messages",
+        "Missed {step} message(s) between {last} and {number}",
+        "{missing} messages missing between {last} and {number}",
+        "Gap detected! Lost messages: {missing}",
+        "gap from {last} to {number}: {missing} messages were lost",
+        '{{"last": {last}, "n": {number}, "n_missed": {missing}}}',
+        "LOST={missing}",
+        "skipped {missing}",
+        "{missing} Nachrichten fehlen",
+        "Es wurden {missing} Nachrichten verloren",
+        "Il manque {missing} messages",
+        "{missing} 件のメッセージが欠落しました",
+        "丢失 {missing} 条消息",
+    ],
+)
+def test_a_negative_number_of_missing_messages_is_wrong(text: str) -> None:
+    assert_breaks(judge_trials(saying_on_any_jump(text)), "gaps", "negative number of missing messages")
+
+
+def test_a_count_of_lost_messages_below_zero_is_wrong_in_any_language() -> None:
+    assert_breaks(judge_trials(AddsUpEverything), "gaps", "negative number of missing messages")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "sequence went from {last} to {number} ({step})",
+        "sequence went from {last} to {number} ({step:+d}), messages may be missing",
+        "jump of {step}",
+        "unexpected jump: {step}. Were messages lost?",
+        "lost or restarted? N changed by {step}",
+        "off by {missing}",
+        "expected the next number, difference {missing}",
+        "gap: {step}",
+        "N: {last}->{number}, delta {step}, missing 0",
+        "delta={step} lost=?",
+        "step {step} without loss",
+        "Fehler: {step}",
+        "Sequenzsprung um {step}",
+        "Lost the sequence: from {last} to {number} ({step})",
+        "the sequence changed by {step}; a positive number means that messages are missing",
+    ],
+)
+def test_a_negative_number_that_is_true_is_right(text: str) -> None:
+    assert_all_passed(judge_trials(saying_on_any_jump(text)))
+
+
+class RenewsItsSubscription(FakeStats):
+    """Loses every seventh message, between two subscriptions."""
+
+    def receive(self, now: float, data: str) -> Iterator[Log]:
+        if int(data.split(":")[1]) % 7 != 5:
+            yield from super().receive(now, data)
+
+
+@pytest.mark.parametrize("node", [FakeStats, RenewsItsSubscription])
+def test_a_node_that_renews_its_subscription_gets_the_same_verdicts_whatever_it_loses(node: type[FakeStats]) -> None:
+    verdicts = judge_trials(node, new_subscriptions=17)
+    assert_failed(verdicts.pop("count"), "a subscription for each message", "17 new subscriptions")
+    del verdicts["rate"]  # judged without a fast stretch there
+    assert {verdict.status for verdict in verdicts.values()} == {Status.SKIPPED}
+    trials = [make(node(), new_subscriptions=17) for make in (steady, jump, restart, fast)]
+    assert "see `count`" in judges.judge_rate(*trials).cause
 
 
 class SubscribedTwice(FakeStats):
@@ -1764,14 +1894,15 @@ def test_a_first_message_delayed_by_the_machine_excuses_a_higher_rate() -> None:
     steady_trial = steady(FirstMessageLate())
     owed = [0.0, 0.25, *[0.5] * 18]
     excused = tuple(replace(each, cpu_wait_s=late) for each, late in zip(steady_trial.sent, owed, strict=True))
-    assert_failed(judges.judge_rate(steady_trial, jump(FirstMessageLate())), "wrong rate")
-    assert_passed(judges.judge_rate(replace(steady_trial, sent=excused, cpu_wait_s=0.5), jump(FirstMessageLate())))
+    assert_failed(judges.judge_stated_rate(steady_trial, jump(FirstMessageLate())), "wrong rate")
+    excused_trial = replace(steady_trial, sent=excused, cpu_wait_s=0.5)
+    assert_passed(judges.judge_stated_rate(excused_trial, jump(FirstMessageLate())))
 
 
 def test_a_pace_at_which_truncated_seconds_look_right_is_undecided() -> None:
     cut = stating(rate="{cut}")
-    assert_undecided(judges.judge_rate(steady(cut(), 4.4), jump(cut())))
-    assert_passed(judges.judge_rate(steady(FakeStats(), 4.4), jump(FakeStats())))
+    assert_undecided(judges.judge_stated_rate(steady(cut(), 4.4), jump(cut())))
+    assert_passed(judges.judge_stated_rate(steady(FakeStats(), 4.4), jump(FakeStats())))
 
 
 class SinceItsStart(FakeStats):
@@ -1787,9 +1918,9 @@ class PerWholeSecondsOfLateMessages(FakeStats):
 @pytest.mark.parametrize(("node", "late_s"), [(SinceItsStart, 0.35), (PerWholeSecondsOfLateMessages, 0.2)])
 def test_a_wrong_rate_of_a_summary_that_the_machine_delays_is_undecided(node: type[FakeStats], late_s: float) -> None:
     seen = steady(node(), late_s=late_s)
-    assert_undecided(judges.judge_rate(replace(seen, cpu_wait_s=0.5), jump(node())))
+    assert_undecided(judges.judge_stated_rate(replace(seen, cpu_wait_s=0.5), jump(node())))
     right = steady(FakeStats(), late_s=late_s)
-    assert_passed(judges.judge_rate(replace(right, cpu_wait_s=0.5), jump(FakeStats())))
+    assert_passed(judges.judge_stated_rate(replace(right, cpu_wait_s=0.5), jump(FakeStats())))
 
 
 # Reading.

@@ -66,3 +66,20 @@ node.create_subscription(String, "chatter", print, QoSProfile(depth=1, reliabili
         assert await run.until(lambda: bool(run.graph.nodes), STARTUP_S)
         assert run.graph.nodes == ("/learner",)
         assert talker.endpoint.qos == QoS("reliable", "volatile")
+
+
+async def test_every_subscription_that_was_ever_matched_is_counted(scene: Scene) -> None:
+    renews = """
+def renew(message):
+    node.get_logger().info(message.data)
+    node.destroy_subscription(node.create_subscription(String, "chatter", print, 10))
+node.create_subscription(String, "chatter", renew, 10)
+"""
+    async with scene.bench(node(renews)).start(FILE) as run, run.publisher(CHATTER, STRING) as talker:
+        assert talker.matches == 0
+        await wait_for_match(run, talker)
+        assert talker.matches == talker.matches == 1
+        for count in (2, 3, 4):
+            talker.publish({"data": str(count)})
+            assert await run.until(lambda count=count: talker.matches == count, STARTUP_S), talker.matches  # type: ignore[misc]
+        assert await run.until(lambda: talker.subscribers == 1, STARTUP_S)

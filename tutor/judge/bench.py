@@ -46,6 +46,10 @@ class Publisher(Protocol):
     def subscribers(self) -> int:
         """How many subscriptions it is matched with now."""
 
+    @property
+    def matches(self) -> int:
+        """How many subscriptions it has been matched with so far, those that have gone away included."""
+
     def publish(self, message: Mapping[str, Any]) -> Sample:
         """Publish a message (fields to values) at once; return it with the time at which it was sent."""
 

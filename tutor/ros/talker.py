@@ -6,6 +6,8 @@ import time
 from collections.abc import Mapping
 from typing import Any
 
+from rclpy.event_handler import QoSPublisherEventType
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.publisher import Publisher
 
 from tutor.judge.trace import Sample
@@ -26,6 +28,10 @@ class Talker:
         name = f"{OUR_PREFIX}_talker"
         self._node = create_node(self._context, name)
         self._publisher: Publisher = self._node.create_publisher(self._type, topic, DEPTH)
+        with self._publisher.handle:
+            self._matched: Any = rclpy_implementation.EventHandle(
+                self._publisher.handle, QoSPublisherEventType.RCL_PUBLISHER_MATCHED
+            )
         self._endpoint = TopicEndpoint(topic, type_name, f"/{name}")
 
     @property
@@ -36,6 +42,12 @@ class Talker:
     def subscribers(self) -> int:
         return self._publisher.get_subscription_count()
 
+    @property
+    def matches(self) -> int:
+        # Taken without an executor: DDS counts every match, also those between two calls.
+        with self._matched:
+            return int(self._matched.take_event().total_count)
+
     def publish(self, message: Mapping[str, Any]) -> Sample:
         filled = set_fields(self._type(), message)
         now = time.time()
@@ -45,5 +57,6 @@ class Talker:
     def close(self) -> None:
         """Leave the graph. Idempotent."""
         if self._context.ok():
+            self._matched.destroy_when_not_in_use()
             self._node.destroy_node()
             self._context.try_shutdown()
