@@ -139,7 +139,8 @@ async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:
     """Return the declared parameters, or None if the node never answers."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=5.0) as run:  # the rate probes wait for this
         bench.report_progress(0.1, "asking for its parameters")
-        await run.until(lambda: bool(run.graph.nodes), START_S, idle_s=RESENT_S)
+        if not await run.until(lambda: bool(run.graph.nodes), START_S, idle_s=RESENT_S):
+            return None
         # The services come with the node, unless it has been made without them.
         if not await run.until(lambda: bool(run.graph.parameter_nodes), RESENT_S, idle_s=RESENT_S):
             return None
