@@ -223,4 +223,4 @@ def judge_name(found: NameProbes) -> Verdict:
 
 
 def judge_shutdown(seen: PlainStart) -> Verdict:
-    return ending.judge_ending(seen.trace, seen.ending)
+    return ending.judge_ending(seen.trace, seen.ending, shown_by="publishes")

@@ -53,7 +53,7 @@ async def plain_start(bench: Bench) -> PlainStart:
             trace = run.trace()
             trace = replace(trace, samples={**trace.samples, TOPIC: _samples_from(trace, stuck.restarted_at)})
             bench.report_progress(0.8, "pressing Ctrl+C")
-            ended = await run.interrupt() if run.exit is None else None
+            ended = await run.interrupt()
         facts = PlainStart(trace, declared, echo, ended, (), stuck.is_for_ever(), counted_from)
         if facts.messages_go_on or declared is not None or trace.exit is not None or not trace.graph.nodes:
             return facts

@@ -74,7 +74,7 @@ async def steady(bench: Bench) -> Trial:
         trial = await _collect_last_logs(run, trial, match)
         if find_summaries(trial):
             return trial
-        trial = replace(trial, ending=await run.interrupt() if run.exit is None else None)
+        trial = replace(trial, ending=await run.interrupt())
     if trial.sent and not trial.spins and trial.trace.exit is None:
         return replace(trial, stuck=await bench.facts(_dump_stuck_node))
     return trial
@@ -141,12 +141,12 @@ async def fast(bench: Bench) -> Trial:
     async with bench.start(FILE, expected_s=FAST_EXPECTED_S) as run, run.publisher(TOPIC, TYPE) as talker:
         match = await _wait_for_match(bench, run, talker, MATCH_S)
         if not talker.subscribers:
-            return Trial(run.trace(), spins=match.spins, ending=await run.interrupt() if run.exit is None else None)
+            return Trial(run.trace(), spins=match.spins, ending=await run.interrupt())
         first = random.randint(0, 50)
         trial = await _send_all(bench, run, talker, match, range(first, first + FAST_MESSAGES), FAST_HZ)
         trial = await _collect_last_logs(run, trial, match)
         bench.report_progress(0.95, "pressing Ctrl+C")
-        return replace(trial, ending=await run.interrupt() if run.exit is None else None)
+        return replace(trial, ending=await run.interrupt())
 
 
 async def restart(bench: Bench) -> Trial:

@@ -165,11 +165,13 @@ def judge_shutdown(seen: LaunchRun) -> Verdict:
         ended = replace(ended, output=_without_prefixes(ended.output))
     # The launch file itself has nothing to do with how its programs end.
     programs = {name: text for name, text in seen.trace.sources.items() if name != seen.trace.file}
-    verdict = ending.judge_ending(replace(seen.trace, sources=programs), ended)
+    verdict = ending.judge_ending(replace(seen.trace, sources=programs), ended, shown_by="communicates")
     if ended is not None and ended.exit is None:
         left = [command[:200] for command in ended.survivors]
         return replace(verdict, expected=expected, evidence=(*left[:6], *(line.text for line in ended.output[-6:])))
-    if not verdict.passed or ended is None:
+    if ended is None:
+        return verdict
+    if not verdict.passed:
         return replace(verdict, expected=expected)
     if ended.survivors:
         return failed(

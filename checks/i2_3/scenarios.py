@@ -61,7 +61,7 @@ async def run_idle(bench: Bench) -> IdleRun:
         busy = share >= CPU_WAIT_SHARE and any(may_be_10_hz(each, share) for each in series if not each.is_10_hz)
         idle = IdleRun(run.trace(), series, busy)
         bench.report_progress(0.8, "pressing Ctrl+C")
-        return replace(idle, ending=await run.interrupt() if run.exit is None else None)
+        return replace(idle, ending=await run.interrupt())
 
 
 async def call_concurrently(bench: Bench) -> ConcurrentCalls:
@@ -123,7 +123,7 @@ async def interrupt_during_call(bench: Bench) -> Interrupted:
                 )
             trace = run.trace()
             bench.report_progress(0.7, "pressing Ctrl+C during the call")
-            ending = await run.interrupt() if run.exit is None else None
+            ending = await run.interrupt()
         finally:
             call.cancel()
             with contextlib.suppress(asyncio.CancelledError):

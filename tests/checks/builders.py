@@ -146,6 +146,12 @@ def assert_undecided(verdict: Verdict) -> None:
     assert isinstance(verdict, Undecided), verdict
 
 
+def assert_skipped(verdict: Verdict, words: str) -> None:
+    """Fail unless the verdict is "skipped", for a reason that contains these words."""
+    assert verdict.status is Status.SKIPPED, verdict
+    assert words in verdict.cause, verdict
+
+
 def assert_failed(verdict: Verdict | None, cause: str, *words: str) -> None:
     """Fail unless the verdict failed with the cause of this name, is complete, and contains these words."""
     assert verdict is not None

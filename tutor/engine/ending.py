@@ -11,12 +11,18 @@ import time
 from tutor.engine.source import add_source_lines
 from tutor.judge import tracebacks
 from tutor.judge.tracebacks import Frame
-from tutor.process import LearnerProcess, fork_link
+from tutor.process import LearnerProcess, NextWake, fork_link
 
 BLOCKED_S = 0.5
 """Maximum delay of Ctrl+C until the node has finished what it is doing; one that is always busy never has."""
 
 BLOCKED_POLL_S = 0.01
+
+BLOCKED_POLLS = 3
+"""How many polls in a row must find all threads blocked, with none having run in between.
+
+A process that is ending blocks too, but only for a moment at a time.
+"""
 
 CHILD_EXIT_S = 1.0
 """Grace period for child processes that are about to exit after the first process has."""
@@ -30,10 +36,16 @@ DUMP_S = 2.0
 async def wait_until_blocked(process: LearnerProcess) -> None:
     """Wait until all threads of the process are blocked, as they usually are when someone presses Ctrl+C.
 
-    A node that is still handling our last request may end in another way than one that waits.
+    A node that is still handling our last request may end in another way than one that waits, and one that our last
+    request has ended is not ended by Ctrl+C.
     """
-    deadline = time.monotonic() + BLOCKED_S
-    while process.exit is None and process.next_wake().at == 0.0 and time.monotonic() < deadline:
+    deadline, last, polls = time.monotonic() + BLOCKED_S, NextWake(), 0
+    while process.exit is None and time.monotonic() < deadline:
+        wake = process.next_wake()
+        polls = 0 if wake.at == 0.0 else polls + 1 if wake.timeslices == last.timeslices else 1
+        if polls >= BLOCKED_POLLS:
+            return
+        last = wake
         await asyncio.sleep(BLOCKED_POLL_S)
 
 

@@ -197,8 +197,8 @@ class Runner:
 
     async def _judge(self, criterion: Criterion) -> Verdict:
         for dependency in criterion.after:
-            if not (await asyncio.shield(self._verdicts[dependency])).passed:
-                return skipped_after(dependency)
+            if not (verdict := await asyncio.shield(self._verdicts[dependency])).passed:
+                return skipped_after(dependency, verdict)
         try:
             verdict = await self._judge_early_or_fully(criterion)
             text = self._texts.get(criterion.id)

@@ -289,7 +289,9 @@ class Supervisor:
                     self._interrupt()
 
     def _interrupt(self) -> None:
-        """Send SIGINT to the learner's process group, as a terminal does on Ctrl+C."""
+        """Send SIGINT to the learner's process group, as a terminal does on Ctrl+C; report it if the program lives."""
+        if not self._exited:  # before it is sent: the program's exit must be reported after it
+            self._report("interrupted")
         # Once the leader is reaped, its group id is only safe to use while a descendant is still in that group.
         if not self._exited or any(p.group == self._main_pid for p in descendants(os.getpid())):
             with contextlib.suppress(ProcessLookupError, PermissionError):
