@@ -6,6 +6,7 @@ import asyncio
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 from tutor.content import Lesson
@@ -45,7 +46,7 @@ class Runner:
     """One check of one submission.
 
     `only`: ids of the criteria to show (None: all); their dependencies are judged too, but not shown. `first`: stop at
-    the first required criterion that fails.
+    the first required criterion that fails. `tools`: see `Prepared`.
     """
 
     def __init__(
@@ -60,6 +61,7 @@ class Runner:
         isolation: Isolation | None = None,
         fork_server: ForkServerLink | None = None,
         *,
+        tools: Path | None = None,
         first: bool = False,
     ) -> None:
         self._check = check
@@ -72,6 +74,7 @@ class Runner:
         self._start_limiter = start_limiter or StartLimiter()
         self._isolation = isolation
         self._fork_server = fork_server
+        self._tools = tools
         self._first = first
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
@@ -185,6 +188,7 @@ class Runner:
             provisional.follow,
             lambda facts: self._take_facts(scenario, facts),
             fork_server=self._fork_server,
+            tools=self._tools,
         )
         async with self._start_limiter.scenarios.running(alone=alone):
             if alone and self._elapsed_s() > REPEAT_WITHIN_S:

@@ -227,18 +227,34 @@ class Session:
         return NodeCommand("ros2", (*starting.ros2_command(ros, env), *words), env, folder, typed)
 
     def _ros_and_env(self, package: Path | None) -> tuple[RosEnvironment, dict[str, str]]:
-        """Return the ROS that nodes run with, and their environment; `package` is the root of the learner's package.
+        """Return the ROS that nodes run with, and their environment, which is that of the terminal page.
 
-        Raises OSError if shared memory is full.
+        `package` is the root of the learner's package. Raises OSError if shared memory is full.
         """
         from tutor import private_folders
+        from tutor.bundled_ros.ros2 import sourced
         from tutor.ros import shared_memory
         from tutor.ros.environment import detect, learner_env
 
         ros = detect()
         shared_memory.require_enough()
         log_dir = private_folders.logs()
-        return ros, learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
+        env = learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
+        tools = self._terminal_tools()
+        sourced.write_programs(tools, ros, env)
+        sourced.add_programs(env, tools)
+        if ros.kind == "system":
+            sourced.add_built_packages(env, self.workspace.root)
+        sourced.add_workspace(env, self.workspace.root)
+        return ros, env
+
+    def _terminal_tools(self) -> Path:
+        """Return the folder for the programs of a sourced terminal. Raises OSError."""
+        from tutor import private_folders
+
+        if self._tools is None:
+            self._tools = private_folders.create_until_exit("terminal")
+        return self._tools
 
     def command_line(self, file: LessonFile, options: RunOptions) -> str:
         """Return what a ROS user would type to run this file, once the workspace is built."""
@@ -249,10 +265,7 @@ class Session:
 
         Raises what `shell_command` raises.
         """
-        from tutor import private_folders
         from tutor.session.shell import in_the_app, shell_command
 
-        if self._tools is None:
-            self._tools = private_folders.create_until_exit("terminal")
         folder = self.workspace.root if self.workspace.exists else Path.home()
-        return shell_command(self.workspace, self._tools, in_the_app()), folder
+        return shell_command(self.workspace, self._terminal_tools(), in_the_app()), folder
