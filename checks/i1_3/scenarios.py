@@ -108,7 +108,7 @@ async def _see_whether_it_ends(run: Run, services: Sequence[str]) -> None:
 
     Twice, since a MultiThreadedExecutor raises the exception of a callback only when it is woken up the next time.
     """
-    again = await _make_calls(run, [(name, *EASY_OPERANDS) for name in services[:1] * 2], STUCK_CALL_S)
+    again = await _make_calls(run, [(name, *EASY_OPERANDS) for name in services[:1] for _ in range(2)], STUCK_CALL_S)
     if run.exit is None and any(answer.response is None for answer in again):
         await run.wait_for_exit(END_S, all_sent=lambda: True)
 
@@ -177,10 +177,8 @@ async def divide_by_zero(bench: Bench) -> Division:
         since = run.now()  # messages about the good divisions may still be on their way to us
 
         def find_logs() -> tuple[tuple[LogRecord, ...], tuple[LogRecord, ...]]:
-            earlier, later = [], []
-            for each in run.logs:
-                (later if each.stamp >= since else earlier).append(each)
-            return tuple(earlier), tuple(later)
+            earlier = tuple(each for each in run.logs if each.stamp < since)
+            return earlier, tuple(each for each in run.logs if each.stamp >= since)
 
         (by_zero,) = await _make_calls(run, [("/divide", 10, 0)])
         await run.until(lambda: bool(find_complaints(*find_logs())), LOG_DELAY_S, idle_s=IDLE_S)

@@ -13,9 +13,8 @@ from tutor.bundled_ros.ros2 import sourced, sources
 from tutor.content import load_course
 from tutor.engine import forking
 from tutor.ros.environment import RosEnvironment, detect
-from tutor.session.run_options import RunOptions
 from tutor.session.session import Session
-from tutor.workspace import Workspace
+from tutor.workspace import RunOptions, Workspace
 
 USER_PATH = "/usr/local/bin:/usr/bin:/bin"
 SYSTEM = RosEnvironment("system", "jazzy", Path("/usr/bin/python3.12"), "rmw_fastrtps_cpp")

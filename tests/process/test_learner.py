@@ -110,7 +110,13 @@ async def test_on_change_is_called_for_output_and_exit(bench: Any) -> None:
 
 async def test_ctrl_c_after_the_end_did_not_reach_the_program(bench: Any) -> None:
     # The child keeps the process group alive, so the signal itself is sent.
-    child = await bench.start("if os.fork() == 0: signal.signal(signal.SIGINT, lambda *_: print('got it')); forever()")
+    child = await bench.start("""
+if os.fork() == 0:
+    signal.signal(signal.SIGINT, lambda *_: print('got it', flush=True))
+    print('up', flush=True)
+    forever()
+""")
+    await wait_until(lambda: texts(child) == ["up"])
     await wait_for_exit(child)
     child.interrupt()
     await wait_until(lambda: "got it" in texts(child))

@@ -251,11 +251,15 @@ class RosRun:
 
     async def interrupt(self, limit_s: float = 5.0) -> Ending | None:
         await ending.wait_until_blocked(self._process)
-        had_nodes = bool(self._graph[1].nodes)
-        if self.exit is None and had_nodes and not graph.read_graph(self._observer.node).nodes:  # it is on its way out
+        if self._has_lost_its_nodes():  # it is on its way out
             await self.wait_for_exit(limit_s, all_sent=lambda: True)
-        if self.exit is not None:
-            return None
+        return await self._press_ctrl_c(limit_s) if self.exit is None else None
+
+    def _has_lost_its_nodes(self) -> bool:
+        had_nodes = self.exit is None and bool(self._graph[1].nodes)
+        return had_nodes and not graph.read_graph(self._observer.node).nodes
+
+    async def _press_ctrl_c(self, limit_s: float) -> Ending | None:
         pressed = time.time()
         cpu_wait_share = self._waits.cpu_time().waited_s / max(pressed - self.started_at, POLL_S)
         self.interrupted_at = pressed
