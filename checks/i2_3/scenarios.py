@@ -114,10 +114,11 @@ async def interrupt_during_call(bench: Bench) -> Interrupted:
         if called:
             await wait_until_spinning(bench, run)
         call = asyncio.create_task(run.call(SERVICE, TYPE, random_operands(), limit_s=ANSWER_TIMEOUT_S))
+        due = run.now() + INTO_CALL_S
         try:
             if called:
                 bench.report_progress(0.4, f"calling {SERVICE}")
-                due, cpu_wait_s = run.now() + INTO_CALL_S, run.node_cpu_wait_s()
+                cpu_wait_s = run.node_cpu_wait_s()
                 await run.until(
                     lambda: call.done() or run.now() >= due + run.node_cpu_wait_s() - cpu_wait_s, 2 * INTO_CALL_S
                 )
@@ -128,4 +129,5 @@ async def interrupt_during_call(bench: Bench) -> Interrupted:
             call.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await call
-        return Interrupted(trace, called, ending)
+        slowed = ending is None and run.exit is not None and run.started_at + run.exit.after_s >= due
+        return Interrupted(trace, called, ending, slowed)
