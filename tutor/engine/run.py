@@ -250,7 +250,7 @@ class RosRun:
         return replace(shown, types=tuple(sorted(settled.union(shown.types))))
 
     async def interrupt(self, limit_s: float = 5.0) -> Ending | None:
-        await ending.wait_until_blocked(self._process)
+        await ending.wait_until_blocked(self._process, self.node_cpu_wait_s)
         if self._has_lost_its_nodes():  # it is on its way out
             await self.wait_for_exit(limit_s, all_sent=lambda: True)
         return await self._press_ctrl_c(limit_s) if self.exit is None else None
