@@ -87,6 +87,6 @@ def test_a_node_run_from_the_app_finds_the_same(workspace: Path, monkeypatch: py
     monkeypatch.setenv("PATH", USER_PATH)
     session = Session(load_course(), Workspace(workspace))
     env = session.node_command(session.lessons[0].files[0], RunOptions()).env
-    assert env["PATH"] == session.shell().env["PATH"]
+    assert env["PATH"] == session.shell()[0].env["PATH"]
     assert shutil.which("ros2", path=env["PATH"])
     assert env["ROS_TUTOR_WORKSPACE"] == str(workspace)
