@@ -69,7 +69,7 @@ async def judge(case: Case, only: Sequence[str] = (), record: Path | None = None
     started = time.monotonic()
     engine = ("tests.recordings.engine", str(record), str(case)) if record else ("tutor.engine",)
     try:
-        result, stderr = await _run_engine(case.exercise, case.folder, only, engine)
+        result, stderr = await run_engine(case.exercise, case.folder, only, engine=engine)
     except NoVerdict as error:
         return Outcome(case, [str(error)], took_s=time.monotonic() - started)
     took = time.monotonic() - started
@@ -83,23 +83,40 @@ async def judge(case: Case, only: Sequence[str] = (), record: Path | None = None
 
 async def check_folder(exercise: str, folder: Path) -> ExerciseResult:
     """Check the files in a folder, in a separate process. Raises NoVerdict if the check gives no verdict."""
-    return (await _run_engine(exercise, folder))[0]
+    return (await run_engine(exercise, folder))[0]
 
 
-async def _run_engine(
-    exercise: str, folder: Path, only: Sequence[str] = (), engine: Sequence[str] = ("tutor.engine",)
+async def run_engine(
+    exercise: str,
+    folder: Path,
+    only: Sequence[str] = (),
+    *,
+    first: bool = False,
+    engine: Sequence[str] = ("tutor.engine",),
 ) -> tuple[ExerciseResult, str]:
     """Return the result, and what was written to stderr. Raises NoVerdict if there is no result.
 
     `engine`: the module to run, and its first arguments.
     """
+    words = [*(f"--criterion={criterion}" for criterion in only), *(["--first"] if first else [])]
+    out, err, code = await run_to_end(
+        [sys.executable, "-m", *engine, exercise, str(folder), *words],
+        dict(os.environ),  # a copy: pytest changes os.environ in another thread while this process starts
+    )
+    results = [e.result for e in map(decode, out.decode().splitlines()) if isinstance(e, ExerciseJudged)]
+    if not results:
+        raise NoVerdict(f"no verdict: exit code {code}: {err.decode()[-500:]}")
+    return results[0], err.decode()
+
+
+async def run_to_end(command: Sequence[str], environ: Mapping[str, str]) -> tuple[bytes, bytes, int | None]:
+    """Return a command's stdout, stderr and exit code. Raises NoVerdict after `LIMIT_S`."""
     process = await asyncio.create_subprocess_exec(
-        *(sys.executable, "-m", *engine, exercise, str(folder)),
-        *(f"--criterion={criterion}" for criterion in only),
+        *command,
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.PIPE,
         stdin=asyncio.subprocess.DEVNULL,
-        env=dict(os.environ),  # a copy: pytest changes os.environ in another thread while this process starts
+        env=environ,
         limit=2**24,
     )
     try:
@@ -112,10 +129,7 @@ async def _run_engine(
         process.terminate()  # the engine then ends everything it started
         await process.communicate()
         raise
-    results = [e.result for e in map(decode, out.decode().splitlines()) if isinstance(e, ExerciseJudged)]
-    if not results:
-        raise NoVerdict(f"no verdict: exit code {process.returncode}: {err.decode()[-500:]}")
-    return results[0], err.decode()
+    return out, err, process.returncode
 
 
 def compare(case: Case, result: ExerciseResult) -> Outcome:

@@ -1,10 +1,13 @@
 """Judge every submission under tests/submissions and compare with what its expect.yaml says.
 
-    uv run python -m tests.soundness [EXERCISE[/right|wrong[/NAME]] ...] [--changed] [--times N] [--jobs N] [--busy]
-                                     [--record FOLDER]
+    uv run python -m tests.soundness [EXERCISE[/right|wrong[/NAME]] ...] [--changed] [--every N] [--times N] [--jobs N]
+                                     [--busy] [--sameness] [--record FOLDER]
 
 `--changed` judges the submissions that differ from the branch main, all of an exercise whose check differs, and the
-tests' sample if code that all checks share differs.
+tests' sample if code that all checks share differs. `--every 5` judges a fifth of those chosen.
+
+With `--sameness`, expectations do not count: each submission is judged ten times (or `--times`), in turn as the app
+does, on the command line, by one criterion alone and with `--first`, and each criterion whose status varies is listed.
 
 Reports each run on stderr. At the end, stdout has each verdict that is not as expected, the submissions whose verdict
 varies, and a table: for each exercise how many right and wrong ones were judged as expected, the false passes and false
@@ -26,8 +29,10 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from tests import sameness
 from tests.judging import Outcome, find_cases, holds_here, judge
 from tests.sampling import changed
+from tutor.content import load_course
 from tutor.content.submissions import Case
 
 # A busy loop that ends when its owner is gone. The owner may be killed before the loop's first instruction, so its pid
@@ -40,6 +45,7 @@ while os.getppid() == owner and time.monotonic() < until:
 """
 BUSY_LIMIT_S = 6 * 3600.0
 COLUMNS = ("exercise", "kind", "submissions", "runs", "as expected", "false passes", "false failures", "not judged")
+SAMENESS_TIMES = 10
 TIMES = ("min s", "median", "max s")
 
 
@@ -137,13 +143,25 @@ def _find_changed_paths() -> list[str]:
     return [*differing.splitlines(), *untracked.splitlines()]
 
 
+def _compare_runs(cases: Sequence[Case], times: int, jobs: int) -> int:
+    """Print each criterion whose status varies; return exit code 1 if there is one."""
+    criteria = {lesson.id: [each.id for each in lesson.criteria] for lesson in load_course().lessons}
+    runs = asyncio.run(sameness.judge_again_and_again(cases, times, jobs, criteria))
+    lines = sameness.variations(runs)
+    print(*lines, sep="\n")
+    print(f"{len(cases)} submissions, {len(runs)} runs: {len(lines) or 'no'} differences")
+    return 1 if lines else 0
+
+
 def main() -> int:
     """Return exit code 0 if every verdict is as expected, 1 if not, 2 if there is nothing to judge."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
-    parser.add_argument("--times", type=int, default=1, help="judge each submission this many times")
+    parser.add_argument("--times", type=int, help="judge each submission this many times")
     parser.add_argument("--jobs", type=int, default=3, help="submissions judged in parallel")
     parser.add_argument("--changed", action="store_true", help="only what a difference from main may affect")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="only every Nth of the chosen submissions")
+    parser.add_argument("--sameness", action="store_true", help="list each criterion whose status varies between runs")
     parser.add_argument("--busy", action="store_true", help="run a busy loop on each core meanwhile")
     parser.add_argument("--record", type=Path, metavar="FOLDER", help="also record what the judges got (see replay)")
     parser.add_argument("--json", action="store_true", help="also print the wrong ones as JSON")
@@ -162,8 +180,12 @@ def main() -> int:
     if not here:
         print(f"no submission is named {' or '.join(arguments.wanted) or 'anything'}", file=sys.stderr)
         return 2
+    here = here[:: arguments.every]
+    times = arguments.times or (SAMENESS_TIMES if arguments.sameness else 1)
     with busy_cores(len(os.sched_getaffinity(0)) if arguments.busy else 0):
-        outcomes = asyncio.run(judge_all(here * arguments.times, arguments.jobs, arguments.record))
+        if arguments.sameness:
+            return _compare_runs(here, times, arguments.jobs)
+        outcomes = asyncio.run(judge_all(here * times, arguments.jobs, arguments.record))
     wrong = [outcome for outcome in outcomes if outcome.wrong]
     if arguments.json:
         print(json.dumps([{"case": str(o.case), "wrong": o.wrong} for o in wrong]))
@@ -172,9 +194,9 @@ def main() -> int:
     if lines := flaky(outcomes):
         print("not the same each time:", *lines, sep="\n    ")
     print(table(outcomes))
-    complete = len(outcomes) == len(here) * arguments.times
+    complete = len(outcomes) == len(here) * times
     if not complete:
-        print(f"interrupted: {len(outcomes)} of {len(here) * arguments.times} runs", file=sys.stderr)
+        print(f"interrupted: {len(outcomes)} of {len(here) * times} runs", file=sys.stderr)
     return 1 if wrong or broken or not complete else 0
 
 

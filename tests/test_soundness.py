@@ -25,6 +25,7 @@ import pytest
 from tests import soundness
 from tests.hostile import find_hostile
 from tests.judging import ROOT, Outcome, compare, find_cases, holds_here, judge
+from tests.sameness import JudgedRun, Way, variations
 from tests.sampling import changed, judged_criteria, sample, shows
 from tutor.content import load_course
 from tutor.content.submissions import Case, Expected
@@ -220,6 +221,21 @@ def test_the_table_counts_runs_and_flaky_submissions_are_listed() -> None:
     assert row == ["x1.1", "wrong", "2", "4", "3", "1", "0", "0", "1.0", "2.5", "9.0"]
     assert total == ["all", *row[2:]]
     assert soundness.flaky(outcomes) == ["x1.1/wrong/shaky:", "    1 times a:failed", "    1 times a:passed"]
+
+
+def test_each_criterion_whose_status_varies_is_listed_with_the_ways_in_which_it_was_judged() -> None:
+    case, same = _case("shaky"), _case("steady")
+    runs = [
+        JudgedRun(case, Way.APP, {"a": "failed", "b": "passed"}),
+        JudgedRun(case, Way.COMMAND_LINE, {"a": "skipped", "b": "passed"}),
+        JudgedRun(case, Way.ALONE, {"a": "failed"}),
+        JudgedRun(same, Way.FIRST, {"a": "failed"}),
+        JudgedRun(same, Way.APP, {"a": "failed", "b": "passed"}),
+    ]
+    assert variations(runs) == [
+        "x1.1/wrong/shaky: a: 2 times failed (app, one criterion alone); 1 times skipped (command line)"
+    ]
+    assert variations([JudgedRun(same, Way.APP, {}, "no verdict")]) == ["x1.1/wrong/steady: app: no verdict"]
 
 
 START_LOOPS_AND_DIE = """

@@ -66,7 +66,8 @@ class PlainStart:
     """A start without parameters, interrupted with Ctrl+C at the end.
 
     `counted_from`: messages sent before this time do not count (see `MATCHED_S`), in seconds since the epoch.
-    `parameters`: None if the node answered no parameter call. `echo`: None if messages do not go on arriving.
+    `parameters`: None if the node answered no parameter call, and, as nobody needs them then, if messages go on
+    arriving. `echo`: None if they do not.
     `ending`: None if the process had already exited. `stuck`: the stack, innermost frame first, of a node that neither
     published nor answered. `stuck_for_ever`: by that stack, it will never publish.
     """
@@ -134,6 +135,13 @@ class RateProbes:
 
     declared: tuple[Parameter, ...] | None
     probes: tuple[RateProbe, ...]
+
+    @property
+    def spins(self) -> bool | None:
+        """Whether the node spins, as it must to answer parameter calls; None if it has no services for these."""
+        if self.declared is None and not any(probe.trace.graph.parameter_nodes for probe in self.probes):
+            return None
+        return self.declared is not None
 
 
 @dataclass(frozen=True)

@@ -163,7 +163,8 @@ def judge_echo(seen: PlainStart) -> Verdict:
 def judge_rate(found: RateProbes) -> Verdict:
     expected = f"some numeric parameter, set at start-up, sets the rate (±{TOLERANCE:.0%})"
     for group in find_agreeing_groups(found.probes):
-        return passed(expected, f"{group[0].name} is read in {group[0].unit}", [str(probe) for probe in group])
+        observed = f"{group[0].name} is read in {group[0].unit}"
+        return passed(expected, observed, [str(probe) for probe in group], spins=found.spins)
     if not found.probes:
         undeclared = Symptom.NOT_DECLARED.seen(NOT_STARTED, **_RATE_MISSING)
         return failed(expected, "no numeric parameter is declared", undeclared)
@@ -256,4 +257,4 @@ def _is_printed(probe: NameProbe) -> bool:
 
 
 def judge_shutdown(seen: PlainStart) -> Verdict:
-    return ending.judge_ending(seen.trace, seen.ending)
+    return ending.judge_ending(seen.trace, seen.ending, shown_by="publishes")

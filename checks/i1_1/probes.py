@@ -199,8 +199,8 @@ async def probe_names(bench: Bench) -> NameProbes:
                 finally:
                     await cancel([plain])
             found, trace = logged(), run.trace()
-            at_end = (await run.interrupt()).output if not found and run.exit is None else ()
-            return NameProbe(name, value, found, trace, at_end)
+            ended = await run.interrupt() if not found else None
+            return NameProbe(name, value, found, trace, ended.output if ended else ())
 
     probes: list[NameProbe] = []
     pending = {asyncio.ensure_future(probe(0, SUGGESTED_NAME))}

@@ -46,13 +46,14 @@ async def plain_start(bench: Bench) -> PlainStart:
                 counted_from = await _wait_until_messages_go_on(run, await began, stuck)
                 if go_on(run.samples_on(TOPIC), counted_from):
                     echo = await echoing
-                declared = await asking if not stuck.is_for_ever() else None
+                elif not stuck.is_for_ever():
+                    declared = await asking
             elif not stuck.is_for_ever():
                 declared = await run.parameters(ANSWER_S)
             trace = run.trace()
             trace = replace(trace, samples={**trace.samples, TOPIC: _samples_from(trace, stuck.restarted_at)})
             bench.report_progress(0.8, "pressing Ctrl+C")
-            ended = await run.interrupt() if run.exit is None else None
+            ended = await run.interrupt()
         facts = PlainStart(trace, declared, echo, ended, (), stuck.is_for_ever(), counted_from)
         if facts.messages_go_on or declared is not None or trace.exit is not None or not trace.graph.nodes:
             return facts
@@ -138,7 +139,8 @@ async def parameters(bench: Bench) -> tuple[Parameter, ...] | None:
     """Return the declared parameters, or None if the node never answers."""
     async with bench.start(FILE, watch={TOPIC: TYPE}, expected_s=5.0) as run:  # the rate probes wait for this
         bench.report_progress(0.1, "asking for its parameters")
-        await run.until(lambda: bool(run.graph.nodes), START_S, idle_s=RESENT_S)
+        if not await run.until(lambda: bool(run.graph.nodes), START_S, idle_s=RESENT_S):
+            return None
         # The services come with the node, unless it has been made without them.
         if not await run.until(lambda: bool(run.graph.parameter_nodes), RESENT_S, idle_s=RESENT_S):
             return None

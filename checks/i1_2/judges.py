@@ -211,4 +211,4 @@ def _counts_wrongly(summaries: Sequence[Summary], trial: Trial) -> bool:
 
 
 def judge_shutdown(fast: Trial) -> Verdict:
-    return ending.judge_ending(fast.trace, fast.ending)
+    return ending.judge_ending(fast.trace, fast.ending, shown_by="summary")

@@ -70,21 +70,11 @@ async def steady(bench: Bench) -> Trial:
         match = await _wait_for_match(bench, run, talker, QUIET_S)
         if not talker.subscribers:
             return Trial(run.trace(), spins=match.spins)
-        waited_before_s = run.node_cpu_wait_s()
-        sent: list[Sent] = []
-        matches = talker.matches
-        await _send(bench, run, talker, sent, range(STEADY_MESSAGES), match.hz(random.uniform(*STEADY_HZ)))
-        trial = Trial(
-            run.trace(),
-            tuple(sent),
-            cpu_wait_s=run.node_cpu_wait_s() - waited_before_s,
-            spins=match.spins,
-            new_subscriptions=talker.matches - matches,
-        )
+        trial = await _send_all(bench, run, talker, match, range(STEADY_MESSAGES), random.uniform(*STEADY_HZ))
         trial = await _collect_last_logs(run, trial, match)
         if find_summaries(trial):
             return trial
-        trial = replace(trial, ending=await run.interrupt() if run.exit is None else None)
+        trial = replace(trial, ending=await run.interrupt())
     if trial.sent and not trial.spins and trial.trace.exit is None:
         return replace(trial, stuck=await bench.facts(_dump_stuck_node))
     return trial
@@ -141,12 +131,8 @@ async def jump_after_zero(bench: Bench) -> Trial:
         match = await _wait_for_match(bench, run, talker, MATCH_S)
         if not talker.subscribers:
             return Trial(run.trace(), spins=match.spins)
-        waited_before_s = run.node_cpu_wait_s()
-        sent: list[Sent] = []
-        await _send(bench, run, talker, sent, numbers, match.hz(UNTIMED_HZ))
-        cpu_wait_s = run.node_cpu_wait_s() - waited_before_s
-        trial = Trial(run.trace(), tuple(sent), min(len(sent), 1), cpu_wait_s=cpu_wait_s, spins=match.spins)
-        return await _collect_last_logs(run, trial, match)
+        trial = await _send_all(bench, run, talker, match, numbers, UNTIMED_HZ)
+        return await _collect_last_logs(run, replace(trial, before_break=min(len(trial.sent), 1)), match)
 
 
 @repeat_if_doubtful
@@ -155,22 +141,12 @@ async def fast(bench: Bench) -> Trial:
     async with bench.start(FILE, expected_s=FAST_EXPECTED_S) as run, run.publisher(TOPIC, TYPE) as talker:
         match = await _wait_for_match(bench, run, talker, MATCH_S)
         if not talker.subscribers:
-            return Trial(run.trace(), spins=match.spins, ending=await run.interrupt() if run.exit is None else None)
-        waited_before_s = run.node_cpu_wait_s()
-        sent: list[Sent] = []
+            return Trial(run.trace(), spins=match.spins, ending=await run.interrupt())
         first = random.randint(0, 50)
-        matches = talker.matches
-        await _send(bench, run, talker, sent, range(first, first + FAST_MESSAGES), match.hz(FAST_HZ))
-        trial = Trial(
-            run.trace(),
-            tuple(sent),
-            cpu_wait_s=run.node_cpu_wait_s() - waited_before_s,
-            spins=match.spins,
-            new_subscriptions=talker.matches - matches,
-        )
+        trial = await _send_all(bench, run, talker, match, range(first, first + FAST_MESSAGES), FAST_HZ)
         trial = await _collect_last_logs(run, trial, match)
         bench.report_progress(0.95, "pressing Ctrl+C")
-        return replace(trial, ending=await run.interrupt() if run.exit is None else None)
+        return replace(trial, ending=await run.interrupt())
 
 
 async def restart(bench: Bench) -> Trial:
@@ -241,6 +217,22 @@ async def _wait_for_match(bench: Bench, run: Run, talker: Publisher, settled_s: 
         answered = answer is not None
     await _pause(run, matched_at + settled_s - run.now())
     return _Match(answered)
+
+
+async def _send_all(
+    bench: Bench, run: Run, talker: Publisher, match: _Match, numbers: Iterable[int], usual_hz: float
+) -> Trial:
+    """Send a message for each number, and return the trial so far."""
+    waited_before_s, matches = run.node_cpu_wait_s(), talker.matches
+    sent: list[Sent] = []
+    await _send(bench, run, talker, sent, numbers, match.hz(usual_hz))
+    return Trial(
+        run.trace(),
+        tuple(sent),
+        cpu_wait_s=run.node_cpu_wait_s() - waited_before_s,
+        spins=match.spins,
+        new_subscriptions=talker.matches - matches,
+    )
 
 
 async def _send(bench: Bench, run: Run, talker: Publisher, sent: list[Sent], numbers: Iterable[int], hz: float) -> None:

@@ -10,7 +10,9 @@ CHECK = Check(
     "i1.3",
     (
         Criterion("services", judges.judge_services, (scenarios.call_each_service,)),
-        Criterion("operations", judges.judge_operations, (scenarios.call_with_random_operands,)),
+        Criterion(
+            "operations", judges.judge_operations, (scenarios.call_with_random_operands, scenarios.call_each_service)
+        ),
         Criterion("divide-by-zero", judge_division, (scenarios.divide_by_zero,), after=("services",)),
         Criterion("client", client.judge_client, (scenarios.run_client,)),
         Criterion("shutdown", judges.judge_shutdown, (scenarios.call_each_service,), bonus=True),

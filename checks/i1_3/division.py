@@ -8,6 +8,7 @@ from dataclasses import replace
 from checks.i1_3 import division_by_zero, service_steps, services
 from checks.i1_3.code import with_applicable_step
 from checks.i1_3.facts import (
+    ENDED_BY_A_CALL,
     SAYS_ERROR,
     Division,
     correct_result,
@@ -16,8 +17,8 @@ from checks.i1_3.facts import (
 from checks.i1_3.judges import with_answer_step
 from checks.i1_3.rewriting import with_applicable_steps
 from tutor.judge import causes, tracebacks
-from tutor.judge.trace import Trace
-from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.judge.trace import CallAnswer, Trace
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 
 _LOG_CALL = re.compile(r"\.(debug|info|warn|warning|error|fatal)\(")
 
@@ -36,11 +37,17 @@ def _with_guard_step(cause: Cause, trace: Trace) -> Cause:
     return replace(cause, hint=helper or services.guard_division(trace) or cause.hint)
 
 
+def _result(answer: CallAnswer) -> object:
+    return answer.response["sum"] if answer.response is not None else None
+
+
 @with_applicable_steps
 def judge_division(seen: Division) -> Verdict:
     """Judge `divide-by-zero`."""
     expected = "a division by zero gets an answer, the node reports it as an error, and the next calls succeed"
-    if seen.before is None or seen.before.response is None or seen.by_zero is None:
+    if seen.by_zero is None and seen.before is not None and seen.trace.exit is not None:
+        return skipped(ENDED_BY_A_CALL)
+    if seen.before is None or seen.by_zero is None:
         return failed(
             expected,
             "/divide does not answer even 84 ÷ 7",
@@ -67,11 +74,10 @@ def judge_division(seen: Division) -> Verdict:
     # The last log messages of a node that exits may never reach us: in that case, report the exit instead.
     has_exited = seen.trace.exit is not None and any(answer.response is None for answer in seen.after)
     if not complaints and not has_exited:
-        if seen.before.response["sum"] != correct_result("/divide", **seen.before.request):
+        if _result(seen.before) != correct_result("/divide", **seen.before.request):
             cause = Cause(
                 "no error message",
-                "no error is reported, since /divide does not divide: 84 ÷ 7 is answered "
-                f"{seen.before.response['sum']}",
+                f"no error is reported, since /divide does not divide: 84 ÷ 7 is answered {_result(seen.before)}",
                 services.compute_results(seen.trace, ["/divide"]) or "let /divide divide first: see `operations`",
             )
             observed = f"answered {seen.by_zero.response['sum']}, without a word about an error"
@@ -92,7 +98,7 @@ def judge_division(seen: Division) -> Verdict:
             cause,
             [str(log) for log in seen.logged],
         )
-    divides = seen.before.response["sum"] == correct_result("/divide", **seen.before.request)
+    divides = _result(seen.before) == correct_result("/divide", **seen.before.request)
     for answer in seen.after:
         a, b = answer.request["a"], answer.request["b"]
         if answer.response is None:

@@ -16,6 +16,12 @@ SERVER, CLIENT = "calculator_server.py", "calculator_client.py"
 TYPE = "example_interfaces/srv/AddTwoInts"
 OPERATOR_SIGNS = {"/add": "+", "/subtract": "-", "/multiply": "*", "/divide": "/"}
 EASY_OPERANDS = (6, 3)
+GOOD_DIVISIONS = 3
+"""How often to divide before the division by zero.
+
+Whether the answer of a server gets out that ends in the callback is a race; a MultiThreadedExecutor raises an exception
+only when it is woken up by the next call, and may answer that one.
+"""
 DIVISIONS_AFTER_ZERO = ((18, 3), (-9, 0), (0, 0), (35, 5))
 """Divisions to request after the first one by zero: a good one, two more by zero, and a good one."""
 ANSWER_S = 5.0
@@ -74,12 +80,16 @@ SAYS_ERROR = re.compile(
 """Matches a log message that reports a problem, in any of the languages that learners write."""
 
 
+ENDED_BY_A_CALL = "not judged, because a call has ended the server: `operations` shows why"
+
+
 @dataclass(frozen=True)
 class ServiceCalls:
     """The server's answers, in the order of the calls.
 
     `spins`: whether the node had answered a parameter call before. `stuck`: the node's stack, innermost frame first,
-    during a call that it did not answer.
+    during a call that it did not answer. `ready`: whether nothing but the calls can have ended the server, since it was
+    up and, as far as can be seen, spinning when the first one was made.
     """
 
     trace: Trace
@@ -87,6 +97,12 @@ class ServiceCalls:
     spins: bool = True
     stuck: tuple[Frame, ...] = ()
     ending: Ending | None = None
+    ready: bool = True
+
+    @property
+    def ended_by_a_call(self) -> bool:
+        """Whether a call ended the server, whether it was answered or not: that the answer gets out is a race."""
+        return self.ready and bool(self.answers) and self.trace.exit is not None
 
     def of(self, service: str) -> tuple[CallAnswer, ...]:
         return tuple(answer for answer in self.answers if answer.service == service)
@@ -94,14 +110,16 @@ class ServiceCalls:
 
 @dataclass(frozen=True)
 class Division:
-    """A good division, one by zero, and the calls after it.
+    """A good division, the same again, one by zero, and the calls after it.
 
-    `ordinary`: the log up to and including the good division. `logged`: the log about the division by zero.
-    `at_end`: if the log reports no error, the output during shutdown.
+    `again`: those after the first good one; a server that this has ended does not answer all of them. `ordinary`: what
+    was logged before the division by zero, `logged`: what was logged from then on. `at_end`: if that reports no error,
+    the output during shutdown.
     """
 
     trace: Trace
     before: CallAnswer | None = None
+    again: tuple[CallAnswer, ...] = ()
     by_zero: CallAnswer | None = None
     after: tuple[CallAnswer, ...] = ()
     ordinary: tuple[LogRecord, ...] = ()

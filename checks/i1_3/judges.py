@@ -10,6 +10,7 @@ from typing import Any
 from checks.i1_3 import late_binding, service_steps, services, steps
 from checks.i1_3.code import Code, learner_files, with_applicable_step
 from checks.i1_3.facts import (
+    ENDED_BY_A_CALL,
     OPERATOR_SIGNS,
     TYPE,
     ServiceCalls,
@@ -25,7 +26,7 @@ from tutor.judge.rewriting.callbacks import only_waits, outermost
 from tutor.judge.rewriting.node import find_in_files, node_file, started_node
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+from tutor.judge.verdict import Cause, Status, Verdict, failed, passed, skipped
 
 
 @with_applicable_steps
@@ -36,6 +37,8 @@ def judge_services(seen: ServiceCalls) -> Verdict:
     if missing:
         cause = _diagnose_missing(seen.trace, missing)
         return failed(expected, f"missing: {', '.join(missing)}", cause, causes.output_tail(seen.trace))
+    if seen.ended_by_a_call:
+        return skipped(ENDED_BY_A_CALL)
     if unanswered is not None:
         observed = f"{unanswered.service}: {causes.describe_no_answer(seen.trace, unanswered.took_s)}"
         silent = [service for service in seen.trace.graph.servers if service.name == unanswered.service]
@@ -141,11 +144,16 @@ def _waits_for_ever(trace: Trace, at: Frame) -> bool:
     return isinstance(loop, ast.While) and all(map(only_waits, loop.body))
 
 
-@with_applicable_steps
-def judge_operations(seen: ServiceCalls) -> Verdict:
-    expected = "right results, negative operands included"
-    if missing_services(seen.trace.graph.servers):
+def judge_operations(seen: ServiceCalls, simple: ServiceCalls) -> Verdict:
+    """Judge `operations`. `simple`: the calls by which `services` is judged."""
+    if judge_services(simple).status is Status.FAILED:
         return skipped("not judged, because `services` did not pass")
+    return _judge_results(seen)
+
+
+@with_applicable_steps
+def _judge_results(seen: ServiceCalls) -> Verdict:
+    expected = "right results, negative operands included"
     for answer in seen.answers:
         a, b = answer.request["a"], answer.request["b"]
         right = correct_result(answer.service, a, b)
@@ -264,4 +272,5 @@ def _diagnose_result(answer: CallAnswer, right: int) -> Cause:
 
 
 def judge_shutdown(seen: ServiceCalls) -> Verdict:
-    return ending.judge_ending(seen.trace, seen.ending)
+    shown_by = "services" if judge_services(seen).status is Status.FAILED else "operations"
+    return ending.judge_ending(seen.trace, seen.ending, shown_by=shown_by)

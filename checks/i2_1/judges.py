@@ -191,4 +191,5 @@ def _wording(line: str) -> str:
 
 
 def judge_shutdown(seen: PlainStart) -> Verdict:
-    return ending.judge_ending(seen.trace, seen.ending)
+    shown_by = "runtime-params" if judge_defaults(seen).passed else "defaults"
+    return ending.judge_ending(seen.trace, seen.ending, shown_by=shown_by)

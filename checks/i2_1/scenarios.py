@@ -47,7 +47,7 @@ async def plain_start(bench: Bench) -> PlainStart:
         if node:
             await wait_for_message(run, TOPIC, TYPE, message_gap_s=MESSAGE_GAP_S)
         trace = run.trace()
-        ended = await run.interrupt() if run.exit is None else None
+        ended = await run.interrupt()
     return PlainStart(trace, declared, ended, () if declared is not None else await dump_if_stuck(bench, trace))
 
 

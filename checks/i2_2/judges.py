@@ -95,9 +95,7 @@ def judge_topic(default_run: LaunchRun, seen: LaunchRun) -> Verdict:
     wanted = next(
         (f"{space}/{name}" for space in spaces if f"{space}/{name}" in topics_in_use(seen.trace.graph)), f"/{name}"
     )
-    return failed(
-        expected, _describe_graph(seen), _wrong_topic(default_run, seen, wanted), output_tail(seen.trace)
-    )
+    return failed(expected, _describe_graph(seen), _wrong_topic(default_run, seen, wanted), output_tail(seen.trace))
 
 
 def judge_namespace(
@@ -119,9 +117,7 @@ def judge_namespace(
     elif shared_topics(default_run.trace.graph):
         right = _has_moved(default_run, alone, within) and _has_messages(default_run, alone, within)
     if not right:
-        return failed(
-            expected, _describe_graph(alone), _wrong_namespace(default_run, alone), output_tail(alone.trace)
-        )
+        return failed(expected, _describe_graph(alone), _wrong_namespace(default_run, alone), output_tail(alone.trace))
     topic = both.arguments["topic"]
     expected = f"with {both.typed}, both nodes and /{NAMESPACE}/{topic} are under /{NAMESPACE}"
     if pairs_on_topic(elsewhere.trace.graph, elsewhere.arguments["topic"], shared_namespaces(default_run.trace.graph)):
@@ -130,9 +126,7 @@ def judge_namespace(
     else:
         right = has_pair_in_namespace(both.trace.graph)
     if not right:
-        return failed(
-            expected, _describe_graph(both), _wrong_namespace(default_run, both), output_tail(both.trace)
-        )
+        return failed(expected, _describe_graph(both), _wrong_namespace(default_run, both), output_tail(both.trace))
     expected = f"with namespace:={NAMESPACE}, alone and with a topic, both nodes and the topic are under /{NAMESPACE}"
     return passed(expected, _describe_graph(both), [*_describe_pair(within[0])] if within else ())
 
@@ -235,11 +229,13 @@ def judge_shutdown(seen: LaunchRun) -> Verdict:
         ended = replace(ended, output=_without_prefixes(ended.output))
     # The launch file itself has nothing to do with how its programs end.
     programs = {name: text for name, text in seen.trace.sources.items() if name != seen.trace.file}
-    verdict = ending.judge_ending(replace(seen.trace, sources=programs), ended)
+    verdict = ending.judge_ending(replace(seen.trace, sources=programs), ended, shown_by="communicates")
     if ended is not None and ended.exit is None:
         left = [command[:200] for command in ended.survivors]
         return replace(verdict, expected=expected, evidence=(*left[:6], *(line.text for line in ended.output[-6:])))
-    if not verdict.passed or ended is None:
+    if ended is None:
+        return verdict
+    if not verdict.passed:
         return replace(verdict, expected=expected)
     if ended.survivors:
         return failed(

@@ -81,7 +81,7 @@ async def plain(bench: Bench) -> LaunchRun:
         trace, command_lines = run.trace(), run.command_lines()
         disconnected = bool(pairs(met)) and not pairs(trace.graph)
         bench.report_progress(0.8, "pressing Ctrl+C")
-        ending = await run.interrupt() if run.exit is None else None
+        ending = await run.interrupt()
         return LaunchRun(
             _with_best_graph(trace, met, pairs), {}, command_lines, hidden, answering, ending, disconnected
         )

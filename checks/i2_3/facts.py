@@ -157,11 +157,15 @@ class ConcurrentCalls:
 
 @dataclass(frozen=True)
 class Interrupted:
-    """A run with Ctrl+C during a call. `called`: whether there was a service to call."""
+    """A run with Ctrl+C during a call. `called`: whether there was a service to call.
+
+    `slowed`: the node ended during the call, but not before Ctrl+C was due: a busy machine has delayed that.
+    """
 
     trace: Trace
     called: bool
     ending: Ending | None = None
+    slowed: bool = False
 
 
 def has_service(services: Sequence[ServiceEndpoint]) -> bool:

@@ -299,13 +299,13 @@ def judge_parallel(single: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
 
 
 def judge_shutdown(seen: IdleRun) -> Verdict:
-    return ending.judge_ending(seen.trace, seen.ending)
+    return ending.judge_ending(seen.trace, seen.ending, shown_by="blocks")
 
 
 def judge_shutdown_busy(seen: Interrupted, single_calls: SingleCalls) -> Verdict:
     if not seen.called and seen.ending is not None and has_service(seen.trace.graph.servers) is False:
         return skipped(f"not judged, because there is no {SERVICE} to call: `blocks` did not pass")
-    verdict = ending.judge_ending(seen.trace, seen.ending)
+    verdict = ending.judge_ending(seen.trace, seen.ending, shown_by="blocks")
     if verdict.passed and single_calls.quickest is None:
         return skipped("not judged, because no call is answered, so none may have been under way: see `blocks`")
     return verdict

@@ -61,7 +61,7 @@ async def run_idle(bench: Bench) -> IdleRun:
         busy = share >= CPU_WAIT_SHARE and any(may_be_10_hz(each, share) for each in series if not each.is_10_hz)
         idle = IdleRun(run.trace(), series, busy)
         bench.report_progress(0.8, "pressing Ctrl+C")
-        return replace(idle, ending=await run.interrupt() if run.exit is None else None)
+        return replace(idle, ending=await run.interrupt())
 
 
 async def call_concurrently(bench: Bench) -> ConcurrentCalls:
@@ -114,18 +114,20 @@ async def interrupt_during_call(bench: Bench) -> Interrupted:
         if called:
             await wait_until_spinning(bench, run)
         call = asyncio.create_task(run.call(SERVICE, TYPE, random_operands(), limit_s=ANSWER_TIMEOUT_S))
+        due = run.now() + INTO_CALL_S
         try:
             if called:
                 bench.report_progress(0.4, f"calling {SERVICE}")
-                due, cpu_wait_s = run.now() + INTO_CALL_S, run.node_cpu_wait_s()
+                cpu_wait_s = run.node_cpu_wait_s()
                 await run.until(
                     lambda: call.done() or run.now() >= due + run.node_cpu_wait_s() - cpu_wait_s, 2 * INTO_CALL_S
                 )
             trace = run.trace()
             bench.report_progress(0.7, "pressing Ctrl+C during the call")
-            ending = await run.interrupt() if run.exit is None else None
+            ending = await run.interrupt()
         finally:
             call.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await call
-        return Interrupted(trace, called, ending)
+        slowed = ending is None and run.exit is not None and run.started_at + run.exit.after_s >= due
+        return Interrupted(trace, called, ending, slowed)

@@ -27,12 +27,15 @@ from pathlib import Path
 from tests.benchmarks.terminal import Terminal, cpu_wait_s, find_watcher, read_usage
 from tests.live.private_domain import METRONOME, PrivateDomain, private_domain
 from tutor.content import load_course
+from tutor.interpreter import reduce_gc_frequency
 from tutor.live.updates import TopicUpdate
 from tutor.session import Session
 from tutor.tui.app import TutorApp
 from tutor.workspace import Workspace, start
 
-TARGETS_MS = {1000: 50.0, 10000: 100.0}
+TARGETS_MS = {1000: 40.0, 10000: 100.0}
+MAX_APP_CPU = 0.15
+"""The app's share of a core, keys included, at 1 kHz."""
 
 KEYS = (
     (b" ", b"Go on"),
@@ -98,6 +101,7 @@ def _measure_in(folder: Path, ros_world: PrivateDomain, rate: int, seconds: floa
     )
     for name, a, b in zip(("app", "watcher process"), before, after, strict=True):
         print(f"           {name}: {(b.cpu_s - a.cpu_s) / lasted:6.1%} CPU, {b.memory_mb:.0f} MB")
+    print(f"           target for the app at 1 kHz, keys included: {MAX_APP_CPU:.0%}")
     print(
         f"           {hz}\n           load of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores",
         flush=True,
@@ -137,7 +141,8 @@ class WatchedApp(TutorApp):
 
 
 def run_app(report: Path, workspace: Path) -> None:
-    """Run the app under test, and write its counts to `report`."""
+    """Run the app under test, started as `ros-tutor` starts it, and write its counts to `report`."""
+    reduce_gc_frequency()
     app = WatchedApp(Session(load_course(), Workspace(workspace)))
     app.run()
     assert app.counted is not None

@@ -153,6 +153,12 @@ def explained(verdict: Verdict, check: Check) -> Verdict:
     return explain(verdict, check) if isinstance(verdict, Failure) else verdict
 
 
+def assert_skipped(verdict: Verdict, words: str) -> None:
+    """Fail unless the verdict is "skipped", for a reason that contains these words."""
+    assert verdict.status is Status.SKIPPED, verdict
+    assert words in verdict.cause, verdict
+
+
 def assert_failed(verdict: Verdict | None, cause: str, *words: str, check: Check | None = None) -> None:
     """Fail unless the verdict failed with the cause of this name, is complete, and contains these words.
 

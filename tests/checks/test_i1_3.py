@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checks.i1_3 import judges
 from checks.i1_3.client import judge_client
 from checks.i1_3.division import judge_division
 from checks.i1_3.facts import (
@@ -22,7 +23,7 @@ from checks.i1_3.facts import (
     find_complaints,
     missing_services,
 )
-from checks.i1_3.judges import judge_operations, judge_services, judge_shutdown
+from checks.i1_3.judges import judge_services, judge_shutdown
 from checks.i1_3.scenarios import random_operands
 from tests.checks.builders import (
     CRASH,
@@ -31,6 +32,7 @@ from tests.checks.builders import (
     NODE_UP,
     assert_failed,
     assert_passed,
+    assert_skipped,
     called,
     ending,
     exited,
@@ -41,7 +43,7 @@ from tests.checks.builders import (
 )
 from tutor.judge.trace import CallAnswer, LogRecord, ServedRequest, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.verdict import Status
+from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import Graph, ServiceEndpoint
 
 ALL = graph(services=dict.fromkeys(OPERATOR_SIGNS, TYPE))
@@ -55,6 +57,10 @@ def right_answer(service: str, a: int = 6, b: int = 3) -> CallAnswer:
 
 
 ANSWERS = tuple(right_answer(service) for service in OPERATOR_SIGNS)
+
+
+def judge_operations(seen: ServiceCalls) -> Verdict:
+    return judges.judge_operations(seen, ServiceCalls(SERVING, ANSWERS))
 
 
 def services(**types: str) -> Graph:
@@ -107,7 +113,7 @@ def test_services_pass() -> None:
         ),
         (ServiceCalls(SERVING, (*ANSWERS[:3], called("/divide", 6, 3, None))), "blocked executor", "/divide"),
         (
-            ServiceCalls(trace(graph=ALL, err=CRASH, exit=exited(1)), (called("/add", 6, 3, None),)),
+            ServiceCalls(trace(graph=ALL, err=CRASH, exit=exited(1)), (called("/add", 6, 3, None),), ready=False),
             "unhandled exception",
             "",
         ),
@@ -117,6 +123,19 @@ def test_services_pass() -> None:
 )
 def test_services_fail(seen: ServiceCalls, cause: str, word: str) -> None:
     assert_failed(judge_services(seen), cause, word)
+
+
+@pytest.mark.parametrize("last", [2, None, -1])
+def test_a_server_that_a_call_ends_is_told_by_operations_whether_the_answer_got_out_or_not(last: int | None) -> None:
+    dead = trace(graph=ALL, err=CRASH, exit=exited(1))
+    seen = ServiceCalls(dead, (*ANSWERS[:3], called("/divide", 6, 3, last)))
+    assert_skipped(judge_services(seen), "`operations` shows why")
+    assert_failed(
+        judges.judge_operations(ServiceCalls(dead, (called("/divide", 60, 3, None),)), seen), "unhandled exception"
+    )
+    good = called("/divide", 84, 7, last)
+    assert_skipped(judge_division(Division(dead, good)), "`operations` shows why")
+    assert_skipped(judge_division(Division(dead, good, (good, called("/divide", 84, 7, None)))), "`operations`")
 
 
 @pytest.mark.parametrize(
@@ -212,11 +231,12 @@ def test_an_exception_in_a_callback_is_named() -> None:
     [
         ServiceCalls(trace(graph=NODE_UP), ()),
         ServiceCalls(trace(graph=without("/add", NODE_UP)), ANSWERS[1:]),
+        ServiceCalls(trace(graph=ALL), (called("/add", 6, 3, None),)),
         ServiceCalls(CRASHED, ()),
     ],
 )
-def test_operations_are_skipped_if_a_service_is_missing(seen: ServiceCalls) -> None:
-    assert judge_operations(seen).status is Status.SKIPPED
+def test_operations_are_skipped_if_services_failed(seen: ServiceCalls) -> None:
+    assert_skipped(judges.judge_operations(ServiceCalls(SERVING, ANSWERS), seen), "`services` did not pass")
 
 
 @pytest.mark.parametrize("answers", [(), ANSWERS[:3]])
@@ -242,10 +262,12 @@ def division(
     seen: Trace = SERVING,
     before: int | None = 12,
 ) -> Division:
+    good = called("/divide", 84, 7, before)
     return Division(
         seen,
-        called("/divide", 84, 7, before),
-        called("/divide", 10, 0, by_zero),
+        good,
+        (good, good),
+        None if before is None else called("/divide", 10, 0, by_zero),
         after,
         ORDINARY,
         logged,
@@ -719,7 +741,7 @@ BY_ZERO = CRASH.replace("AttributeError: 'Sensor' object has no attribute 'nothi
 
 def test_the_step_for_an_unguarded_division_is_a_guard() -> None:
     crashed = trace(graph=ALL, err=BY_ZERO, exit=exited(1), sources={"node.py": DIVIDES})
-    seen = Division(crashed, right_answer("/divide", 84, 7), called("/divide", 10, 0, None))
+    seen = Division(crashed, right_answer("/divide", 84, 7), by_zero=called("/divide", 10, 0, None))
     guard = "write above line 13, with the same indentation:\n    if req.b == 0:\n        self.get_logger().error("
     assert_failed(judge_division(seen), "unhandled exception", guard, "resp.sum = 0\n        return resp")
 
@@ -762,7 +784,8 @@ def test_shutdown() -> None:
     assert_passed(judge_shutdown(ServiceCalls(SERVING, ANSWERS, ending=ending(0))))
     assert_passed(judge_shutdown(ServiceCalls(SERVING, ANSWERS, ending=ending(130))))
     assert_failed(judge_shutdown(ServiceCalls(SERVING, ANSWERS, ending=ending(still_running=True))), "SIGINT ignored")
-    assert_failed(judge_shutdown(ServiceCalls(CRASHED, ())), "unhandled exception")
+    assert_skipped(judge_shutdown(ServiceCalls(CRASHED, ())), "`services` shows why")
+    assert_skipped(judge_shutdown(ServiceCalls(trace(graph=ALL, exit=exited(1)), ANSWERS)), "`operations` shows why")
 
 
 DONE = """\

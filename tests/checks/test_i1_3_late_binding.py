@@ -8,7 +8,7 @@ from checks.i1_3.facts import OPERATOR_SIGNS, TYPE, ServiceCalls, correct_result
 from checks.i1_3.judges import judge_operations
 from checks.i1_3.services import compute_results
 from tests.checks.builders import assert_failed, called, graph, trace
-from tutor.judge.verdict import Status
+from tutor.judge.verdict import Status, Verdict
 
 LAMBDA = """
 for name, function in OPERATIONS.items():
@@ -36,6 +36,10 @@ def calls_of(text: str, computes: str = "/multiply") -> ServiceCalls:
     )
 
 
+def judge(seen: ServiceCalls) -> Verdict:
+    return judge_operations(seen, seen)
+
+
 @pytest.mark.parametrize(
     ("text", "line", "step"),
     [
@@ -49,7 +53,7 @@ def calls_of(text: str, computes: str = "/multiply") -> ServiceCalls:
     ],
 )
 def test_a_function_made_in_a_loop_must_bind_the_loop_variables(text: str, line: str, step: str) -> None:
-    assert_failed(judge_operations(calls_of(text)), "late binding", line, "in node.py, ", step, "what /multiply should")
+    assert_failed(judge(calls_of(text)), "late binding", line, "in node.py, ", step, "what /multiply should")
 
 
 @pytest.mark.parametrize(
@@ -63,7 +67,7 @@ def test_a_function_made_in_a_loop_must_bind_the_loop_variables(text: str, line:
     ],
 )
 def test_bound_loop_variables_are_not_blamed(text: str) -> None:
-    verdict = judge_operations(calls_of(text))
+    verdict = judge(calls_of(text))
     assert verdict.status is Status.FAILED
     assert "late binding" not in verdict.cause
 
@@ -106,7 +110,7 @@ def test_the_line_that_computes_the_wrong_result(service: str, step: str) -> Non
 
 def test_the_next_step_corrects_that_line() -> None:
     assert_failed(
-        judge_operations(calls_of(SERVER, "/subtract")),
+        judge(calls_of(SERVER, "/subtract")),
         "wrong result",
         "what /subtract would",
         "becomes: resp.sum = req.a +",

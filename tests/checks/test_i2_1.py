@@ -45,6 +45,7 @@ from tests.checks.builders import (
     NODE_UP,
     answer,
     assert_passed,
+    assert_skipped,
     ending,
     exited,
     graph,
@@ -698,4 +699,6 @@ def test_shutdown() -> None:
     assert_passed(judge_shutdown(plain_start()))
     assert_passed(judge_shutdown(plain_start(ending=ending(130))))
     assert_failed(judge_shutdown(plain_start(ending=ending(1, err=KEYBOARD_INTERRUPT))), "traceback on exit")
-    assert_failed(judge_shutdown(plain_start(seen=CRASHED, ending=None)), "unhandled exception")
+    assert_skipped(judge_shutdown(plain_start(seen=CRASHED, ending=None)), "`runtime-params` shows why")
+    silent = replace(plain_start(seen=CRASHED, ending=None), parameters=None)
+    assert_skipped(judge_shutdown(silent), "`defaults` shows why")

@@ -48,6 +48,7 @@ from tests.checks.builders import (
     NODE_UP,
     START,
     assert_passed,
+    assert_skipped,
     assert_undecided,
     ending,
     exited,
@@ -645,7 +646,8 @@ def test_shutdown_busy() -> None:
     assert_passed(judge_shutdown_busy(clean, single_calls()))
     stays = Interrupted(trace(graph=SERVING), True, ending(still_running=True))
     assert_failed(judge_shutdown_busy(stays, single_calls()), "SIGINT ignored")
-    assert_failed(judge_shutdown_busy(Interrupted(CRASHED, False), SingleCalls(trace())), "unhandled exception")
+    assert_skipped(judge_shutdown_busy(Interrupted(CRASHED, False), SingleCalls(trace())), "`blocks` shows why")
+    assert_skipped(judge_shutdown(IdleRun(CRASHED)), "`blocks` shows why")
     gone = Interrupted(trace(graph=NODE_UP), False, ending())
     assert judge_shutdown_busy(gone, SingleCalls(trace())).status is Status.SKIPPED
     unanswered = single_calls([], answer(sum_=None))

@@ -62,7 +62,11 @@ def test_what_could_not_be_judged_exits_3(run: Run, engine: FakeEngine) -> None:
 def test_an_engine_error_is_one_line_and_exits_3(run: Run, engine: FakeEngine, error: Exception, message: str) -> None:
     engine.raises = error
     result = run("check", "i1.1", "--solution", "--format", "json")
-    assert (result.code, result.out) == (3, "")
+    assert result.code == 3
+    document = json.loads(result.out)
+    assert_report_shape(document)
+    assert (document["verdict"], document["exercises"]) == ("error", [])
+    assert f"ros-tutor: {document['message']}\n" == result.err
     assert result.err.startswith(message)
     assert result.err.count("\n") == 1
 
@@ -209,6 +213,13 @@ def test_check_all_fails_if_an_exercise_was_not_started_and_says_so(run: Run, en
     by_id = {exercise["id"]: exercise for exercise in document["exercises"]}
     assert (by_id["i1.3"]["verdict"], by_id["i1.3"]["submission"]) == ("failed", [])
     assert {each["cause"] for each in by_id["i1.3"]["criteria"]} == {"not started"}
+    assert by_id["i1.3"]["missing"] == {
+        "message": "not started",
+        "looked_for": [str(home / "ros_tutor_ws/src/my_package/my_package/calculator_server.py")],
+        "found": [
+            *("minimal_publisher.py", "minimal_subscriber.py", "parameterized_publisher.py", "temperature_publisher.py")
+        ],
+    }
     assert by_id["i1.1"]["verdict"] == "passed"
 
 

@@ -43,3 +43,42 @@ def test_our_modules_are_compiled_but_files_that_learners_get_a_copy_of_are_not(
     assert [each for each in modules if each not in copied and not _is_compiled(each)] == []
     assert copied
     assert [each for each in copied if _is_compiled(each)] == []
+
+
+PROGRAMS = {"ros-tutor": ["ros-tutor", "list"], "run-tests": ["run-tests", "--version"]}
+
+
+def run_without_space(program: str, script: str, **variables: str) -> subprocess.CompletedProcess[str]:
+    """Run a program of the clone after a shell script that takes the space away, in a mount namespace of its own."""
+    given = {name: value for name, value in os.environ.items() if not name.startswith(("UV_", "XDG_"))}
+    name, *arguments = PROGRAMS[program]
+    command = ["unshare", "-rm", "sh", "-c", f'{script}; exec "$@"', "sh", str(CLONE / name), *arguments]
+    return subprocess.run(
+        command, env={**given, **variables}, cwd="/", capture_output=True, text=True, timeout=60, check=False
+    )
+
+
+needs_own_mounts = pytest.mark.skipif(
+    subprocess.run(["unshare", "-rm", "true"], capture_output=True, check=False).returncode != 0,
+    reason="this machine allows no mount namespaces",
+)
+
+
+@needs_own_mounts
+@pytest.mark.parametrize("program", PROGRAMS)
+@pytest.mark.parametrize("temporary", ["/tmp", "HOME"])
+def test_a_home_without_space_does_not_matter(program: str, temporary: str, tmp_path: Path) -> None:
+    home = str(tmp_path)
+    fill = f"mount -t tmpfs -o size=16k full {home} && ! head -c 99999 /dev/zero 2>/dev/null >{home}/file || exit 99"
+    result = run_without_space(program, fill, HOME=home, TMPDIR=temporary.replace("HOME", home))
+    assert result.returncode == 0, result.stderr
+    assert "error" not in result.stderr
+
+
+@needs_own_mounts
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_without_space_anywhere_one_sentence_says_so(program: str, tmp_path: Path) -> None:
+    result = run_without_space(program, "trap '' XFSZ; ulimit -f 0", HOME=str(tmp_path))
+    assert result.returncode == 3, result.stderr
+    (line,) = result.stderr.splitlines()
+    assert line.startswith(f"ros-tutor: neither {tmp_path}/.cache/uv nor a temporary folder can be written")

@@ -135,7 +135,7 @@ import os, runpy, signal, sys
 
 class Press:
     def find_spec(self, name, *_):
-        if name == "tutor.cli.parser":
+        if name == "tutor.cli.global_options":
             Dying()
 
 class Dying:

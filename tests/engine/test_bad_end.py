@@ -87,7 +87,7 @@ async def press_ctrl_c(bench: Bench) -> Interrupted:
 async def judge_interrupted(scene: Scene, crashing_runs: tuple[int, ...], code: str, always: str = "") -> Verdict:
     """Judge how the program ends that runs `code` at the end of these runs (from 1)."""
     facts = await press_ctrl_c(scene.bench(ENDS_ON_CTRL_C + CRASHES.format(crashing_runs, code, always)))
-    return judge_ending(facts.trace, facts.ending)
+    return judge_ending(facts.trace, facts.ending, shown_by="another")
 
 
 def count_starts(folder: Path) -> int:
@@ -111,7 +111,7 @@ async def test_a_single_crash_is_forgiven_in_each_scenario_that_ends_with_ctrl_c
         bench = scene.bench_of(Submission(exercise, files))
         scenarios = importlib.import_module(f"checks.{exercise.replace('.', '_')}.scenarios")
         facts = await getattr(scenarios, name)(bench)
-        verdict = judge_ending(facts.trace, facts.ending)
+        verdict = judge_ending(facts.trace, facts.ending, shown_by="another")
         assert verdict.passed, (exercise, name, verdict)
         assert count_starts(folder) == 2, (exercise, name)  # the crash, and a repetition
 

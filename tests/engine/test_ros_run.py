@@ -154,6 +154,7 @@ async def test_a_node_is_observed_from_its_first_message_to_its_exit(scene: Scen
         before = run.trace()
         ending = await run.interrupt()
         after = run.trace()
+    assert ending is not None
     sample = before.samples_on("/chatter")[0]
     assert sample.message == {"data": "learner"}
     assert before.started_at <= sample.source_time <= sample.received_at + 0.05 <= time.time() + 0.05
@@ -416,6 +417,7 @@ async def test_a_process_that_ignores_ctrl_c_is_killed_when_the_run_ends(scene: 
     async with scene.bench(source).start(FILE) as run:
         assert await run.until(lambda: bool(run.output), STARTUP_S)
         ending = await run.interrupt(0.3)
+        assert ending is not None
         assert (ending.exit, ending.limit_s) == (None, 0.3)
         assert scene.leftovers()
     assert not scene.leftovers()
@@ -460,6 +462,7 @@ async def test_a_flood_of_messages_and_output_is_bounded(scene: Scene, monkeypat
         ending = await run.interrupt()
         trace = run.trace()
     assert declared is not None
+    assert ending is not None
     assert ending.exit is not None
     assert len(trace.samples_on("/chatter")) == limit
     assert len(trace.logs) == limit
@@ -506,11 +509,34 @@ async def test_ctrl_c_is_pressed_once_the_node_has_finished_what_it_is_doing(sce
     assert [line.text for line in run.output] == ["busy", "done", "interrupted"]
 
 
+DIES = """
+def die():
+    try:
+        raise SystemExit(3)
+    finally:
+        until = time.monotonic() + {busy_s}
+        while time.monotonic() < until:
+            pass
+"""
+
+
+@pytest.mark.parametrize("busy_s", [0.0, 0.3])
+async def test_a_node_that_our_request_has_ended_was_not_ended_by_ctrl_c(scene: Scene, busy_s: float) -> None:
+    """It is still busy with its end when Ctrl+C is about to be pressed."""
+    async with scene.bench(node(OBEYS, DIES.format(busy_s=busy_s))).start(FILE) as run:
+        await wait_for_service(run, "/learner/set_parameters")
+        await tell(run, "node.create_timer(0.0, die)")
+        assert await run.interrupt() is None
+    assert run.exit is not None
+    assert run.exit.code == 3
+
+
 async def test_ctrl_c_reaches_a_launched_process_exactly_once(scene: Scene) -> None:
     (scene.folder / "counts.py").write_text(COUNTS_INTERRUPTS)
     async with scene.bench(LAUNCHES).launch(FILE) as run:
         assert await run.until(lambda: any(line.text.endswith("] up") for line in run.output), STARTUP_S), run.output
         ending = await run.interrupt()
+        assert ending is not None
         assert ending.exit is not None, run.output
         assert sum(line.text.endswith("] interrupted") for line in run.output) == 1, run.output
 

@@ -90,6 +90,7 @@ async def test_criteria_that_depend_on_a_failure_are_skipped(scene: Scene) -> No
     )
     assert statuses(result) == {"a": "failed", "b": "skipped", "c": "skipped", "d": "passed", "e": "passed"}
     assert "`a`" in result.criteria[1].verdict.cause
+    assert result.criteria[2].verdict.cause == result.criteria[1].verdict.cause, "the root is named"
     assert result.verdict is Status.FAILED
 
 

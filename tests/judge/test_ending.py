@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
@@ -10,7 +11,6 @@ from tests.checks.builders import (
     CRASH,
     FOLDER,
     KEYBOARD_INTERRUPT,
-    NO_NODE,
     assert_failed,
     assert_passed,
     ending,
@@ -19,7 +19,9 @@ from tests.checks.builders import (
 )
 from tutor.judge.ending import judge_ending, may_be_chance
 from tutor.judge.trace import Ending, Trace
+from tutor.judge.verdict import Status
 
+judge = partial(judge_ending, shown_by="another")
 RCLPY = "/venv/lib/python3.12/site-packages/rclpy"
 OWN_FRAME = f'  File "{FOLDER}/node.py", line 30, in main\n    rclpy.shutdown()'
 HEADER = "Traceback (most recent call last):"
@@ -82,7 +84,7 @@ rclpy._rclpy_pybind11.RCLError: Failed to publish: publisher's context is invali
     ],
 )
 def test_clean_endings_pass(end: Ending) -> None:
-    assert_passed(judge_ending(trace(), end))
+    assert_passed(judge(trace(), end))
 
 
 @pytest.mark.parametrize(
@@ -117,31 +119,23 @@ def test_clean_endings_pass(end: Ending) -> None:
     ],
 )
 def test_unclean_endings_fail(end: Ending, cause: str, words: str) -> None:
-    assert_failed(judge_ending(trace(), end), cause, words)
+    assert_failed(judge(trace(), end), cause, words)
 
 
-@pytest.mark.parametrize(
-    ("seen", "cause"),
-    [
-        (trace(exit=exited(0, after_s=0.5)), "exit at once"),
-        (trace(exit=exited(1), err=CRASH), "unhandled exception"),
-        (trace(exit=exited(signal=11)), "killed"),
-        (trace(exit=exited(0), uncalled_main=True), "no main call"),
-        (trace(), "exit at once"),
-        (NO_NODE, "no node"),
-    ],
-)
-def test_causes_of_an_end_before_ctrl_c(seen: Trace, cause: str) -> None:
-    assert_failed(judge_ending(seen, None), cause)
+@pytest.mark.parametrize(("seen", "how"), [(trace(exit=exited(1), err=CRASH), ", with exit code 1: "), (trace(), ": ")])
+def test_a_process_that_has_ended_before_ctrl_c_is_not_judged(seen: Trace, how: str) -> None:
+    verdict = judge_ending(seen, None, shown_by="operations")
+    assert verdict.status is Status.SKIPPED
+    assert verdict.cause == f"not judged, because the process had ended before Ctrl+C{how}`operations` shows why"
 
 
 def test_the_limit_is_named() -> None:
-    assert "within 5 s" in judge_ending(trace(), ending(0)).expected
-    assert "within 2.5 s" in judge_ending(trace(), Ending(None, 2.5, 2.5)).expected
+    assert "within 5 s" in judge(trace(), ending(0)).expected
+    assert "within 2.5 s" in judge(trace(), Ending(None, 2.5, 2.5)).expected
 
 
 def test_the_last_lines_of_output_are_shown() -> None:
-    verdict = judge_ending(trace(err="one\n\ntwo"), ending(still_running=True))
+    verdict = judge(trace(err="one\n\ntwo"), ending(still_running=True))
     assert verdict.evidence == ("one", "two")
 
 
@@ -194,10 +188,10 @@ def test_a_process_that_goes_on_may_be_chance_on_a_busy_machine_only(cpu_wait_sh
 def test_a_traceback_on_stdout_is_one_as_well() -> None:
     end = ending(0, err=KEYBOARD_INTERRUPT)
     end = replace(end, output=tuple(replace(line, stream="stdout") for line in end.output))
-    assert_failed(judge_ending(trace(), end), "traceback on exit", "KeyboardInterrupt")
+    assert_failed(judge(trace(), end), "traceback on exit", "KeyboardInterrupt")
 
 
 def test_an_older_exception_that_is_printed_does_not_matter() -> None:
     end = ending(0, err=CRASH)
     end = replace(end, output=tuple(replace(line, stream="stdout") for line in end.output))
-    assert_passed(judge_ending(trace(), end))
+    assert_passed(judge(trace(), end))

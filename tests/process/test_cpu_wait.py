@@ -7,6 +7,7 @@ import pytest
 
 from tutor.process import CpuMeter, CpuTime, cpu_wait, own_cpu_time
 from tutor.process.cpu_wait import estimate_unblocked_s
+from tutor.process.supervisor import Process
 
 BUSY = "while True: pass"
 
@@ -93,3 +94,16 @@ def test_free_time_is_the_time_in_which_no_process_waits() -> None:
     assert estimate_unblocked_s(10, [10, 0]) == 0
     assert estimate_unblocked_s(10, [30, 1]) == 0  # several processes that all wait the whole time
     assert estimate_unblocked_s(0, []) == 0
+
+
+def test_a_child_process_counts_with_its_whole_wait_since_its_parent_may_wait_for_its_end(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = {1: CpuTime(1.0, 0.5, 0.1), 2: CpuTime(2.0, 3.0, 0.2)}
+    table = {pid: Process(pid, parent=1, group=1, session=1, state="S") for pid in found}
+    monkeypatch.setattr(cpu_wait, "recent_processes", lambda _session: table)
+    monkeypatch.setattr(cpu_wait, "_read_cpu_time", found.__getitem__)
+    meter = CpuMeter(1)
+    assert meter.process_count == 1
+    assert meter.read() == CpuTime(3.0, 3.5, 3.1)
+    assert meter.process_count == 2

@@ -108,6 +108,26 @@ async def test_on_change_is_called_for_output_and_exit(bench: Any) -> None:
     await wait_until(lambda: seen and seen[-1][1])
 
 
+async def test_ctrl_c_after_the_end_did_not_reach_the_program(bench: Any) -> None:
+    # The child keeps the process group alive, so the signal itself is sent.
+    child = await bench.start("""
+if os.fork() == 0:
+    signal.signal(signal.SIGINT, lambda *_: print('got it', flush=True))
+    print('up', flush=True)
+    forever()
+""")
+    await wait_until(lambda: texts(child) == ["up"])
+    await wait_for_exit(child)
+    child.interrupt()
+    await wait_until(lambda: "got it" in texts(child))
+    assert not child.interrupted
+    running = await bench.start("print('up', flush=True); forever()")
+    await wait_until(lambda: texts(running) == ["up"])
+    running.interrupt()
+    await wait_for_exit(running)
+    assert running.interrupted
+
+
 async def test_the_program_starts_with_a_clean_session_and_clean_signals(bench: Any, tmp_path: Path) -> None:
     learner = await bench.start(
         """

@@ -11,7 +11,8 @@ TEXT_KEYS = ("id", "text", "expected", "observed", "cause", "step")
 
 def assert_report_shape(document: Any) -> None:
     """Fail unless `document` has every key of the contract, no other, and the right types."""
-    assert [key for key in document if key != "walls"] == [
+    assert isinstance(document.get("message", ""), str)
+    assert [key for key in document if key not in ("walls", "message")] == [
         "schema",
         "verdict",
         "duration_s",
@@ -26,7 +27,16 @@ def assert_report_shape(document: Any) -> None:
     assert list(document["environment"]) == ["ros_distro", "ros", "rmw", "ros_tutor"]
     assert all(isinstance(value, str) for value in document["environment"].values())
     for exercise in document["exercises"]:
-        assert list(exercise) == ["id", "title", "verdict", "duration_s", "submission", "criteria", "remarks"]
+        assert [key for key in exercise if key != "missing"] == [
+            *("id", "title", "verdict", "duration_s", "submission", "criteria", "remarks")
+        ]
+        assert ("missing" in exercise) == (not exercise["submission"])
+        if missing := exercise.get("missing"):
+            assert {name: type(value) for name, value in missing.items()} == {
+                "message": str,
+                "looked_for": list,
+                "found": list,
+            }
         assert exercise["verdict"] in ("passed", "failed", "error")
         assert_duration(exercise["duration_s"])
         assert all(isinstance(name, str) for name in exercise["submission"])

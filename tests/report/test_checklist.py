@@ -137,6 +137,14 @@ def test_the_skeletons_own_code_is_no_evidence() -> None:
     assert evidence(progress(i2_1=exercise(passed(*everything), given, best=Status.PASSED)), "end") == ()
 
 
+def test_a_criterion_that_passed_by_other_means_is_no_evidence() -> None:
+    both = ("defaults", "validation")
+    by_loop = passed(*both, not_shown=("validate",))
+    assert evidence(progress(i2_1=exercise(by_loop, best=Status.PASSED)), "validate") == ()
+    done = progress(i2_1=exercise(by_loop, passed(*both), best=Status.PASSED))
+    assert evidence(done, "validate") == (Evidence("i2.1", "validation", LATER),)
+
+
 def test_help_before_the_first_pass_is_noted() -> None:
     hints, solution = failed("validation", help=Help.HINTS), passed("defaults", "validation", help=Help.SOLUTION)
     (first,) = validation(hints, solution, best=Status.PASSED)

@@ -73,10 +73,18 @@ async def test_one_lesson_in_a_browser(tmp_path: Path) -> None:
             await page.press("r")
             await wait_until(lambda: is_running(node), "the node runs")
 
+            await page.press_for("(ROS 2: ws)", "7")
+            for letter in "cd src; echo $$ > new; mv new shell":
+                await page.press(letter)
+            await page.press("Enter")
+            await wait_until((workspace.root / "src" / "shell").is_file, "the terminal's shell does what is typed")
+
             elsewhere = [url for url in page.requested if not url.startswith((address, address.replace("http", "ws")))]
             assert elsewhere == []
             assert page.complaints == []
         await wait_until(lambda: not is_running(node), "closing the page ends its node")
+        shell = int((workspace.root / "src" / "shell").read_text())
+        await wait_until(lambda: not Path(f"/proc/{shell}").exists(), "and the shell in its terminal")
         server.send_signal(signal.SIGINT)
         async with asyncio.timeout(LIMIT_S):
             await server.communicate()

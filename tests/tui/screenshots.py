@@ -16,9 +16,9 @@ import sys
 import tempfile
 from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager, contextmanager
-from functools import partial
 from pathlib import Path
 
+from textual.events import Paste
 from textual.pilot import Pilot
 
 from tests.live.private_domain import private_domain
@@ -32,8 +32,6 @@ from tutor.tui.dialogs.checklist import ChecklistScreen
 from tutor.tui.live.topics_panel import TopicsPanel
 from tutor.tui.screens.main import MainScreen
 from tutor.tui.screens.welcome import WelcomeScreen
-from tutor.tui.terminal.output_view import OutputView
-from tutor.tui.terminal.prompt import Prompt
 from tutor.tui.themes import DARK, LIGHT
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.workspace import Workspace
@@ -202,25 +200,34 @@ class Album:
                 await self.take(pilot, "live-near-miss")
 
     async def terminal(self) -> None:
-        """Three commands at once with the solution of the first lesson, one of which has ended."""
+        """Two terminals with the solution of the first lesson: a rate in one; the topic's messages in the other."""
         with session_with_solutions(1) as session:
             async with self.open_app(session) as pilot:
                 main = main_screen(pilot)
-                await pilot.press("7")
-                await until(pilot, lambda: main.pages.terminal is not None)
-                await pilot.pause(0.5)
-                await self.take(pilot, "terminal-nothing")
                 pane = main.pages.open_terminal()
-                output = pane.query_one(OutputView)
-                for line, expected in (
-                    ("ros2 run my_package temperature_publisher", "°C"),
-                    ("ros2 topic info /sensor/temperature", "Subscription count"),
-                    ("ros2 topic hz /sensor/temperature", "average rate"),
-                ):
-                    pane.run_line(line)
-                    await until(pilot, partial(lambda text: text in output.plain, expected))
-                pilot.app.screen.query_one(Prompt).value = "ros2 topic echo /sensor/temp"
+                await pilot.press("7")
+
+                async def enter(line: str, expected: str) -> None:
+                    await until(pilot, lambda: pane.shown is not None and pane.shown.program is not None)
+                    view = pane.shown
+                    assert view is not None
+                    await until(pilot, lambda: view.program is not None and view.program.reads_keys)
+                    if line:
+                        pilot.app.post_message(Paste(line))
+                        await pilot.press("enter")
+                    await until(pilot, lambda: expected in view.plain)
+
+                await enter("", "ROS 2")
+                await self.take(pilot, "terminal-nothing")
+                await enter("ros2 run my_package temperature_publisher", "°C")
+                await pilot.press("ctrl+right_square_bracket", "plus")
+                await enter("ros2 topic info /sensor/temperature", "Subscription count")
+                await enter("ls --color=always src/my_package", "setup.py")
+                await enter("ros2 topic hz /sensor/temperature", "average rate")
                 await self.take(pilot, "terminal")
+                await pilot.press("ctrl+right_square_bracket")
+                await pilot.pause(0.7)
+                await self.take(pilot, "terminal-tabs")
 
     async def check(self, passing: bool) -> None:
         async with self.fake_app() as (pilot, session):

@@ -21,7 +21,7 @@ from tutor.tui.dialogs.run_options import RunOptionsScreen
 from tutor.tui.live.pane import LivePane
 from tutor.tui.live.publish_dialog import PublishScreen
 from tutor.tui.live.status import TABS
-from tutor.tui.terminal.prompt import Prompt
+from tutor.tui.terminal.view import TerminalView
 from tutor.workspace import RunOptions
 
 HOSTILE = (
@@ -120,14 +120,15 @@ async def test_hostile_text_in_the_code_the_log_the_terminal_a_verdict_and_the_a
         await me.sees("gain")
         assert_harmless(me)
         await me.press("7")
-        await me.until(lambda: isinstance(me.app.focused, Prompt), "the prompt has the focus")
+        await me.until(lambda: isinstance(me.app.focused, TerminalView), "the terminal has the focus")
+        await me.sees("(ROS 2: ws)")
         me.paste(f"cat {me.session.workspace.root}/all.txt")
         await me.press("enter")
-        await me.sees("gain")
+        await me.sees("2Jbcde")  # the rest has moved the cursor and cleared the screen, which is this terminal's own
         assert_harmless(me)
 
         verdict = failed(ALL, ALL, Cause(ALL, ALL, ALL), [*HOSTILE, ALL])
-        await me.press("escape", "c")
+        await me.press("f9")
         await me.engine_emits(*fakes.started_events(), fakes.progress_event("rate", 0.5, ALL.replace("\ud800", "")))
         await me.press("5")
         assert_harmless(me)

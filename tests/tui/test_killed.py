@@ -174,3 +174,27 @@ def test_killed_the_moment_a_save_or_a_check_begins(learner: KillableApp) -> Non
     learner.kill_app()
     assert learner.file.read_text() == "# new\n" + whole
     assert learner.progress() == learner.before
+
+
+def test_killed_with_programs_in_its_terminals(learner: KillableApp) -> None:
+    learner.app.press(b"7")
+    learner.app.wait_for_text(b"(ROS 2: ws)")
+    learner.app.press(b"sleep 4501 & nohup setsid sleep 4502 >/dev/null & ros2 topic echo /sensor/temperature\r")
+    learner.until(lambda: learner.runs("sleep 4501", "sleep 4502", "topic echo"), "the programs")
+    learner.app.press(b"\x1d")
+    learner.app.wait_for_text(b"1-9 shows")
+    learner.app.press(b"+")
+    learner.until(lambda: learner.count("--rcfile") == 2, "the second shell")
+    learner.kill_app()
+
+
+def test_a_closed_window_hangs_up_its_terminals(learner: KillableApp) -> None:
+    told = learner.workspace.root / "told"
+    learner.app.press(b"7")
+    learner.app.wait_for_text(b"(ROS 2: ws)")
+    learner.app.press(b"sh -c 'trap \"echo > told; exit\" HUP; while true; do sleep 0.1; done'\r")
+    learner.until(lambda: learner.runs("while true"), "the program")
+    learner.app.detach()
+    assert learner.app.wait_for_exit(LIMIT_S)
+    assert told.exists()
+    assert not learner.running()

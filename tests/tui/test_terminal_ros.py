@@ -5,21 +5,44 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import pytest
+
 from tests.tui.conftest import Learner, open_app
 from tutor.content import load_course
 from tutor.session import Session
-from tutor.tui.terminal.output_view import OutputView
-from tutor.tui.terminal.prompt import Prompt
+from tutor.tui.terminal.view import TerminalView
 from tutor.workspace import Workspace, start
+
+PROMPT = "(ROS 2: ws)"
+
+
+def shown(me: Learner) -> TerminalView:
+    assert me.main.pages.terminal is not None
+    view = me.main.pages.terminal.shown
+    assert view is not None
+    return view
+
+
+def text(me: Learner) -> str:
+    return shown(me).plain
 
 
 def rates(me: Learner) -> list[float]:
-    text = me.main.query_one(OutputView).plain
-    return [float(rate) for rate in re.findall(r"average rate: ([\d.]+)", text)]
+    return [float(rate) for rate in re.findall(r"average rate: ([\d.]+)", text(me))]
 
 
-async def test_a_rate_set_in_the_terminal_is_measured_there(tmp_path: Path) -> None:
-    """Start the solution of i2.1, watch its rate, set it in a second command, see it change, press Ctrl+C."""
+async def enter(me: Learner, command: str) -> None:
+    """Paste a command at the prompt, and press Enter."""
+    await me.until(lambda: (program := shown(me).program) is not None and program.reads_keys, "the prompt")
+    me.paste(command)
+    await me.press("enter")
+
+
+async def test_two_terminals_share_the_apps_domain_and_ctrl_c_ends_an_echo(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Run the solution of i2.1, watch its rate, set it in a second terminal, see it change; then echo, and complete."""
+    monkeypatch.setenv("SHELL", "/bin/bash")
     course = load_course()
     lesson = next(lesson for lesson in course.lessons if lesson.id == "i2.1")
     workspace = Workspace(tmp_path / "ws")
@@ -32,32 +55,26 @@ async def test_a_rate_set_in_the_terminal_is_measured_there(tmp_path: Path) -> N
         await me.press("f5")
         await me.sees("running", file.name)
         await me.press("f10")
-        await me.until(lambda: isinstance(me.app.focused, Prompt), "the prompt has the focus")
-        await me.type_text("ros2 topic hz /chatter --window 8\n")
+        await me.sees(PROMPT)
+        await enter(me, "ros2 topic hz /chatter --window 8")
         await me.until(lambda: bool(rates(me)) and abs(rates(me)[-1] - 1.0) < 0.3, "about 1 Hz")
-        await me.type_text("ros2 param set /parameterized_publisher publish_rate 10.0\n")
+        await me.press("ctrl+right_square_bracket", "plus")
+        await me.sees("2 bash")
+        await enter(me, "ros2 param set /parameterized_publisher publish_rate 10.0")
         await me.sees("Set parameter successful")
-        await me.press("ctrl+pagedown")
+        await me.press("ctrl+right_square_bracket", "1")
         await me.until(lambda: bool(rates(me)) and abs(rates(me)[-1] - 10.0) < 3.0, "about 10 Hz")
         await me.press("ctrl+c")
-        terminal = me.main.pages.terminal
-        assert terminal is not None
-        await me.until(lambda: not terminal.running, "the command has ended")
-        assert "Traceback" not in me.main.query_one(OutputView).plain
+        await enter(me, "clear; ros2 topic echo /chatter")
+        await me.until(lambda: "data: 'Hello #" in text(me) and "---" in text(me), "messages")
+        assert me.main.busy
+        await me.press("ctrl+c")
+        await enter(me, "clear")
+        assert "Traceback" not in text(me)
+        await me.until(lambda: not me.main.pages.terminal.busy, "the echo has ended")  # type: ignore[union-attr]
 
-
-async def test_tab_completes_topic_names(tmp_path: Path) -> None:
-    course = load_course()
-    workspace = Workspace(tmp_path / "ws")
-    start(course.lessons[0], workspace)
-    async with open_app(Session(course, workspace)) as me:
-        me.limit_s = 60.0  # type: ignore[misc]  # completion queries the ROS domain
-        await me.press("f10")
-        prompt = me.main.query_one(Prompt)
-        await me.until(lambda: me.app.focused is prompt)
-        await me.type_text("ros2 topic pu")
-        await me.press("tab")
-        await me.until(lambda: prompt.value == "ros2 topic pub ", prompt.value)
-        await me.type_text("/ros")
-        await me.press("tab")
-        await me.until(lambda: prompt.value == "ros2 topic pub /rosout ", prompt.value)
+        # Tab completes what there is in the domain.
+        await me.type_text("ros2 topic pu\t")
+        await me.sees("ros2 topic pub ")
+        await me.type_text("/cha\t")
+        await me.sees("ros2 topic pub /chatter ")

@@ -49,13 +49,20 @@ def _run(argv: Sequence[str] | None) -> int:
 
         completion.answer(build)
     arguments = read_alone(argv)
-    if arguments is None:
-        from tutor.cli.parser import parse
+    try:
+        if arguments is None:
+            from tutor.cli.parser import parse
 
-        arguments = parse(argv)
-    if arguments.command is None:
-        return app.run(arguments)
-    if arguments.plain:
-        raise UsageError(f"--plain takes no command: {arguments.command} writes plain text anyway")
-    code: int = arguments.run(arguments)
-    return code
+            arguments = parse(argv)
+        if arguments.command is None:
+            return app.run(arguments)
+        if arguments.plain:
+            raise UsageError(f"--plain takes no command: {arguments.command} writes plain text anyway")
+        code: int = arguments.run(arguments)
+        return code
+    except Exception as error:
+        if not _caused_by_ctrl_c(error):
+            from tutor.cli.error_documents import write_error_document
+
+            write_error_document(error, arguments, sys.argv[1:] if argv is None else argv)
+        raise

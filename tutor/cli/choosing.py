@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from tutor.errors import UsageError
 from tutor.invocation import command
-from tutor.judge.result import CriterionResult, ExerciseResult, Report
+from tutor.judge.result import CriterionResult, ExerciseResult, Lookup, Report
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Verdict
 
@@ -45,7 +45,7 @@ def choose_submissions(
     Raises SubmissionError if there is nothing to judge at all.
     """
     from tutor.errors import SubmissionError
-    from tutor.workspace import find_submission, is_started
+    from tutor.workspace import find_submission, is_started, look_up
 
     if path is None and not workspace.exists:
         find_submission(lessons[0], None, workspace)  # raises the most helpful error
@@ -56,7 +56,7 @@ def choose_submissions(
             found.append(find_submission(lesson, path, workspace))
         except SubmissionError as error:
             why = str(error) if is_started(lesson, path, workspace) else NOT_STARTED
-            missing.append(_skipped_result(lesson, why))
+            missing.append(missing_result(lesson, Status.SKIPPED, why, look_up(lesson, path, workspace)))
     if not found:
         why = "; ".join(f"{result.id} {result.missing}" for result in missing)
         raise SubmissionError(f"there is nothing to judge in {path or workspace.root}: {why}")
@@ -70,23 +70,27 @@ def with_missing(
 
     A missing exercise counts as not passed: `check all` passes only if every exercise does.
     """
-    shown = [
-        replace(result, criteria=tuple(each for each in result.criteria if only is None or each.id in only))
-        for result in missing
-    ]
+    shown = [only_criteria(result, only) for result in missing]
     order = [lesson.id for lesson in lessons]
     combined = sorted((*report.exercises, *shown), key=lambda result: order.index(result.id))
     return replace(report, exercises=tuple(combined))
 
 
-def _skipped_result(lesson: Lesson, why: str) -> ExerciseResult:
+def only_criteria(result: ExerciseResult, only: Collection[str] | None) -> ExerciseResult:
+    """Return the result limited to the criteria in `only`, if that is given."""
+    return result if only is None else replace(result, criteria=tuple(c for c in result.criteria if c.id in only))
+
+
+def missing_result(lesson: Lesson, status: Status, why: str, lookup: Lookup | None) -> ExerciseResult:
+    """Return the result of an exercise whose files are missing: each of its criteria has this status."""
     names = ", ".join(file.name for file in lesson.files if file.required)
     hint = f"`{command('start', lesson.id)}` puts the skeleton into the workspace" if why == NOT_STARTED else ""
-    verdict = Verdict(Status.SKIPPED, expected=names, cause=why, step=hint)
+    verdict = Verdict(status, expected=names, cause=why, step=hint)
     return ExerciseResult(
         id=lesson.id,
         title=lesson.title,
         submission=(),
         criteria=tuple(CriterionResult(c.id, c.text, c.bonus, verdict, 0.0) for c in lesson.criteria),
         duration_s=0.0,
+        lookup=lookup,
     )

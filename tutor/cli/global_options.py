@@ -12,7 +12,7 @@ from tutor.errors import UsageError
 from tutor.invocation import program
 
 
-def global_options() -> CommandParser:
+def shared_options() -> CommandParser:
     """Return the options allowed both before and after the command.
 
     Their defaults are suppressed: otherwise the command's parser would overwrite a value given before the command.
@@ -35,7 +35,7 @@ def read_alone(argv: Sequence[str] | None) -> argparse.Namespace | None:
 
     The parser of all commands, which reads the others, takes a tenth of the time to the app's first paint.
     """
-    parser = Parser(prog=program(), add_help=False, parents=[global_options()])
+    parser = Parser(prog=program(), add_help=False, parents=[shared_options()])
     parser.set_defaults(command=None, plain=False)
     try:
         arguments, more = parser.parse_known_args(argv)

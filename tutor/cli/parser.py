@@ -26,7 +26,7 @@ from tutor.cli import (
     start,
     watch,
 )
-from tutor.cli.global_options import global_options
+from tutor.cli.global_options import shared_options
 from tutor.cli.grammar import CommandParser, Parser, read
 from tutor.invocation import program
 
@@ -47,7 +47,7 @@ def parse(argv: Sequence[str] | None) -> argparse.Namespace:
 
 def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     """Build the parser of the whole command line. `mixing`: allow options between a command's positional arguments."""
-    shared = global_options()
+    shared = shared_options()
     parser = Parser(
         prog=program(),
         description="Hands-on ROS 2 exercises, judged by what your node really does.",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import shlex
 import signal
 import subprocess
@@ -21,36 +20,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Run the user's shell, or one command line in it, and return its exit code."""
     from tutor import private_folders
-    from tutor.bundled_ros.ros2 import sourced
-    from tutor.bundled_ros.ros2.terminal import interactive_command, users_shell
-    from tutor.ros.environment import detect
+    from tutor.session.shell import shell_command
     from tutor.workspace import domain_of
 
-    try:
-        shell, path = users_shell()
-    except LookupError as error:
-        raise UsageError(str(error)) from error
-    workspace, ros = context.choose_workspace(arguments), detect()
-    domain = domain_of(workspace)
+    workspace = context.choose_workspace(arguments)
     with private_folders.temporary("shell") as tools:
-        env = sourced.sourced_environment(ros, workspace.root, domain, tools)
-        setup = sourced.setup_file(ros, workspace.root, shell)
+        try:
+            shell = shell_command(workspace, tools)
+        except LookupError as error:
+            raise UsageError(str(error)) from error
         if arguments.line is not None:
-            first = "" if setup is None else f". {shlex.quote(str(setup))}\n"
-            return _run([str(path), "-c", first + arguments.line], env)
-        where = context.display_path(workspace.root)
-        command = interactive_command(
-            shell,
-            path,
-            env=env,
-            exported={name: value for name, value in env.items() if os.environ.get(name) != value},
-            unset=sorted(set(os.environ) - set(env)),
-            tools=tools,
-            mark=f"(ROS 2: {workspace.root.name}) ",
-            setup=setup,
-        )
+            first = "" if shell.setup is None else f". {shlex.quote(str(shell.setup))}\n"
+            return _run([str(shell.path), "-c", first + arguments.line], shell.env)
+        where, domain = context.display_path(workspace.root), domain_of(workspace)
         terminal.say(f"ROS 2 is sourced here: workspace {where}, domain {domain}. `exit` leaves this shell.")
-        return _run(command, env)
+        return _run(list(shell.argv), shell.env)
 
 
 def _run(command: list[str], env: dict[str, str]) -> int:

@@ -139,14 +139,19 @@ def _read_file(fields: Fields, folder: Path) -> LessonFile:
 
 
 def _read_criterion(fields: Fields) -> CriterionText:
+    shows, calls = fields.texts("shows", optional=True), fields.mapping("calls")
+    methods = {item: calls.text(item, optional=True) for item in shows} if calls is not None else {}
+    if calls is not None:
+        calls.done()
     criterion = CriterionText(
         id=fields.text("id"),
         text=fields.text("text"),
         bonus=fields.flag("bonus", False),
         open=fields.flag("open", True),
         hint=fields.text("hint"),
-        shows=fields.texts("shows", optional=True),
+        shows=shows,
         given=fields.text("given", optional=True),
+        calls=tuple((item, method) for item, method in methods.items() if method),
     )
     fields.done()
     return criterion

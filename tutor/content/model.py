@@ -37,7 +37,8 @@ class CriterionText:
 
     `open`: the untouched skeleton does not pass it. Otherwise `given` names the function of the skeleton's first file
     that does, and passing is evidence only once the learner has rewritten that. `bonus`: it is shown, but never changes
-    the verdict. `shows` holds the ids of the checklist items for which passing it is evidence.
+    the verdict. `shows` holds the ids of the checklist items for which passing it is evidence. `calls`: for some of
+    these, the method that the learner's code must call, in a node that spins; otherwise it passed by other means.
     """
 
     id: str
@@ -47,6 +48,7 @@ class CriterionText:
     hint: str
     shows: tuple[str, ...] = ()
     given: str = ""
+    calls: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
-from tutor.bundled_ros.ros2 import overlay
+from tutor.bundled_ros.ros2 import overlay, sourced
 from tutor.bundled_ros.ros2.starting import ros2_command
-from tutor.engine.forking import node_env
+from tutor.engine.forking import node_env, source_workspace
 from tutor.engine.isolation import Isolation
 from tutor.engine.run import CollectedFacts, RosRun
 from tutor.engine.start_limiter import StartLimiter
@@ -51,7 +51,7 @@ class RosBench:
     the scenario reports before it ends. `expected_s`: the check's; of several waiting starts, the one with the longest
     goes first (a start may give its own). `exceptions`: known exceptions of the check. `follow`: entered for each run,
     with its watched topics and their types. `sigkilled`: the files whose process was ended by SIGKILL.
-    `fork_server`: where processes are forked.
+    `fork_server`: where processes are forked. `tools`: the programs of a sourced terminal (see `Prepared`).
     """
 
     submission: Submission
@@ -68,6 +68,7 @@ class RosBench:
     on_facts: Callable[[object], None] = lambda facts: None
     sigkilled: list[Path] = field(default_factory=list)
     fork_server: ForkServerLink | None = None
+    tools: Path | None = None
 
     @asynccontextmanager
     async def start(
@@ -147,8 +148,12 @@ class RosBench:
                 for topic, type_name in watch.items():
                     observer.watch(topic, type_name)
                 env = node_env(self.ros, domain_id, log_dir, package_root(path))
+                if self.isolation is None:  # else it would see the folders of its workspace
+                    source_workspace(env, self.ros, path, self.tools)
+                elif self.tools is not None:
+                    sourced.add_programs(env, self.tools)
                 argv = make_argv(env, log_dir)
-                wrapper = self.isolation.wrap(package_folder(path), log_dir, env) if self.isolation else ()
+                wrapper = self.isolation.wrap(package_folder(path), log_dir, env, self.tools) if self.isolation else ()
                 # A program may have deleted its own folder: its next start then reports that.
                 cwd = path.parent if path.parent.is_dir() else log_dir
                 async with await LearnerProcess.start(

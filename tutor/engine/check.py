@@ -42,7 +42,7 @@ async def run_check(
     from tutor.engine.modules import load_check
 
     shared_limiter = start_limiter or StartLimiter()
-    async with nullcontext(prepared) if prepared else prepare(forks=isolation is None) as (ros, fork_server):
+    async with nullcontext(prepared) if prepared else prepare(forks=isolation is None) as ready:
         from tutor.engine.runner import Runner  # imports rclpy, whose environment is set by now
 
         unchanged.refuse_changed_modules()
@@ -54,12 +54,13 @@ async def run_check(
                 check,
                 lesson,
                 submission,
-                ros,
+                ready.ros,
                 only,
                 on_event,
                 shared_limiter,
                 isolation,
-                fork_server,
+                ready.fork_server,
+                tools=ready.tools,
                 first=first,
             )
 
@@ -80,6 +81,7 @@ async def run_check(
                 for task in tasks:
                     task.cancel()
                 await asyncio.gather(*tasks, return_exceptions=True)
+    ros = ready.ros
     report = Report(
         environment=Environment(ros_distro=ros.distro, ros=ros.kind, rmw=ros.rmw, ros_tutor=__version__),
         exercises=tuple(results),

@@ -7,16 +7,24 @@ import contextlib
 import os
 import signal
 import time
+from collections.abc import Callable
 
 from tutor.engine.source import add_source_lines
 from tutor.judge import tracebacks
 from tutor.judge.tracebacks import Frame
-from tutor.process import LearnerProcess, fork_link
+from tutor.process import LearnerProcess, NextWake, fork_link
+from tutor.process.cpu_wait import MAX_EXTENSION_FACTOR
 
 BLOCKED_S = 0.5
 """Maximum delay of Ctrl+C until the node has finished what it is doing; one that is always busy never has."""
 
 BLOCKED_POLL_S = 0.01
+
+BLOCKED_POLLS = 3
+"""How many polls in a row must find all threads blocked, with none having run in between.
+
+A process that is ending blocks too, but only for a moment at a time.
+"""
 
 CHILD_EXIT_S = 1.0
 """Grace period for child processes that are about to exit after the first process has."""
@@ -27,13 +35,23 @@ DUMP_S = 2.0
 """How long an aborted process may take to write its stacks and end."""
 
 
-async def wait_until_blocked(process: LearnerProcess) -> None:
+async def wait_until_blocked(process: LearnerProcess, cpu_wait_s: Callable[[], float]) -> None:
     """Wait until all threads of the process are blocked, as they usually are when someone presses Ctrl+C.
 
-    A node that is still handling our last request may end in another way than one that waits.
+    A node that is still handling our last request may end in another way than one that waits, and one that our last
+    request has ended is not ended by Ctrl+C. `cpu_wait_s`: for how long it has waited for a CPU so far.
     """
-    deadline = time.monotonic() + BLOCKED_S
-    while process.exit is None and process.next_wake().at == 0.0 and time.monotonic() < deadline:
+    began, waited_before_s, last, polls = time.monotonic(), cpu_wait_s(), NextWake(), 0
+
+    def limit_s() -> float:
+        return BLOCKED_S + min(cpu_wait_s() - waited_before_s, MAX_EXTENSION_FACTOR * BLOCKED_S)
+
+    while process.exit is None and time.monotonic() - began < limit_s():
+        wake = process.next_wake()
+        polls = 0 if wake.at == 0.0 else polls + 1 if wake.timeslices == last.timeslices else 1
+        if polls >= BLOCKED_POLLS:
+            return
+        last = wake
         await asyncio.sleep(BLOCKED_POLL_S)
 
 

@@ -41,10 +41,10 @@ def skipped_verdict(criterion: Criterion, results: Mapping[str, CriterionResult]
     """The verdict on a criterion that was not judged: a dependency did not pass, or the check ended at `failure`."""
     for dependency in criterion.after:
         if dependency in results and not results[dependency].verdict.passed:
-            return skipped_after(dependency)
+            return skipped_after(dependency, results[dependency].verdict)
     return skipped(f"not judged, because the check ended at its first failure, `{failure}`")
 
 
-def skipped_after(dependency: str) -> Verdict:
-    """The verdict on a criterion whose dependency did not pass."""
-    return skipped(f"not judged, because `{dependency}` did not pass")
+def skipped_after(dependency: str, verdict: Verdict) -> Verdict:
+    """The verdict on a criterion whose dependency got this verdict; the reason is the same if that was skipped, too."""
+    return verdict if verdict.status is Status.SKIPPED else skipped(f"not judged, because `{dependency}` did not pass")

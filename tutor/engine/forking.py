@@ -7,18 +7,32 @@ from collections.abc import Iterable
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
+from tutor.bundled_ros.ros2 import sourced, sources
 from tutor.process.fork_link import ForkServerLink
 from tutor.ros.environment import RosEnvironment, learner_env
 
 
 def node_env(ros: RosEnvironment, domain_id: int, log_dir: Path, package_root: Path | None) -> dict[str, str]:
-    """Return the environment of a node that is checked."""
+    """Return the environment of a node that is checked, without what belongs to its workspace (`source_workspace`)."""
     env = learner_env(
         ros, domain_id=domain_id, log_dir=log_dir, package_root=package_root, isolated=True, environ=os.environ
     )
     env["TMPDIR"] = str(log_dir)  # temporary files are deleted with the run
     env["PYTHONFAULTHANDLER"] = "1"  # see tutor.engine.ending.dump_stacks
     return env
+
+
+def source_workspace(env: dict[str, str], ros: RosEnvironment, path: Path, tools: Path | None) -> None:
+    """Make a learner's file run as in a terminal in which ROS and the file's workspace are sourced.
+
+    `tools` holds the programs of such a terminal (see `sourced.write_programs`).
+    """
+    if tools is not None:
+        sourced.add_programs(env, tools)
+    if (workspace := sources.workspace_around(path)) is not None:
+        if ros.kind == "system":
+            sourced.add_built_packages(env, workspace)
+        sourced.add_workspace(env, workspace)
 
 
 def start_fork_server(ros: RosEnvironment, modules: Iterable[str]) -> AbstractContextManager[ForkServerLink | None]:

@@ -77,16 +77,17 @@ class Isolation:
         )
         return replace(isolation, limits_processes=forked.returncode != 0)
 
-    def wrap(self, submission: Path, logs: Path, env: dict[str, str]) -> list[str]:
+    def wrap(self, submission: Path, logs: Path, env: dict[str, str], tools: Path | None = None) -> list[str]:
         """Return the command prefix that isolates a command; adapts `env`, with which that must be run.
 
-        The command may write to `logs`, and to a copy of the submission that is mounted in its place. Raises
-        EngineError if the submission cannot be copied.
+        The command may read `tools`, write to `logs`, and to a copy of the submission that is mounted in its place.
+        Raises EngineError if the submission cannot be copied.
         """
         env |= {"HOME": "/tmp", "TMPDIR": "/tmp"}
         copy = logs / "submission"
         _copy_submission(submission, copy)
-        return self._bwrap_command(list(_readable_folders(env)), {submission: copy, logs: logs})
+        readable = [*_readable_folders(env), *([tools] if tools is not None else [])]
+        return self._bwrap_command(readable, {submission: copy, logs: logs})
 
     @property
     def restrictions(self) -> tuple[Restriction, ...]:

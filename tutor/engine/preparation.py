@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import importlib
+import os
 import resource
 from collections.abc import AsyncIterator
 from contextlib import ExitStack, asynccontextmanager, suppress
+from pathlib import Path
 from typing import NamedTuple
 
 from tutor.errors import EngineError
@@ -45,10 +47,14 @@ Not rclpy itself, whose C library starts threads (of LTTng), which a forked proc
 
 
 class Prepared(NamedTuple):
-    """The ROS that checks use, and where nodes are forked; None: they are started without a fork server."""
+    """The ROS that checks use, and where nodes are forked; None: they are started without a fork server.
+
+    `tools`: a folder with the programs of a sourced terminal, such as `ros2`, for the nodes.
+    """
 
     ros: RosEnvironment
     fork_server: ForkServerLink | None
+    tools: Path
 
 
 @asynccontextmanager
@@ -57,6 +63,8 @@ async def prepare(*, forks: bool) -> AsyncIterator[Prepared]:
 
     Restores the environment variables of this process at the end. Raises EngineError if checks cannot run here.
     """
+    from tutor import private_folders
+    from tutor.bundled_ros.ros2 import sourced
     from tutor.engine.forking import start_fork_server
     from tutor.ros import bytecode, process_setup
     from tutor.ros.discovery import require_loopback
@@ -74,6 +82,8 @@ async def prepare(*, forks: bool) -> AsyncIterator[Prepared]:
             process_setup.prepare_for_rclpy(ros, isolated=True)
             process_setup.keep_stdout()
             await asyncio.to_thread(bytecode.compile_ros_modules, ros)
+            tools = stack.enter_context(private_folders.temporary("tools"))
+            sourced.write_programs(tools, ros, os.environ)
             fork_server = stack.enter_context(start_fork_server(ros, NODE_MODULES)) if forks else None
             importlib.import_module("tutor.engine.runner")  # with rclpy, whose environment must be set by now
         except (ImportError, OSError, RuntimeError) as error:
@@ -81,7 +91,7 @@ async def prepare(*, forks: bool) -> AsyncIterator[Prepared]:
         for name in _LAZY_MODULES:
             with suppress(ImportError):
                 importlib.import_module(name)
-        yield Prepared(ros, fork_server)
+        yield Prepared(ros, fork_server, tools)
 
 
 def _require_descriptors() -> None:

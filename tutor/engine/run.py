@@ -249,14 +249,25 @@ class RosRun:
         settled = {endpoint.type for endpoint in self.graph.publishers if endpoint.topic == topic}
         return replace(shown, types=tuple(sorted(settled.union(shown.types))))
 
-    async def interrupt(self, limit_s: float = 5.0) -> Ending:
-        await ending.wait_until_blocked(self._process)
+    async def interrupt(self, limit_s: float = 5.0) -> Ending | None:
+        await ending.wait_until_blocked(self._process, self.node_cpu_wait_s)
+        if self._has_lost_its_nodes():  # it is on its way out
+            await self.wait_for_exit(limit_s, all_sent=lambda: True)
+        return await self._press_ctrl_c(limit_s) if self.exit is None else None
+
+    def _has_lost_its_nodes(self) -> bool:
+        had_nodes = self.exit is None and bool(self._graph[1].nodes)
+        return had_nodes and not graph.read_graph(self._observer.node).nodes
+
+    async def _press_ctrl_c(self, limit_s: float) -> Ending | None:
         pressed = time.time()
         cpu_wait_share = self._waits.cpu_time().waited_s / max(pressed - self.started_at, POLL_S)
         self.interrupted_at = pressed
         self._process.interrupt()
         await self.wait_for_exit(limit_s)
         ended = self.exit
+        if ended is not None and not self._process.interrupted:
+            return None
         took = (self.started_at + ended.after_s if ended is not None else time.time()) - pressed
         survivors = await ending.survivors(self._process)
         output = tuple(line for line in self.output if line.at >= pressed)

@@ -7,6 +7,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from tutor.content import Lesson
@@ -14,6 +15,7 @@ from tutor.engine.bench import RosBench
 from tutor.engine.explanation import explain
 from tutor.engine.first_failure import judge_until_failure, skipped_after, skipped_verdict
 from tutor.engine.isolation import Isolation
+from tutor.engine.not_shown import items_not_shown, read_all_sources
 from tutor.engine.provisional import Provisional
 from tutor.engine.so_far import SoFar
 from tutor.engine.source import read_sources
@@ -47,7 +49,7 @@ class Runner:
     """One check of one submission.
 
     `only`: ids of the criteria to show (None: all); their dependencies are judged too, but not shown. `first`: stop at
-    the first required criterion that fails.
+    the first required criterion that fails. `tools`: see `Prepared`.
     """
 
     def __init__(
@@ -62,6 +64,7 @@ class Runner:
         isolation: Isolation | None = None,
         fork_server: ForkServerLink | None = None,
         *,
+        tools: Path | None = None,
         first: bool = False,
     ) -> None:
         self._check = check
@@ -74,6 +77,7 @@ class Runner:
         self._start_limiter = start_limiter or StartLimiter()
         self._isolation = isolation
         self._fork_server = fork_server
+        self._tools = tools
         self._first = first
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
@@ -97,6 +101,7 @@ class Runner:
         self._announce()
         self._started = time.monotonic()
         digests, given = digests_of(self._submission.files), given_criteria(self._lesson, self._submission)
+        sources = read_all_sources(self._submission)
         needed = _with_dependencies(self._check, self._shown)
         try:
             for criterion in needed:
@@ -117,6 +122,7 @@ class Runner:
             unjudged=unjudged,
             digests=digests,
             given=given,
+            not_shown=items_not_shown(self._lesson, sources, results),
         )
         if result.verdict is Status.PASSED and not unjudged:
             result = replace(result, remarks=self._remarks())
@@ -195,6 +201,7 @@ class Runner:
             provisional.follow,
             lambda facts: self._take_facts(scenario, facts),
             fork_server=self._fork_server,
+            tools=self._tools,
         )
         async with self._start_limiter.scenarios.running(alone=alone):
             if alone and self._elapsed_s() > REPEAT_WITHIN_S:
@@ -207,8 +214,8 @@ class Runner:
 
     async def _judge(self, criterion: Criterion) -> Verdict:
         for dependency in criterion.after:
-            if not (await asyncio.shield(self._verdicts[dependency])).passed:
-                return skipped_after(dependency)
+            if not (verdict := await asyncio.shield(self._verdicts[dependency])).passed:
+                return skipped_after(dependency, verdict)
         try:
             verdict = explain(await self._judge_early_or_fully(criterion), self._check)
             text = self._texts.get(criterion.id)

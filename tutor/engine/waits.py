@@ -33,7 +33,7 @@ LITTLE_CPU_S = 0.5
 """A node that got less CPU time than this during a wait may have been starved by the machine."""
 
 ENOUGH_CPU_S = 2.0
-"""Nothing that is waited for takes a node more CPU time than this: its start, for example, takes 0.3 s."""
+"""Nothing that is waited for takes a process more CPU time than this: a node's start, for example, takes 0.3 s."""
 
 MAX_LATENCY_S = 0.5
 """Upper bound on the latency of a message that a process sent before it ended."""
@@ -99,10 +99,17 @@ class Waits:
             meanwhile()
             return self._process.exit is not None or given_up()
 
-        # Only the main thread's wait for a CPU excuses a late exit. Other threads may wait while it sleeps, and a delay
-        # of ours changes nothing, since an exit that we see late still has its own time.
+        own_before_s = own_cpu_time().waited_s
+
+        def waited_s() -> tuple[float, ...]:
+            # Of the program's threads, only the main one's wait excuses a late exit: others may wait while it sleeps. A
+            # delay of ours changes nothing, since an exit that we see late still has its own time, unless the program
+            # calls a server of ours.
+            own_s = own_cpu_time().waited_s if self._observer.serves else own_before_s
+            return self.cpu_time().main_waited_s, own_s
+
         idle = self._idle_detector(RESENT_S)
-        await self._until(ended, limit_s, lambda: (self.cpu_time().main_waited_s,), idle, all_sent)
+        await self._until(ended, limit_s, waited_s, idle, all_sent)
         return self._process.exit is not None
 
     async def for_response(
@@ -184,7 +191,8 @@ class Waits:
             if idle is not None and all_sent() and idle.is_idle_until(time.time() + deadline - now):
                 return False
             if now >= deadline:
-                if self.cpu_time().ran_s - ran_before_s >= ENOUGH_CPU_S:  # it was not starved
+                enough_s = ENOUGH_CPU_S * self._meter.process_count
+                if self.cpu_time().ran_s - ran_before_s >= enough_s:  # it was not starved
                     return False
                 cpu_waits_s = [after - before for after, before in zip(waited_s(), waited_before_s, strict=True)]
                 max_extension_s = MAX_EXTENSION_FACTOR * limit_s

@@ -153,8 +153,11 @@ class Run(Protocol):
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         """Subscribe as `ros2 topic echo` does: a separate participant that takes type and QoS from the publishers."""
 
-    async def interrupt(self, limit_s: float = 5.0) -> Ending:
-        """Press Ctrl+C (SIGINT to the process group), wait for the process to end, and record what it leaves behind."""
+    async def interrupt(self, limit_s: float = 5.0) -> Ending | None:
+        """Press Ctrl+C (SIGINT to the process group), wait for the process to end, and record what it leaves behind.
+
+        Return None if the process had ended by itself, or was about to: something before Ctrl+C has ended it.
+        """
 
     def command_lines(self) -> tuple[str, ...]:
         """The command lines of the learner's process and of all its living descendants."""

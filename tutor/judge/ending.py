@@ -10,7 +10,7 @@ from typing import Protocol
 from tutor.judge import causes, shutdown_steps, tracebacks
 from tutor.judge.bench import Bench, Scenario
 from tutor.judge.trace import Ending, Exit, Trace
-from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
 from tutor.judge.waiting import CPU_WAIT_SHARE
 
 _CRASH_SIGNALS = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT
@@ -77,14 +77,16 @@ def _crashed(ending: Ending | None) -> bool:
     return ending is not None and ending.exit is not None and ending.exit.signal in _CRASH_SIGNALS
 
 
-def judge_ending(trace: Trace, ending: Ending | None) -> Verdict:
-    """Judge how a process ended. `ending` is None if it exited by itself before Ctrl+C could be pressed."""
-    expected = EXPECTED.format(limit=ending.limit_s if ending else 5)
+def judge_ending(trace: Trace, ending: Ending | None, *, shown_by: str) -> Verdict:
+    """Judge how a process ended on Ctrl+C.
+
+    `ending` is None if the process had ended by itself before: that is no ending on Ctrl+C, and `shown_by` is the id of
+    the criterion that shows why.
+    """
     if ending is None:
-        cause = causes.diagnose_process(trace) or Cause(
-            "exit at once", "the process had ended before Ctrl+C was pressed", "let the node run until Ctrl+C"
-        )
-        return failed(expected, f"ended by itself with {trace.exit}", cause, causes.output_tail(trace))
+        how = f", with {trace.exit}" if trace.exit is not None else ""
+        return skipped(f"not judged, because the process had ended before Ctrl+C{how}: `{shown_by}` shows why")
+    expected = EXPECTED.format(limit=ending.limit_s)
     if ending.exit is None:
         return failed(
             expected,

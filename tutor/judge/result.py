@@ -33,13 +33,22 @@ class Remark:
 
 
 @dataclass(frozen=True, slots=True)
+class Lookup:
+    """Where files were missing: `looked_for` are their paths, `found` the names of what is in the first folder."""
+
+    looked_for: tuple[str, ...]
+    found: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class ExerciseResult:
     """One judged exercise. `submission` holds the names of the judged files; empty if there were none.
 
     `unjudged`: the ids of criteria that were skipped because the check was to stop at its first failure. `digests`: the
     digest of each of these files when the check began (see `tutor.workspace.digests`). `given`: the ids of the criteria
     that the submission can only meet by code that came with the skeleton. `remarks`: at most two, if everything
-    required passed.
+    required passed. `lookup`: what was looked for, if there was nothing to judge. `not_shown`: the ids of the checklist
+    items of which it shows nothing, whatever it passes.
     """
 
     id: str
@@ -51,6 +60,8 @@ class ExerciseResult:
     digests: Mapping[str, str] = field(default_factory=dict)
     given: tuple[str, ...] = ()
     remarks: tuple[Remark, ...] = ()
+    lookup: Lookup | None = None
+    not_shown: tuple[str, ...] = ()
 
     @property
     def missing(self) -> str:
@@ -61,10 +72,11 @@ class ExerciseResult:
     def verdict(self) -> Status:
         """`PASSED` if every required criterion passed; `ERROR` if one could not be judged and none failed.
 
-        A check of bonus criteria only has passed, since nothing required is missing. A missing submission has failed.
+        A check of bonus criteria only has passed, since nothing required is missing. A missing submission has failed
+        beside others that were judged; where nothing at all was, its criteria say `ERROR`, and so does it.
         """
         if self.missing:
-            return Status.FAILED
+            return Status.ERROR if self.criteria[0].verdict.status is Status.ERROR else Status.FAILED
         required = [c.verdict.status for c in self.criteria if not c.bonus]
         return overall(required) if required or not self.criteria else Status.PASSED
 
@@ -90,12 +102,16 @@ class Restriction:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Everything that one `check` found. `isolation` is empty unless it was requested."""
+    """Everything that one `check` found. `isolation` is empty unless it was requested.
+
+    `message`: why nothing could be judged; empty if something was.
+    """
 
     environment: Environment
     exercises: tuple[ExerciseResult, ...]
     duration_s: float
     isolation: tuple[Restriction, ...] = ()
+    message: str = ""
 
     @property
     def verdict(self) -> Status:

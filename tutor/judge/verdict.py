@@ -51,7 +51,8 @@ class Verdict:
     `observed` contains numbers with units; `evidence` holds single lines to show verbatim (log lines, samples, the
     learner's own line of code), oldest first. Of a failure, `mistake` is its id in the catalogue, `cause` says why, and
     `step` what to change, in words; `place` is the file and line, such as "node.py:12", if one is known. `same_as`: the
-    id of the criterion whose failure explains this one; then cause and step are told there.
+    id of the criterion whose failure explains this one; then cause and step are told there. `spins`: whether the node
+    was seen to spin, None if nothing shows it.
     """
 
     status: Status
@@ -63,6 +64,7 @@ class Verdict:
     mistake: str = ""
     place: str = ""
     same_as: str = ""
+    spins: bool | None = None
 
     @property
     def passed(self) -> bool:
@@ -100,9 +102,9 @@ def undecided(to_do: str) -> Undecided:
     return Undecided(Status.ERROR, cause=f"this machine is too busy {to_do}", step=BUSY_STEP)
 
 
-def passed(expected: str, observed: str, evidence: Iterable[str] = ()) -> Verdict:
+def passed(expected: str, observed: str, evidence: Iterable[str] = (), *, spins: bool | None = None) -> Verdict:
     """The criterion is met."""
-    return Verdict(Status.PASSED, expected=expected, observed=observed, evidence=tuple(evidence))
+    return Verdict(Status.PASSED, expected=expected, observed=observed, evidence=tuple(evidence), spins=spins)
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ import math
 import os
 import time
 from collections.abc import Iterable
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 
 from tutor.process.supervisor import Process, processes
 
@@ -68,12 +68,23 @@ class CpuMeter:
         self._session = session
         self._per_process: dict[int, _ProcessMeter] = {}
 
+    @property
+    def process_count(self) -> int:
+        """The number of processes seen so far, but at least 1."""
+        return max(1, len(self._per_process))
+
     def read(self) -> CpuTime:
-        """Return the sum over all processes seen so far."""
+        """Return the sum over all processes seen so far.
+
+        `main_waited_s` has the whole wait of the other processes: the first one may be waiting for their end.
+        """
         for process in recent_processes(self._session).values():
             if process.session == self._session:
                 self._per_process.setdefault(process.pid, _ProcessMeter(process.pid))
-        readings = [astuple(meter.read()) for meter in self._per_process.values()]
+        found = [(pid, meter.read()) for pid, meter in self._per_process.items()]
+        readings = [
+            astuple(each if pid == self._session else replace(each, main_waited_s=each.waited_s)) for pid, each in found
+        ]
         return CpuTime(*(sum(values) for values in zip(*readings, strict=True)))
 
 

@@ -146,6 +146,11 @@ class LearnerProcess:
         """Send SIGINT to the process group, as Ctrl+C in a terminal does. Does nothing if the group is gone."""
         self._link.interrupt()
 
+    @property
+    def interrupted(self) -> bool:
+        """Whether `interrupt` reached the program itself: it had not ended by then."""
+        return self._link.interrupted
+
     async def wait(self, limit_s: float | None) -> Exit | None:
         """Wait up to `limit_s` seconds for the exit (None: indefinitely). Return None if it is still running."""
         await asyncio.wait({self._exited}, timeout=limit_s)

@@ -41,6 +41,8 @@ class SupervisorLink(asyncio.Protocol):
         self.fault = ""
         """Why the exit is not the program's doing: the supervisor was killed from outside. Empty if it was not."""
         self.ending = False
+        self.interrupted = False
+        """Whether SIGINT was sent while the program was running."""
         self._loop = asyncio.get_running_loop()
         self.ready: asyncio.Future[str] = self._loop.create_future()
         self.gone: asyncio.Future[str] = self._loop.create_future()
@@ -151,6 +153,8 @@ class SupervisorLink(asyncio.Protocol):
             code = os.waitstatus_to_exitcode(int(status))
             self._exited = True
             self._on_exit(Exit(code if code >= 0 else None, -code if code < 0 else None, float(after_s)))
+        elif word == "interrupted":
+            self.interrupted = True
         elif word == "terminated":
             self.fault = _KILLED
         elif word == "ended":

@@ -218,8 +218,8 @@ class Supervisor:
         os.close(report)
         os.close(reported)
         null = os.open(os.devnull, os.O_RDWR)
-        for output in (1, 2):  # from here on, only the learner's processes hold the pipes open
-            os.dup2(null, output)
+        for stream in (0, 1, 2):  # from here on, only the learner's processes hold the pipes and the terminal open
+            os.dup2(null, stream)
         os.close(null)
         why = b""
         while chunk := os.read(failure, 4096):
@@ -242,6 +242,11 @@ class Supervisor:
         """
         try:
             os.setsid()
+            if os.isatty(1):  # a shell on a terminal of its own; an idle terminal as stdin alone does not count
+                import fcntl
+                import termios
+
+                fcntl.ioctl(1, termios.TIOCSCTTY, 0)
             self._prctl(PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
             if os.getppid() != supervisor:
                 os._exit(127)
@@ -284,7 +289,9 @@ class Supervisor:
                     self._interrupt()
 
     def _interrupt(self) -> None:
-        """Send SIGINT to the learner's process group, as a terminal does on Ctrl+C."""
+        """Send SIGINT to the learner's process group, as a terminal does on Ctrl+C; report it if the program lives."""
+        if not self._exited:  # before it is sent: the program's exit must be reported after it
+            self._report("interrupted")
         # Once the leader is reaped, its group id is only safe to use while a descendant is still in that group.
         if not self._exited or any(p.group == self._main_pid for p in descendants(os.getpid())):
             with contextlib.suppress(ProcessLookupError, PermissionError):

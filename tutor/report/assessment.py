@@ -169,7 +169,7 @@ def _assess_item(item: ChecklistItem, course: Course, progress: Progress, versio
             found.append(_evidence_of_exercise(lesson, own, version))
         elif left_open := tuple(criterion.id for criterion in criteria if criterion.open):
             sources.append(Source(lesson.id, left_open))
-        found += [_evidence_of_criterion(lesson, criterion, own, version) for criterion in criteria]
+        found += [_evidence_of_criterion(item, lesson, criterion, own, version) for criterion in criteria]
     evidence = [each for each in found if each is not None]
     evidence.sort(key=lambda each: (each.holds, each.at), reverse=True)  # stable: otherwise in the lesson's order
     return AssessedItem(item.id, item.text, progress.ticks.get(item.id), tuple(evidence), tuple(sources))
@@ -181,18 +181,20 @@ def _evidence_of_exercise(lesson: Lesson, progress: ExerciseProgress, version: s
 
 
 def _evidence_of_criterion(
-    lesson: Lesson, criterion: CriterionText, progress: ExerciseProgress, version: str
+    item: ChecklistItem, lesson: Lesson, criterion: CriterionText, progress: ExerciseProgress, version: str
 ) -> Evidence | None:
     def is_own(attempt: Attempt) -> bool:
-        """Whether the learner's own code was judged, and not what came with the skeleton."""
-        return criterion.open or bool(attempt.version and criterion.id not in attempt.given)
+        """Whether the learner's own code passed, not what came with the skeleton, and by means of the item."""
+        own = criterion.open or bool(attempt.version and criterion.id not in attempt.given)
+        return own and item.id not in attempt.not_shown
 
     judged = [
         (attempt, criterion.id in attempt.passed and is_own(attempt))
         for attempt in progress.attempts
         if attempt.judged_of([criterion.id])
     ]
-    passed_before = progress.is_passed and criterion.open and not criterion.bonus
+    otherwise = any(item.id in attempt.not_shown for attempt in progress.attempts)
+    passed_before = progress.is_passed and criterion.open and not criterion.bonus and not otherwise
     return _evidence(lesson, criterion.id, judged, version, passed_before=passed_before)
 
 

@@ -17,6 +17,7 @@ def render(report: Report) -> str:
     document: dict[str, Any] = {
         "schema": SCHEMA,
         "verdict": report.verdict.value,
+        **({"message": printable(report.message)} if report.message else {}),
         "duration_s": round(report.duration_s, 3),
         "environment": asdict(report.environment),
         "exercises": [_exercise(exercise) for exercise in report.exercises],
@@ -33,11 +34,21 @@ def _exercise(exercise: ExerciseResult) -> dict[str, Any]:
         "verdict": exercise.verdict.value,
         "duration_s": round(exercise.duration_s, 3),
         "submission": list(exercise.submission),
+        **({"missing": _missing(exercise)} if exercise.missing else {}),
         "criteria": [_criterion(criterion) for criterion in exercise.criteria],
         "remarks": [
             {"mistake": each.mistake, "text": printable(each.text), "file": each.file, "line": each.line}
             for each in exercise.remarks
         ],
+    }
+
+
+def _missing(exercise: ExerciseResult) -> dict[str, Any]:
+    lookup = exercise.lookup
+    return {
+        "message": printable(exercise.missing),
+        "looked_for": [] if lookup is None else [printable(path) for path in lookup.looked_for],
+        "found": [] if lookup is None else [printable(name) for name in lookup.found],
     }
 
 

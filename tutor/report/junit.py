@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.report.plain import details, evidence_lines, one_line
+from tutor.report.plain import details, evidence_lines, missing_lines, one_line
 
 _MAX_LENGTH = 2000
 _COUNT_ATTRIBUTES = (("failures", "failure"), ("errors", "error"), ("skipped", "skipped"))
@@ -22,6 +22,8 @@ def render(report: Report) -> str:
     root = Element("testsuites", name="ros-tutor", time=_format_time(report.duration_s))
     for exercise in report.exercises:
         _add_suite(root, exercise, report)
+    if not report.exercises:
+        _add_message(root, report)
     for name in ("tests", "failures", "errors"):
         root.set(name, str(sum(int(suite.get(name, "0")) for suite in root)))
     indent(root)
@@ -44,6 +46,15 @@ def _add_suite(root: Element, exercise: ExerciseResult, report: Report) -> None:
     suite.set("tests", str(len(exercise.criteria)))
     for attribute, tag in _COUNT_ATTRIBUTES:
         suite.set(attribute, str(len(suite.findall(f"testcase/{tag}"))))
+
+
+def _add_message(root: Element, report: Report) -> None:
+    """Add one test that could not be judged: without any, readers of these files see nothing wrong."""
+    time = _format_time(report.duration_s)
+    suite = SubElement(root, "testsuite", name="check", time=time, tests="1", failures="0", errors="1", skipped="0")
+    SubElement(suite, "properties")
+    case = SubElement(suite, "testcase", classname="ros-tutor", name="check", time=time)
+    SubElement(case, "error", type="could not be judged", message=one_line(report.message))
 
 
 def _add_case(suite: Element, exercise: ExerciseResult, criterion: CriterionResult) -> None:
@@ -70,6 +81,8 @@ def _add_case(suite: Element, exercise: ExerciseResult, criterion: CriterionResu
     for label, text in details(verdict):
         lines.append(f"{label}: {one_line(text, _MAX_LENGTH)}")
     lines += [f"  {line}" for line in evidence_lines(verdict)]
+    if exercise.missing:
+        lines += missing_lines(exercise)[1:]
     outcome.text = "\n".join(lines)
 
 

@@ -8,7 +8,17 @@ from html import escape as escape_html
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.report.plain import MARKS, describe, details, evidence_lines, one_line, remark_lines, seconds, tally
+from tutor.report.plain import (
+    MARKS,
+    describe,
+    details,
+    evidence_lines,
+    missing_lines,
+    one_line,
+    remark_lines,
+    seconds,
+    tally,
+)
 from tutor.terminal_text import printable
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$]|&(?=#?\w+;))")
@@ -29,6 +39,9 @@ def escape(text: str) -> str:
 def _lines(report: Report) -> Iterator[str]:
     yield f"# ros-tutor: {report.verdict.value}"
     yield ""
+    if report.message:
+        yield escape(report.message)
+        yield ""
     passed = sum(exercise.verdict is Status.PASSED for exercise in report.exercises)
     several = f"{passed} of {len(report.exercises)} exercises passed, " if len(report.exercises) > 1 else ""
     yield f"{several}{escape(describe(report.environment))}, {seconds(report.duration_s)}"
@@ -54,8 +67,11 @@ def _exercise(exercise: ExerciseResult) -> Iterator[str]:
     yield f"## {exercise.id} {escape(exercise.title)}: {exercise.verdict.value}"
     yield ""
     if exercise.missing:
-        hint = exercise.criteria[0].verdict.step
-        yield escape(f"{exercise.missing}; {hint}" if hint else exercise.missing)
+        first, *more = missing_lines(exercise)
+        yield escape(first)
+        for line in more:
+            yield ""
+            yield escape(line)
         return
     yield f"{tally(exercise)}, {seconds(exercise.duration_s)}"
     yield ""

@@ -51,6 +51,16 @@ def remark_lines(exercise: ExerciseResult) -> list[str]:
     return [printable(f"{remark.file}, line {remark.line}: {remark.text}") for remark in exercise.remarks]
 
 
+def missing_lines(exercise: ExerciseResult) -> list[str]:
+    """Return why there was nothing to judge, and what to do or what was looked for and found, as `printable` lines."""
+    hint = exercise.criteria[0].verdict.step
+    lines = [f"{exercise.missing}; {hint}" if hint else exercise.missing]
+    if exercise.lookup is not None and not hint:
+        lines.append(f"looked for: {', '.join(exercise.lookup.looked_for)}")
+        lines.append(f"found there: {', '.join(exercise.lookup.found) or 'nothing'}")
+    return [printable(line) for line in lines]
+
+
 def isolation_lines(report: Report) -> list[str]:
     """Return a line for what was isolated and one for what was not; none if isolation was not requested."""
     lines = []

@@ -12,7 +12,7 @@ from rich.text import Text
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.report.plain import MARKS, describe, details, isolation_lines, remark_lines, seconds, tally
+from tutor.report.plain import MARKS, describe, details, isolation_lines, missing_lines, remark_lines, seconds, tally
 from tutor.terminal_text import printable
 
 STYLES = {Status.PASSED: "green", Status.FAILED: "red", Status.SKIPPED: "yellow", Status.ERROR: "magenta"}
@@ -68,8 +68,7 @@ def _exercise(exercise: ExerciseResult) -> Iterator[RenderableType]:
 
 
 def _missing(exercise: ExerciseResult) -> RenderableType:
-    hint = exercise.criteria[0].verdict.step
-    return Padding(Text(printable(f"{exercise.missing}; {hint}" if hint else exercise.missing), "yellow"), (0, 0, 0, 2))
+    return Padding(Text("\n".join(missing_lines(exercise)), "yellow"), (0, 0, 0, 2))
 
 
 def _headline(criterion: CriterionResult, id_width: int) -> RenderableType:
@@ -116,6 +115,7 @@ def _summary(report: Report) -> RenderableType:
     duration = f"  in {seconds(report.duration_s)}"
     return Text.assemble(
         (f"{MARKS[verdict]} {verdict.value}", f"bold {STYLES[verdict]}"),
+        f": {printable(report.message)}\n" if report.message else "",
         tally_text,
         (
             "\n".join([duration, describe(report.environment), *isolation_lines(report)]),

@@ -11,6 +11,7 @@ from tutor.ros import bundled_interfaces
 
 SITE_PACKAGES = Path("lib") / "python3.12" / "site-packages"
 _INDEX = Path("share") / "ament_index" / "resource_index"
+PACKAGE_INDEX = _INDEX / "packages"
 
 
 def entries(environ: Mapping[str, str], name: str) -> list[str]:
@@ -66,7 +67,7 @@ def rclpy_site(prefix: Path) -> Path | None:
 
 def holds_package(prefix: Path, package: str) -> bool:
     """Return whether an ament prefix holds this ROS package."""
-    return (prefix / _INDEX / "packages" / package).is_file()
+    return (prefix / PACKAGE_INDEX / package).is_file()
 
 
 def _own_roots() -> tuple[Path, ...]:

@@ -5,7 +5,6 @@ Methods that access the disk are called in worker threads.
 
 from __future__ import annotations
 
-import contextlib
 import os
 import shlex
 from collections.abc import Callable, Sequence
@@ -38,7 +37,7 @@ if TYPE_CHECKING:
     from tutor.judge.result import ExerciseResult
     from tutor.report.assessment import Assessment
     from tutor.ros.environment import RosEnvironment
-    from tutor.session.shell import Shell
+    from tutor.session.shell import ShellCommand
 
 Notify = Callable[[str], None]
 
@@ -228,48 +227,45 @@ class Session:
         return NodeCommand("ros2", (*starting.ros2_command(ros, env), *words), env, folder, typed)
 
     def _ros_and_env(self, package: Path | None) -> tuple[RosEnvironment, dict[str, str]]:
-        """Return the ROS that nodes run with, and their environment; `package` is the root of the learner's package.
+        """Return the ROS that nodes run with, and their environment, which is that of the terminal page.
 
-        Raises OSError if shared memory is full.
+        `package` is the root of the learner's package. Raises OSError if shared memory is full.
         """
         from tutor import private_folders
+        from tutor.bundled_ros.ros2 import sourced
         from tutor.ros import shared_memory
         from tutor.ros.environment import detect, learner_env
 
         ros = detect()
         shared_memory.require_enough()
         log_dir = private_folders.logs()
-        return ros, learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
+        env = learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
+        tools = self._terminal_tools()
+        sourced.write_programs(tools, ros, env)
+        sourced.add_programs(env, tools)
+        if ros.kind == "system":
+            sourced.add_built_packages(env, self.workspace.root)
+        sourced.add_workspace(env, self.workspace.root)
+        return ros, env
+
+    def _terminal_tools(self) -> Path:
+        """Return the folder for the programs of a sourced terminal. Raises OSError."""
+        from tutor import private_folders
+
+        if self._tools is None:
+            self._tools = private_folders.create_until_exit("terminal")
+        return self._tools
 
     def command_line(self, file: LessonFile, options: RunOptions) -> str:
         """Return what a ROS user would type to run this file, once the workspace is built."""
         return run_options.command_line(self.workspace.package.name, file.name, options)
 
-    def shell(self) -> Shell:
-        """Return the shell for the terminal page, set up as in `ros-tutor shell`. Raises OSError or ValueError."""
-        from tutor import private_folders
-        from tutor.bundled_ros.ros2.sourced import sourced_environment
-        from tutor.ros.environment import detect  # imported late, not to delay the first paint
-        from tutor.session.shell import Shell
+    def shell(self) -> tuple[ShellCommand, Path]:
+        """Return the shell of a terminal in the app, as `ros-tutor shell` starts it, and the folder to start it in.
 
-        if self._tools is None:
-            self._tools = private_folders.create_until_exit("terminal")
-        env = sourced_environment(detect(), self.workspace.root, self.domain, self._tools)
-        return Shell(env, self.workspace.root)
+        Raises what `shell_command` raises.
+        """
+        from tutor.session.shell import in_the_app, shell_command
 
-    def typed_commands(self) -> list[str]:
-        """Read the commands typed on the terminal page, oldest first."""
-        try:
-            return self._history.read_text(encoding="utf-8").splitlines()
-        except (OSError, UnicodeDecodeError):
-            return []
-
-    def keep_typed_commands(self, commands: Sequence[str]) -> None:
-        """Save the typed commands; failures are ignored."""
-        if self.workspace.exists and commands:
-            with contextlib.suppress(StorageError):
-                write_atomically(self._history, "\n".join(commands) + "\n")
-
-    @property
-    def _history(self) -> Path:
-        return self.workspace.data_file("terminal-history")
+        folder = self.workspace.root if self.workspace.exists else Path.home()
+        return shell_command(self.workspace, self._terminal_tools(), in_the_app()), folder

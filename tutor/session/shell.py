@@ -1,66 +1,63 @@
-"""The terminal page's shell state: environment, working directory, and the builtins `cd` and `export`."""
+"""The learner's own shell, with ROS 2 and the workspace sourced: for `ros-tutor shell` and the app's terminals."""
 
 from __future__ import annotations
 
-import re
-import shlex
+import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
-from tutor.session.node_command import NodeCommand
+from tutor.workspace import Workspace, domain_of
+
+TERM = "xterm-256color"
+"""What the app's terminals are like, for programs."""
+
+_OTHER_TERMINAL = ("COLUMNS", "LINES", "STY", "TERM_PROGRAM", "TEXTUAL_", "TMUX", "VTE_VERSION")
+"""The beginnings of variables that describe the terminal in which the app itself runs, or how it draws there."""
 
 
 @dataclass(frozen=True, slots=True)
-class Shell:
-    """The environment and working directory of commands. `Session` makes it like the one of `ros-tutor shell`."""
+class ShellCommand:
+    """How to start an interactive shell; `setup` is the workspace's setup file where it has one to be sourced."""
 
-    env: Mapping[str, str]
-    cwd: Path
+    name: str
+    path: Path
+    argv: tuple[str, ...]
+    env: dict[str, str]
+    setup: Path | None
 
-    @property
-    def place(self) -> str:
-        """The working directory as a prompt shows it."""
-        home = self.env.get("HOME", "")
-        path = str(self.cwd)
-        return "~" + path[len(home) :] if home and (path == home or path.startswith(home + "/")) else path
 
-    def command(self, line: str) -> NodeCommand:
-        """Return how to run a command line."""
-        env = dict(self.env)
-        # On a terminal, each line appears as it is printed; the nodes of a launch do not run on one.
-        if not re.match(r"\s*ros2\s+launch\b", line):
-            env["PYTHONUNBUFFERED"] = "1"
-        return NodeCommand(line, ("bash", "-c", line), env, self.cwd, line, terminal=True)
+def shell_command(workspace: Workspace, tools: Path, environ: Mapping[str, str] = os.environ) -> ShellCommand:
+    """Return the command of the user's shell, sourced, in the workspace's domain.
 
-    def run_builtin(self, line: str) -> Shell | str | None:
-        """Run `cd` or `export`: return the new shell, or an error message; None if the line is any other command."""
-        try:
-            words = shlex.split(line, comments=True)
-        except ValueError:
-            return None
-        if not words or any(mark in line for mark in ";&|"):
-            return None
-        if words[0] == "cd":
-            return self._change_directory(words[1:])
-        if words[0] == "export" and len(words) > 1:
-            return self._export(words[1:])
-        return None
+    `tools` is a folder that the caller keeps as long as the shell. Raises LookupError if there is no shell that can be
+    sourced, ValueError if the domain is no number, and OSError.
+    """
+    from tutor.bundled_ros.ros2 import sourced
+    from tutor.bundled_ros.ros2.terminal import interactive_command, users_shell
+    from tutor.ros.environment import detect  # imported late, not to delay the first paint
 
-    def _change_directory(self, words: list[str]) -> Shell | str:
-        if len(words) > 1:
-            return "cd: too many arguments"
-        folder = (self.cwd / Path(words[0] if words else self.env.get("HOME", "/")).expanduser()).resolve()
-        if not folder.is_dir():
-            return f"cd: {words[0]}: {'Not a directory' if folder.exists() else 'No such file or directory'}"
-        return replace(self, cwd=folder)
+    name, path = users_shell(environ)
+    ros = detect()
+    env = sourced.sourced_environment(ros, workspace.root, domain_of(workspace), tools, environ)
+    setup = sourced.setup_file(ros, workspace.root, name)
+    argv = interactive_command(
+        name,
+        path,
+        env=env,
+        exported={name: value for name, value in env.items() if environ.get(name) != value},
+        unset=sorted(set(environ) - set(env)),
+        tools=tools,
+        mark=f"(ROS 2: {workspace.root.name}) ",
+        setup=setup,
+    )
+    return ShellCommand(name, path, tuple(argv), env, setup)
 
-    def _export(self, words: list[str]) -> Shell | str:
-        env = dict(self.env)
-        for word in words:
-            name, sign, value = word.partition("=")
-            if not re.fullmatch(r"[A-Za-z_]\w*", name):
-                return f"export: `{word}': not a valid identifier"
-            if sign:
-                env[name] = value
-        return replace(self, env=env)
+
+def in_the_app(environ: Mapping[str, str] = os.environ) -> dict[str, str]:
+    """Return the environment of the app's terminals, before anything is sourced."""
+    return {
+        **{name: value for name, value in environ.items() if not name.startswith(_OTHER_TERMINAL)},
+        "TERM": TERM,
+        "COLORTERM": "truecolor",
+    }

@@ -108,8 +108,8 @@ LIVE_SERVICES = Command("live_services", ("S",), "Services", "Live: show the ser
 SIDE_BY_SIDE = Command("side_by_side", ("L",), "Side by side", "Show the log beside Live: on or off")
 PUBLISH = Command("publish", ("M",), "Publish", "Live: publish a message, or stop that")
 LIVE_GRAPH = Command("live_graph", ("G",), "Graph", "Live: show the graph of nodes and topics", help=_LIVE)
-LESSON_COMMAND = Command("lesson_command", ("R",), "Run command", "Run a command of the lesson in the terminal")
-PAGE_TERMINAL = Command("page_terminal", ("7", "f10"), "Terminal", "Show the terminal, and type commands")
+LESSON_COMMAND = Command("lesson_command", ("R",), "Run command", "Type a command of the lesson into a terminal")
+PAGE_TERMINAL = Command("page_terminal", ("7", "f10"), "Terminal", "Show the terminals: your own shell")
 PAGE_CRITERIA = Command("page_criteria", ("5", "f8"), "Criteria", "Show the criteria")
 CHECKLIST = Command("checklist", ("6", "f12"), "Checklist", "Tick what you can do by now", footer=True)
 EXPORT = Command("export", ("X",), "Export", "Export the checklist and your progress")
@@ -203,6 +203,15 @@ EDITOR_KEYS = (
     ("Tab", "Indent; Backspace: back by one step"),
 )
 """The editor's own keys, for the help, which lists them beside the commands above."""
+
+TERMINAL_KEYS = (
+    ("Ctrl+]", "Leave it: single keys work again (also: Ctrl+5)"),
+    ("1-9", "Then: show that terminal; Enter: type into it"),
+    ("+", "Then: open another terminal; -: close it"),
+    ("PgUp", "With Shift: scroll back; PgDn, or any key: forward"),
+    ("Ctrl+C", "Copy, while the mouse has selected text"),
+)
+"""What a terminal does not pass on to its program, likewise."""
 
 
 def panel_bindings(*commands: Command, shown_key: int = 0, show: bool = True) -> list[BindingType]:

@@ -11,7 +11,7 @@ from tutor.workspace.progress import Attempt, ExerciseProgress, Help, Progress
 from tutor.workspace.progress_file import ProgressFile
 from tutor.workspace.saving import Saved, back_up_file, overwrite_file, read_source
 from tutor.workspace.starting import TEMPLATE, Started, start, start_in
-from tutor.workspace.submissions import find_submission, is_own, is_started, solution
+from tutor.workspace.submissions import find_submission, is_own, is_started, look_up, solution
 
 __all__ = [
     "TEMPLATE",
@@ -43,6 +43,7 @@ __all__ = [
     "is_own",
     "is_started",
     "last_met",
+    "look_up",
     "overwrite_file",
     "place_files",
     "read_source",

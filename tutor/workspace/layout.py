@@ -37,10 +37,6 @@ class Workspace:
         """Return where the exercise file `name` belongs: launch files in `launch/`, others in the Python package."""
         return self.package / ("launch" if is_launch_file(name) else PACKAGE) / name
 
-    def data_file(self, name: str) -> Path:
-        """Return the path of one of our own files, kept apart from the learner's."""
-        return self.root / MARKER / name
-
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:
         """Return the progress file; `notify` is called with one line if a damaged one had to be set aside."""
         return ProgressFile(self.root / MARKER / "progress.json", notify)

@@ -32,7 +32,8 @@ class Attempt:
     `passed` holds the ids of the criteria that passed. `whole` is False if only some criteria were judged; their ids
     are then in `judged`, which is empty otherwise. `errors` holds the ids of those that could not be judged. `version`
     identifies the content of the files (empty if unknown), `given` the criteria that they meet by the skeleton's code,
-    and `help` is what the learner had seen before (None if unknown).
+    `not_shown` the checklist items of which they show nothing, and `help` is what the learner had seen before (None if
+    unknown).
     """
 
     at: str
@@ -44,6 +45,7 @@ class Attempt:
     version: str = ""
     given: tuple[str, ...] = ()
     help: Help | None = None
+    not_shown: tuple[str, ...] = ()
 
     @property
     def is_pass(self) -> bool:
@@ -130,7 +132,16 @@ class Progress:
         judged = () if whole else tuple(c.id for c in result.criteria if c.id not in result.unjudged)
         errors = tuple(c.id for c in result.criteria if c.verdict.status is Status.ERROR)
         attempt = Attempt(
-            now(), result.verdict, passed, whole, judged, errors, version_of(result.digests), result.given, before.help
+            now(),
+            result.verdict,
+            passed,
+            whole,
+            judged,
+            errors,
+            version_of(result.digests),
+            result.given,
+            before.help,
+            result.not_shown,
         )
         best = result.verdict if whole and not before.is_passed else before.best
         attempts = _without_oldest((*before.attempts, attempt), before.first_pass)

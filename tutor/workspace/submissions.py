@@ -10,8 +10,11 @@ from pathlib import Path
 from tutor.content import Lesson, LessonFile
 from tutor.errors import SubmissionError
 from tutor.invocation import command
+from tutor.judge.result import Lookup
 from tutor.judge.submission import Submission
 from tutor.workspace.layout import Workspace, is_launch_file
+
+_MAX_LISTED = 20
 
 
 def find_submission(lesson: Lesson, path: Path | None, workspace: Workspace | None) -> Submission:
@@ -23,20 +26,54 @@ def find_submission(lesson: Lesson, path: Path | None, workspace: Workspace | No
     """
     if path is None:
         return _workspace_submission(lesson, workspace)
-    path = Path(os.path.abspath(path.expanduser()))
-    if path.is_dir():
-        if not os.access(path, os.R_OK | os.X_OK):
-            raise SubmissionError(f"cannot read the folder {path}: permission denied")
-        if Workspace(path).exists:
-            return _workspace_submission(lesson, Workspace(path))
-        return _make_submission(lesson, {file.name: path / file.name for file in lesson.files})
+    path = _absolute(path)
+    if path.is_dir() and not os.access(path, os.R_OK | os.X_OK):
+        raise SubmissionError(f"cannot read the folder {path}: permission denied")
+    if Workspace(path).exists:
+        return _workspace_submission(lesson, Workspace(path))
     if not path.exists():
         raise SubmissionError(f"there is no file or folder {path}{_suggest_similar(path.name, path.parent)}")
     names = [file.name for file in lesson.files]
     if path.is_file() and path.suffix.lower() not in _allowed_suffixes(names):
         raise SubmissionError(f"{path} is not a Python file; {lesson.id} is judged by {' and '.join(names)}")
+    return _make_submission(lesson, _places(lesson, path, workspace))
+
+
+def look_up(lesson: Lesson, path: Path | None, workspace: Workspace | None) -> Lookup | None:
+    """Return which files `find_submission` looks for and does not find, and what there is; None if it misses none."""
+    places = _places(lesson, None if path is None else _absolute(path), workspace)
+    needed = [places[file.name] for file in lesson.files if file.required and file.name in places]
+    missing = [place for place in needed if not os.path.lexists(place)]
+    if not missing:
+        return None
+    return Lookup(tuple(map(str, missing)), tuple(_list_folder(missing[0].parent)))
+
+
+def _list_folder(folder: Path) -> list[str]:
+    """Return the first names in a folder, with a "/" after those of folders; none if it cannot be read."""
+    try:
+        names = sorted(entry.name + "/" * entry.is_dir() for entry in os.scandir(folder))
+    except OSError:
+        return []
+    return [name for name in names if not name.startswith((".", "__"))][:_MAX_LISTED]
+
+
+def _places(lesson: Lesson, path: Path | None, workspace: Workspace | None) -> dict[str, Path]:
+    """Return where each file of `lesson` is expected; empty if there is neither a path nor a workspace."""
+    names = [file.name for file in lesson.files]
+    home = workspace if path is None else Workspace(path)
+    if home is None:
+        return {}
+    if path is None or home.exists:
+        return {name: home.path_of(name) for name in names}
+    if path.is_dir():
+        return {name: path / name for name in names}
     represented = path.name if path.name in names else names[0]
-    return _make_submission(lesson, {name: path if name == represented else path.parent / name for name in names})
+    return {name: path if name == represented else path.parent / name for name in names}
+
+
+def _absolute(path: Path) -> Path:
+    return Path(os.path.abspath(path.expanduser()))
 
 
 def _allowed_suffixes(names: Iterable[str]) -> tuple[str, ...]:
@@ -72,7 +109,7 @@ def _workspace_submission(lesson: Lesson, workspace: Workspace | None) -> Submis
             f"there is no workspace {where} yet: `{command('start', lesson.id)}` creates it, "
             f"or name the file or folder to check"
         )
-    return _make_submission(lesson, {file.name: workspace.path_of(file.name) for file in lesson.files}, workspace)
+    return _make_submission(lesson, _places(lesson, None, workspace), workspace)
 
 
 def _make_submission(lesson: Lesson, places: dict[str, Path], workspace: Workspace | None = None) -> Submission:

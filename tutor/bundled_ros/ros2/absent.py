@@ -26,16 +26,15 @@ ABSENT = {
 """What each program prints after its name."""
 
 
-def add_programs(folder: Path, path: Iterable[str]) -> list[str]:
-    """Write into `folder` the programs that no folder of `path` has. Return `path` with `folder` at its end.
+def write_programs(folder: Path, path: Iterable[str]) -> None:
+    """Write into `folder` the programs that no folder of `path` has. Raises OSError.
 
-    A program that is installed later is therefore found first. Raises OSError.
+    It belongs at the end of PATH, so that a program that is installed later is found first.
     """
-    folders = list(path)
+    folders = join_entries(path)
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in ABSENT.items():
-        if shutil.which(name, path=join_entries(folders)) is None:
+        if shutil.which(name, path=folders) is None:
             script = f"#!/bin/sh\necho {shlex.quote(f'{name} {text}')} >&2\nexit {_COMMAND_NOT_FOUND}\n"
             (folder / name).write_text(script, encoding="utf-8")
             (folder / name).chmod(0o755)
-    return [*folders, str(folder)]

@@ -11,7 +11,7 @@ from pathlib import Path
 from tutor import interpreter, private_folders
 from tutor.bundled_ros.ros2 import absent, sources
 from tutor.ros.environment import RosEnvironment, learner_env
-from tutor.ros.prefixes import entries, is_bundled, join_entries
+from tutor.ros.prefixes import PACKAGE_INDEX, SITE_PACKAGES, entries, is_bundled, join_entries
 
 WORKSPACE = "ROS_TUTOR_WORKSPACE"
 _CHECK_ONLY_VARIABLES = ("PYTHONUNBUFFERED", "PYTHONIOENCODING")
@@ -38,15 +38,52 @@ def sourced_environment(
         for name in _CHECK_ONLY_VARIABLES:
             env.pop(name, None)
         env |= {name: value for name, value in environ.items() if name.startswith(_USER_PREFIXES)}
-        # Hide our own virtual environment's other programs from the user; the terminal needs only these few.
-        user_path = [entry for entry in entries(env, "PATH") if not is_bundled(entry)]
-        _write_programs(tools / "bin", ros, with_ros2=shutil.which("ros2", path=join_entries(user_path)) is None)
-        env["PATH"] = join_entries([tools / "bin", *absent.add_programs(tools / "absent", user_path)])
+        write_programs(tools, ros, env)
+        add_programs(env, tools)
     env["ROS_DOMAIN_ID"] = str(domain_id)
+    add_workspace(env, workspace)
+    return env
+
+
+def write_programs(tools: Path, ros: RosEnvironment, environ: Mapping[str, str]) -> None:
+    """Write the programs of a terminal into `tools`, which is to be kept as long as they are needed. Raises OSError.
+
+    None if ROS 2 is installed, which has them; no `ros2` if there is another one on PATH.
+    """
+    if ros.kind == "bundled":
+        others = _without_our_programs(environ)
+        _write_programs(tools / "bin", ros, with_ros2=shutil.which("ros2", path=join_entries(others)) is None)
+        absent.write_programs(tools / "absent", others)
+
+
+def add_programs(env: dict[str, str], tools: Path) -> None:
+    """Put the programs of `write_programs`, if any, on PATH.
+
+    They take the place of our own virtual environment's programs, of which a terminal needs only these few.
+    """
+    if (tools / "bin").is_dir():
+        env["PATH"] = join_entries([tools / "bin", *_without_our_programs(env), tools / "absent"])
+
+
+def add_workspace(env: dict[str, str], workspace: Path) -> None:
+    """Make `ros2` and Python find the packages of this workspace. With an installed ROS 2, see also `setup_file`."""
     env[WORKSPACE] = str(workspace)
     if roots := _import_roots(workspace):
         env["PYTHONPATH"] = join_entries([*roots, *entries(env, "PYTHONPATH")])
-    return env
+
+
+def add_built_packages(env: dict[str, str], workspace: Path) -> None:
+    """Add what `colcon build` has installed in a workspace, as its setup file does, but without running that."""
+    install = workspace / "install"
+    built = [folder for folder in (install, *sorted(install.glob("*/"))) if (folder / PACKAGE_INDEX).is_dir()]
+    sites = [site for folder in built if (site := folder / SITE_PACKAGES).is_dir()]
+    for name, folders in (("AMENT_PREFIX_PATH", built), ("PYTHONPATH", sites)):
+        if folders:
+            env[name] = join_entries([*folders, *entries(env, name)])
+
+
+def _without_our_programs(environ: Mapping[str, str]) -> list[str]:
+    return [entry for entry in entries(environ, "PATH") if not is_bundled(entry)]
 
 
 def setup_file(ros: RosEnvironment, workspace: Path, shell: str) -> Path | None:
@@ -58,11 +95,9 @@ def setup_file(ros: RosEnvironment, workspace: Path, shell: str) -> Path | None:
 def _import_roots(workspace: Path) -> list[Path]:
     """Return the folders from which the workspace's Python packages are imported."""
     try:
-        packages = list(sources.packages_below(workspace)) if workspace.is_dir() else []
+        return list(sources.import_roots(workspace)) if workspace.is_dir() else []
     except OSError:
         return []
-    folders = (folder for package in packages for folder in package.modules[-1:])
-    return [folder.parent for folder in folders if (folder / "__init__.py").is_file()]
 
 
 def _write_programs(folder: Path, ros: RosEnvironment, *, with_ros2: bool) -> None:

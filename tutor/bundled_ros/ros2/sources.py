@@ -65,6 +65,23 @@ def workspace_packages(place: Path) -> Iterator[SourcePackage]:
     yield from packages_below(folder)
 
 
+def workspace_around(place: Path) -> Path | None:
+    """Return the workspace that holds a file or folder: one of ours, else the folder above the `src` of its package."""
+    for parent in place.parents:
+        if (parent / _WORKSPACE_MARKER).is_dir():
+            return parent
+        if (parent / "package.xml").is_file() and (found := _workspace_of(parent)).name == "src":
+            return found.parent
+    return None
+
+
+def import_roots(workspace: Path) -> Iterator[Path]:
+    """Yield the folders from which the packages in a workspace are imported; no code of theirs is run or parsed."""
+    for folder in _find_package_folders(workspace):
+        if (folder / _package_name(folder) / "__init__.py").is_file():
+            yield folder
+
+
 def packages_below(folder: Path) -> Iterator[SourcePackage]:
     """Yield the packages in a workspace or any other folder."""
     yield from _read_packages(_find_package_folders(folder))
@@ -126,8 +143,7 @@ def _read_packages(folders: Iterable[Path]) -> Iterator[SourcePackage]:
 
 
 def _read_package(folder: Path) -> SourcePackage:
-    found = re.search(r"<name>\s*([\w-]+)\s*</name>", (folder / "package.xml").read_text(encoding="utf-8"))
-    name = found[1] if found else folder.name
+    name = _package_name(folder)
     programs = {
         program: target.removeprefix(f"{name}.")
         for program, target in _console_scripts(folder, name).items()
@@ -135,6 +151,11 @@ def _read_package(folder: Path) -> SourcePackage:
     }
     share = {entry.name: entry for entry in folder.iterdir() if not entry.name.startswith((".", "__"))}
     return SourcePackage(name, programs, (folder / name,), share)
+
+
+def _package_name(folder: Path) -> str:
+    found = re.search(r"<name>\s*([\w-]+)\s*</name>", (folder / "package.xml").read_text(encoding="utf-8"))
+    return found[1] if found else folder.name
 
 
 def _modules_with_main(folder: Path) -> dict[str, str]:

@@ -68,11 +68,12 @@ def diagnose_no_messages(
 
 
 def _diagnose_idle_publisher(trace: Trace, topic: str, step: str) -> Cause:
-    """Why an existing publisher never sends anything."""
+    """Why an existing publisher sends nothing, or nothing more."""
     found = (
         diagnose_unawaited(trace) or diagnose_logged_exception(trace) or diagnose_unused_publisher(trace, topic, step)
     )
-    return found or Cause("no messages", f"there is a publisher on {topic}, but it sent nothing", step or _PUBLISH)
+    seen = "it sends no more" if trace.samples_on(topic) else "nothing arrives from it"
+    return found or Cause("no messages", f"there is a publisher on {topic}, but {seen}", step or _PUBLISH)
 
 
 def diagnose_unused_publisher(trace: Trace, topic: str, step: str = "") -> Cause | None:

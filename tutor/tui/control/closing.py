@@ -18,13 +18,12 @@ SAVE_LIMIT_S = 5.0
 async def close_down(
     host: HostScreen, files: Files, nodes: Nodes, checks: Checks, preferences: Preferences, pages: Pages
 ) -> None:
-    """Save, stop the check, the nodes and the terminal's commands, and wait until they are all gone."""
+    """Save, stop the check, the nodes and the terminals, and wait until they are all gone."""
     checks.shut_down()
     nodes.shut_down()
     terminal = pages.terminal
     if terminal is not None:
-        terminal.stop_all()
-        host.model.session.keep_typed_commands(terminal.typed_commands)
+        terminal.close_all()
     try:
         async with asyncio.timeout(SAVE_LIMIT_S):
             await files.save_all()

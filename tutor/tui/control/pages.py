@@ -123,11 +123,10 @@ class Pages:
     def open_terminal(self) -> TerminalPane:
         """Return the terminal page; the first call creates it."""
         if not (pane := self.terminal):
-            from tutor.tui.terminal.history import History
             from tutor.tui.terminal.pane import TerminalPane  # late: the start does not wait for it
 
             session = self._host.model.session
-            self.terminal = pane = TerminalPane(session.shell, History(session.typed_commands()), id="terminal-pane")
+            self.terminal = pane = TerminalPane(session.shell, id="terminal-pane")
             self._host.query_one("#terminal", Container).mount(pane)
         return pane
 

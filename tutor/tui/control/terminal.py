@@ -1,4 +1,4 @@
-"""Runs commands from the lesson's text on the terminal page."""
+"""Types commands of the lesson's text into a terminal."""
 
 from __future__ import annotations
 
@@ -30,7 +30,6 @@ class Terminal:
         self._host.app.push_screen(ChooseCommandScreen(self._commands), chosen)
 
     def run(self, command: str) -> None:
-        """Show the terminal page, and run a command there."""
+        """Show the terminal page, and type a command there, with Enter."""
         self._host.show_page("terminal")
-        pane = self._pages.open_terminal()
-        pane.call_after_refresh(pane.run_line, command)
+        self._pages.open_terminal().run_line(command)

@@ -15,12 +15,12 @@ from textual.geometry import Size
 from textual.widget import Widget
 from textual.widgets import Static
 
-from tutor.tui.commands import EDITOR_KEYS, GROUPS, Command
+from tutor.tui.commands import EDITOR_KEYS, GROUPS, TERMINAL_KEYS, Command
 from tutor.tui.dialogs.dialog import Dialog
 
 _INTRODUCTION = (
     "Read the lesson, start, edit, run, check. A failure tells you the next step.\n"
-    "In the editor, letters type text: leave it with Esc. The F keys work everywhere."
+    "In the editor, letters type text: leave it with Esc; a terminal with Ctrl+]. The F keys work everywhere."
 )
 
 _EVERYWHERE = (
@@ -84,7 +84,9 @@ class HelpScreen(Dialog[None]):
             yield Static(_INTRODUCTION, classes="dialog-text")
             with Container(id="help-columns"):
                 yield KeyTable(*_merge_keys(GROUPS[:LEFT_GROUPS]), ("In the editor", EDITOR_KEYS))
-                yield KeyTable(("Everywhere", _EVERYWHERE), *_merge_keys(GROUPS[LEFT_GROUPS:]))
+                yield KeyTable(
+                    ("Everywhere", _EVERYWHERE), *_merge_keys(GROUPS[LEFT_GROUPS:]), ("In a terminal", TERMINAL_KEYS)
+                )
 
     def on_resize(self, event: events.Resize) -> None:
         """Use two columns if there is room."""

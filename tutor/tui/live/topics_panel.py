@@ -27,6 +27,8 @@ _COLUMNS = ("", "Topic", "Rate", "Count", "Pub", "Sub", "Type")
 _LIST_REFRESH_S = 0.45
 """Updates of topics refresh the list at most this often: it costs more to paint than the chosen topic."""
 
+_TICK_S = 1.0
+
 _PUBLISH: Action = ("M", "Publish", "screen.do('publish')")
 _OTHER_FIELD = ("y", "Field", "next_field")
 
@@ -58,6 +60,8 @@ class TopicsPanel(Vertical):
         self.chosen_by_learner = False
         self._listed: tuple[Topic, ...] = ()
         self._next_list_refresh = 0.0
+        self._shown_at = 0.0
+        """When the chosen topic was shown last; by the monotonic clock, as the above."""
 
     def compose(self) -> ComposeResult:
         yield RowTable(id="topics-table")
@@ -73,7 +77,7 @@ class TopicsPanel(Vertical):
         table = self.table
         for name in _COLUMNS:
             table.add_column(name, key=name or "mark")
-        self.set_interval(1.0, self._tick)  # silence raises no updates
+        self.set_interval(_TICK_S, self._tick)
 
     def on_show(self, _event: events.Show) -> None:
         """Catch up with updates missed while hidden, one frame later, so that the page itself appears at once."""
@@ -122,6 +126,7 @@ class TopicsPanel(Vertical):
         """Show the topic under the cursor."""
         view = self.view
         now = time.time()
+        self._shown_at = time.monotonic()
         self.set_class(view is None or not view.fields, "-no-numbers")
         self.query_one("#topic-actions", ActionBar).actions = self._actions(view)
         self.query_one("#topic-head", Static).update(topic_head(self.state, self.chosen, view, now), layout=False)
@@ -171,10 +176,12 @@ class TopicsPanel(Vertical):
                 table.update_cell(topic.name, key, cell, update_width=wider)
 
     def _tick(self) -> None:
-        if self.display:
+        """Show that topics are silent: that raises no updates. What an update has just shown is not painted again."""
+        now = time.monotonic()
+        if self.display and now >= self._next_list_refresh:
             self._update_rows()
-            if self.view is not None:
-                self.show_chosen()
+        if self.display and self.view is not None and now >= self._shown_at + _TICK_S / 2:
+            self.show_chosen()
 
     def _update_rows(self) -> None:
         self._next_list_refresh = time.monotonic() + _LIST_REFRESH_S

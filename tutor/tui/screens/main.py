@@ -326,11 +326,11 @@ class MainScreen(HostScreen):
 
     @property
     def busy(self) -> bool:
-        """Whether a check, a node or a command in the terminal is running."""
+        """Whether a check, a node or a program in a terminal is running."""
         terminal = self.pages.terminal
-        terminal_busy = terminal is not None and bool(terminal.running)
+        terminal_busy = terminal is not None and terminal.busy
         return self.checks.running is not None or bool(self.nodes.running) or terminal_busy
 
     async def close_down(self) -> None:
-        """Save, stop the check, the nodes and the terminal's commands, and wait until they are all gone."""
+        """Save, stop the check, the nodes and the terminals, and wait until they are all gone."""
         await close_down(self, self.files, self.nodes, self.checks, self.preferences, self.pages)

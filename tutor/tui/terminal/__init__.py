@@ -1,1 +1,1 @@
-"""The terminal page: commands typed at a prompt, several at once, each with its output."""
+"""The terminal page: the learner's own shell, several at once, each on a pseudo-terminal and drawn by an emulator."""

@@ -1,290 +1,267 @@
-"""The terminal page: a prompt, a tab for each command that was run, and the output of the selected one."""
+"""The terminal page: several terminals, each with the learner's own shell, and a tab for each."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
 from functools import partial
-from itertools import count
 from pathlib import Path
 from typing import Any, ClassVar
 
-from textual import on
+from rich.cells import cell_len, set_cell_size
+from textual import events, on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
-from textual.containers import Horizontal, Vertical
+from textual.containers import Container, Horizontal, Vertical
 from textual.content import Content
-from textual.widgets import Input, Static
+from textual.widget import Widget
+from textual.widgets import Static
 
-from tutor.session.node import Node, NodeState
-from tutor.session.shell import Shell
-from tutor.terminal_text import strip_ansi
+from tutor.errors import ProcessError
+from tutor.session.shell import ShellCommand
+from tutor.terminal_text import strip_controls
 from tutor.tui import messages
-from tutor.tui.terminal.completion import complete
-from tutor.tui.terminal.history import History
-from tutor.tui.terminal.output_view import OutputView, failed_by_itself
-from tutor.tui.terminal.prompt import Prompt
+from tutor.tui.terminal.foreground import describe_foreground
+from tutor.tui.terminal.view import TerminalView
 from tutor.tui.widgets.strip import TabStrip
 
-MAX_ENDED_JOBS = 8
-"""Number of ended commands whose output is kept."""
+MAX_TERMINALS = 9
+"""One for each digit."""
 
-LABEL_WIDTH = 26
-"""Maximum length of the command in a tab's label, in characters."""
+MIN_NAME_WIDTH, MAX_NAME_WIDTH = 4, 24
+"""How much of a program's name is shown in its tab, in cells."""
+
+TAB_EXTRA_WIDTH = 3
+"""How much wider a tab is than its label, with the gap to the next one, in cells."""
+
+LOOK_INTERVAL_S = 0.5
+"""How often the tabs are brought up to date with what runs in the terminals."""
 
 
 class TerminalPane(Vertical):
-    """Runs each line in a separate process, so that a node, `topic echo` and `topic hz` can be watched at once."""
+    """Keys go to the terminal shown while it has the focus. While the tabs have it, single keys switch terminals."""
 
     DEFAULT_CSS = Path(__file__).with_name("pane.tcss").read_text(encoding="utf-8")
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("ctrl+c", "interrupt", "Stop", key_display="Ctrl+C"),
-        Binding("enter,tab", "prompt", "Prompt", show=False),
-        Binding("left,ctrl+pageup", "turn(-1)", "Previous command", show=False),
-        Binding("right,ctrl+pagedown", "turn(1)", "Next command", show=False),
+        Binding("enter", "focus_terminal", "Type", key_display="Enter"),
+        Binding("plus", "new", "New", key_display="+"),
+        Binding("minus", "close", "Close", key_display="-"),
+        *(Binding(str(number), f"show({number})", show=False) for number in range(1, MAX_TERMINALS + 1)),
     ]
 
-    def __init__(self, make_shell: Callable[[], Shell], history: History, id: str | None = None) -> None:
-        """`make_shell` is called in a thread; it may take a moment, and raise OSError or ValueError with a reason."""
+    def __init__(self, make_shell: Callable[[], tuple[ShellCommand, Path]], id: str | None = None) -> None:
+        """`make_shell` is called in a thread; it may take a moment, and raise OSError, ValueError or LookupError."""
         super().__init__(id=id)
         self._make_shell = make_shell
-        self._shell: Shell | None = None
-        self._history = history
-        self._numbers = count(1)
-        self._jobs: dict[str, Node] = {}
-        self._pending_lines: list[str] = []
-        self._error_tab: str | None = None  # the command below whose output an error is shown
-        self._ready = False
+        self._terminals: dict[int, TerminalView] = {}
+        self._pending: list[str] | None = []
+        """Lines to type once the page is there; None once it is."""
+        self._shutting_down = False
+        self._hint_text = ""
+        self._tabs_width = 0
 
     def compose(self) -> ComposeResult:
         with Horizontal(id="terminal-line"):
-            yield Static("", id="terminal-place", markup=False)
-            yield Static(" $ ", id="terminal-mark", markup=False)
-            yield Prompt(self._history, id="terminal-prompt")
-        yield Static(id="terminal-offers", markup=False)
-        yield TabStrip({"": ""}, id="terminal-jobs")
-        yield OutputView(id="terminal-output")
+            yield TabStrip({"": ""}, id="terminal-tabs")
+            yield Static(id="terminal-hint", markup=False)
+        yield Container(id="terminal-screens")
         yield Static(_EMPTY_TEXT, id="terminal-empty")
 
     def on_mount(self) -> None:
-        self._ready = True
-        self._start_worker(self._open)
-
-    async def _open(self) -> None:
-        try:
-            self._shell = await asyncio.to_thread(self._make_shell)
-        except (OSError, ValueError) as error:
-            self.post_message(messages.ErrorOccurred(f"No command can be run: {error}"))
-            return
-        self._show_place()
-        pending, self._pending_lines = self._pending_lines, []
-        for line in pending:
+        self.set_interval(LOOK_INTERVAL_S, self._look)
+        self.action_new()
+        lines, self._pending = self._pending or [], None
+        for line in lines:
             self.run_line(line)
 
     def focus_content(self) -> None:
-        """Focus the prompt."""
-        if self._ready:
-            self.query_one(Prompt).focus(scroll_visible=False)
-        else:
-            self.call_after_refresh(self.focus_content)
+        """Focus the terminal shown; the first one takes the focus when it is there."""
+        if self._pending is None:
+            self.action_focus_terminal()
 
-    # --- running ---
+    # --- the terminals ---
 
-    @on(Input.Submitted, "#terminal-prompt")
-    def _typed(self, event: Input.Submitted) -> None:
-        event.stop()
-        line = event.value.strip()
-        event.input.value = ""
-        if line:
-            self.run_line(line)
+    @property
+    def shown(self) -> TerminalView | None:
+        """The terminal shown."""
+        return self._terminals.get(self._number)
+
+    @property
+    def _number(self) -> int:
+        active = self.query_one("#terminal-tabs", TabStrip).active
+        return int(active) if active else 0
+
+    @property
+    def busy(self) -> bool:
+        """Whether a program runs in one of the terminals."""
+        return any(terminal.busy for terminal in self._terminals.values())
+
+    def action_new(self) -> None:
+        """Open another terminal, and show it."""
+        number = next((number for number in range(1, MAX_TERMINALS + 1) if number not in self._terminals), None)
+        if number is None:
+            self.post_message(messages.ErrorOccurred(f"There are {MAX_TERMINALS} terminals: close one of them first."))
+            return
+        terminal = TerminalView(id=f"terminal-{number}")
+        self._terminals[number] = terminal
+        self.query_one("#terminal-screens", Container).mount(terminal)
+        self.remove_class("-none")
+        self._look(show=number)
+        work: Callable[[], Any] = partial(self._run, number, terminal)
+        self.run_worker(work, group="terminal")
+        self.call_after_refresh(self.action_focus_terminal)
+
+    async def _run(self, number: int, terminal: TerminalView) -> None:
+        try:
+            shell, folder = await asyncio.to_thread(self._prepare)
+            await terminal.run(shell, folder)
+        except (OSError, ValueError, LookupError, ProcessError) as error:
+            self.post_message(messages.ErrorOccurred(f"No terminal can be opened: {error}"))
+        finally:
+            self._forget(number, terminal)
+
+    def _prepare(self) -> tuple[ShellCommand, Path]:
+        """Do, in a thread, what takes long: load the emulator, and find out what the shell needs."""
+        from tutor.tui.terminal import emulator
+
+        emulator.warm_up()
+        return self._make_shell()
+
+    def _forget(self, number: int, terminal: TerminalView) -> None:
+        """Remove a terminal that has ended, and show the one before it."""
+        if self._terminals.pop(number, None) is None or not self.is_attached or self._shutting_down:
+            return
+        focused = terminal.has_focus
+        terminal.remove()
+        left = [other for other in self._terminals if other < number] or list(self._terminals)
+        self.set_class(not left, "-none")
+        self._look(show=left[-1] if left else 0)
+        if focused and left:
+            self.action_focus_terminal()
+        elif focused:
+            self.query_one(TabStrip).focus()
+
+    def action_close(self) -> None:
+        """Close the terminal shown, with everything that runs in it."""
+        if self.shown is not None:
+            self.shown.close()
+
+    def close_all(self) -> None:
+        """Close all terminals; the workers of the group "terminal" end once nothing of them is left."""
+        self._shutting_down = True
+        for terminal in self._terminals.values():
+            terminal.close()
 
     def run_line(self, line: str) -> None:
-        """Run a command as if it had been typed, or as soon as the shell is ready."""
-        if self._shell is None:
-            self._pending_lines.append(line)
+        """Type a command and Enter into a terminal that is at its prompt: the one shown, another, or a new one."""
+        if self._pending is not None:
+            self._pending.append(line)
             return
-        self._history.add(line)
-        self._show_offers("")
-        self._show_error("")
-        if line in ("clear", "exit"):
-            self._clear()
-            return
-        match self._shell.run_builtin(line):
-            case Shell() as changed:
-                self._shell = changed
-                self._show_place()
-            case str() as error:
-                self._show_error(error)
-                self.add_class("-filled")
-            case None:
-                self._start(self._shell, line)
-
-    def _start(self, shell: Shell, line: str) -> None:
-        name = str(next(self._numbers))
-        node = Node(shell.command(line), partial(self._job_changed, name))
-        self._jobs[name] = node
-        for old in [key for key, job in self._jobs.items() if not job.state.alive][:-MAX_ENDED_JOBS]:
-            del self._jobs[old]
-        self.add_class("-filled")
-        self._show_jobs(select=name)
-        self._start_worker(node.run)
-
-    def _job_changed(self, name: str, state: NodeState) -> None:
-        if name not in self._jobs or not self.is_attached:
-            return
-        self._show_jobs()
-        if name == self._shown:
-            self.query_one(OutputView).show_state(state)
-
-    def action_interrupt(self) -> None:
-        """Send Ctrl+C to the command shown if it is running, else to the running one that was started last."""
-        shown = self._jobs.get(self._shown)
-        alive = [job for job in self._jobs.values() if job.state.alive]
-        job = shown if shown is not None and shown.state.alive else next(reversed(alive), None)
-        if job is not None:
-            job.stop()
-
-    @property
-    def running(self) -> list[Node]:
-        """The commands that are still running."""
-        return [job for job in self._jobs.values() if job.state.alive]
-
-    def stop_all(self) -> None:
-        """Stop all commands."""
-        for job in self._jobs.values():
-            job.stop()
-
-    @property
-    def typed_commands(self) -> list[str]:
-        """All commands typed so far, oldest first."""
-        return self._history.entries
-
-    def _start_worker(self, work: Callable[[], Any]) -> None:
-        self.run_worker(work, group="terminal")
+        free = [number for number in (self._number, *self._terminals) if number in self._terminals]
+        number = next((number for number in free if self._terminals[number].free), None)
+        if number is None:
+            self.action_new()
+            if self.shown is None or not self.shown.free:
+                return
+        else:
+            self._look(show=number)
+        terminal = self.shown
+        assert terminal is not None
+        typing: Callable[[], Any] = partial(terminal.type_line, strip_controls(line))
+        terminal.run_worker(typing, group="typing")
+        self.call_after_refresh(self.action_focus_terminal)
 
     # --- what is shown ---
 
-    @property
-    def _shown(self) -> str:
-        return self.query_one("#terminal-jobs", TabStrip).active
+    def action_focus_terminal(self) -> None:
+        """Give the keys to the terminal shown, or open one if there is none."""
+        if self.shown is None:
+            self.action_new()
+        elif isinstance(self.parent, Widget) and self.parent.display:  # the learner may be on another page already
+            self.shown.focus(scroll_visible=False)
 
-    def _show_jobs(self, select: str | None = None) -> None:
-        strip = self.query_one("#terminal-jobs", TabStrip)
-        strip.labels = {name: _label(name, job.state) for name, job in reversed(self._jobs.items())} or {"": ""}
-        if select is not None and select != strip.active:
-            strip.active = select
+    def action_show(self, number: int) -> None:
+        """Show the terminal with this number, and give it the keys."""
+        if number in self._terminals:
+            self._look(show=number)
+            self.action_focus_terminal()
+
+    def _look(self, show: int | None = None) -> None:
+        """Bring the tabs up to date, and show this terminal, if given."""
+        tabs = self.query_one("#terminal-tabs", TabStrip)
+        labels = {str(number): self._label(number) for number in sorted(self._terminals)} or {"": ""}
+        if labels != tabs.labels:
+            tabs.labels = labels
+            self._tabs_width = sum(cell_len(label) + TAB_EXTRA_WIDTH for label in labels.values()) + 1
+            tabs.styles.width = self._tabs_width
+        if show is not None:
+            tabs.active = str(show or "")
+            for number, terminal in self._terminals.items():
+                terminal.set_class(number == show, "-shown")
+            tabs.refresh()
+        self._hint()
+
+    def _label(self, number: int) -> str:
+        """Return the number and what runs there, shortened so that all tabs have room."""
+        program = self._terminals[number].program
+        name = describe_foreground(program.foreground) if program is not None else ""
+        room = self.size.width // len(self._terminals) - len("1 ") - TAB_EXTRA_WIDTH
+        room = min(MAX_NAME_WIDTH, max(MIN_NAME_WIDTH, room))
+        return f"{number} {name if cell_len(name) <= room else set_cell_size(name, room - 1) + '…'}"
 
     @on(TabStrip.Turned)
     def _turned(self, message: TabStrip.Turned) -> None:
         message.stop()
-        if message.tab != self._error_tab:
-            self._show_error("")
-        job = self._jobs.get(message.tab)
-        self.query_one(OutputView).show_state(job.state if job else None, new=True)
-        self.query_one("#terminal-jobs", TabStrip).refresh()
+        self._look(show=self._number)
 
-    @on(Prompt.Turned)
-    def _turn_asked(self, message: Prompt.Turned) -> None:
+    @on(TerminalView.Scrolled)
+    def _scrolled(self, message: TerminalView.Scrolled) -> None:
         message.stop()
-        self.action_turn(message.by)
+        self._hint()
 
-    def _show_error(self, text: str) -> None:
-        self._error_tab = self._shown if text else None
-        self.query_one(OutputView).show_error(text)
-
-    def action_turn(self, by: int) -> None:
-        """Show the output of the next (1) or previous (-1) command."""
-        if self._jobs:
-            self.query_one("#terminal-jobs", TabStrip).action_step(by)
-
-    def action_prompt(self) -> None:
-        """Go back to the prompt."""
-        self.focus_content()
-
-    @on(Prompt.Interrupted)
-    def _interrupted(self, message: Prompt.Interrupted) -> None:
+    @on(TerminalView.Left)
+    def _left(self, message: TerminalView.Left) -> None:
         message.stop()
-        prompt = self.query_one(Prompt)
-        if prompt.value:
-            prompt.value = ""
+        self.query_one(TabStrip).focus()
+
+    def on_resize(self, event: events.Resize) -> None:
+        """Fit the tabs and the hint into the new width."""
+        self._look()
+
+    def on_descendant_focus(self, event: events.DescendantFocus) -> None:
+        """Say which keys there are now."""
+        self._hint()
+
+    def on_descendant_blur(self, event: events.DescendantBlur) -> None:
+        """Say which keys there are now."""
+        self._hint()
+
+    def _hint(self) -> None:
+        """Say which keys there are, in as many words as there is room for beside the tabs."""
+        terminal = self.shown
+        if terminal is None:
+            texts: tuple[str, ...] = ()
+        elif below := terminal.rows_below:
+            texts = (f"{below} more rows below · Shift+PgDn, or any key", f"{below} rows below")
+        elif terminal.has_focus:
+            texts = (
+                "Ctrl+] or an F key leaves · Shift+PgUp scrolls back",
+                "Ctrl+] or an F key leaves",
+                "Ctrl+] leaves",
+            )
         else:
-            self.action_interrupt()
-
-    @on(Prompt.Left)
-    def _left(self, message: Prompt.Left) -> None:
-        message.stop()
-        self.query_one(OutputView).focus()
-
-    @on(Prompt.Cleared)
-    def _clear_asked(self, message: Prompt.Cleared) -> None:
-        message.stop()
-        self._clear()
-
-    def _clear(self) -> None:
-        """Remove the commands that have ended."""
-        self._show_error("")
-        self._jobs = {name: job for name, job in self._jobs.items() if job.state.alive}
-        names = list(self._jobs)
-        self._show_jobs(select=names[-1] if names else "")
-        self.query_one(OutputView).show_state(self._jobs[names[-1]].state if names else None, new=True)
-        self.set_class(bool(names), "-filled")
-
-    def _show_place(self) -> None:
-        assert self._shell is not None
-        self.query_one("#terminal-place", Static).update(self._shell.place)
-
-    # --- completion ---
-
-    @on(Prompt.Completed)
-    def _complete_asked(self, message: Prompt.Completed) -> None:
-        message.stop()
-        if self._shell is not None:
-            complete: Callable[[], Any] = self._complete
-            self.run_worker(complete, group="terminal-completion", exclusive=True)
-
-    async def _complete(self) -> None:
-        prompt, shell = self.query_one(Prompt), self._shell
-        if shell is None:
-            return
-        line, cursor = prompt.value, prompt.cursor_position
-        found = await complete(line, cursor, shell.env, shell.cwd)
-        if (prompt.value, prompt.cursor_position) != (line, cursor):
-            return  # the line has been edited meanwhile
-        prompt.value = found.line
-        prompt.cursor_position = found.cursor
-        self._show_offers("  ".join(strip_ansi(offer) for offer in found.offers))
-
-    @on(Input.Changed, "#terminal-prompt")
-    def _typing(self, event: Input.Changed) -> None:
-        event.stop()
-        self._show_offers("")
-
-    def _show_offers(self, text: str) -> None:
-        offers = self.query_one("#terminal-offers", Static)
-        offers.update(text)
-        offers.display = bool(text)
-
-
-def _label(name: str, state: NodeState) -> str:
-    command = strip_ansi(state.command).replace("\n", " ")
-    short = command if len(command) <= LABEL_WIDTH else command[: LABEL_WIDTH - 1] + "…"
-    mark = "●" if state.alive else ("!" if failed_by_itself(state) else "■")
-    return f"{mark} {name} {short}"
+            texts = ("Enter types · 1-9 shows · + new · - close", "Enter types · 1-9 shows", "Enter types")
+        room = self.size.width - self._tabs_width - 2
+        text = next((text for text in texts if cell_len(text) <= room), "")
+        if text != self._hint_text:
+            self._hint_text = text
+            self.query_one("#terminal-hint", Static).update(text, layout=False)
 
 
 _EMPTY_TEXT = Content.assemble(
-    ("Your terminal\n\n", "bold $foreground"),
-    "Type a command and press ",
+    ("No terminal is open.\n\n", "bold $foreground"),
     ("Enter", "bold $accent"),
-    ": ",
+    " opens one: your own shell, in which ",
     ("ros2 topic list", "$code-type"),
-    " works here, with or without an installed ROS 2.\nIts output appears here. The next command runs beside it; ",
-    ("Ctrl+C", "bold $accent"),
-    " stops the one shown.\n",
-    ("R", "bold $accent"),
-    " offers the commands of the lesson; ",
-    ("Tab", "bold $accent"),
-    " completes; ",
-    ("Esc", "bold $accent"),
-    " leaves the prompt.",
+    " works, with or without an installed ROS 2.",
 )

@@ -9,6 +9,7 @@ from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 from textual.geometry import Region, Size
+from textual.reactive import Reactive
 from textual.scroll_view import ScrollView
 from textual.selection import Selection
 from textual.strip import Strip
@@ -31,6 +32,9 @@ class LineView(ScrollView, can_focus=True):
     }
     """
 
+    virtual_size = Reactive(Size(0, 0), repaint=False)
+    """As Textual's, but a new size lays out nothing: only the scrollbars depend on it, never the size of the view."""
+
     def __init__(self, id: str | None = None) -> None:
         super().__init__(id=id)
         self.rows: Sequence[Row] = ()
@@ -48,6 +52,11 @@ class LineView(ScrollView, can_focus=True):
         self.rows, self.margins = rows, margins
         widest = max((sum(cell_len(text) for text, _ in row) for row in rows), default=0)
         self.virtual_size = Size(widest + self._margin_width, len(rows))
+
+    def watch_virtual_size(self, size: Size) -> None:
+        """Update the scrollbars."""
+        if self.container_size:  # else it is not laid out yet
+            self._scroll_update(size)
 
     @property
     def plain(self) -> str:

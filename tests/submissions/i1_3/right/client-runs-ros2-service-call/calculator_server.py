@@ -1,0 +1,1 @@
+../plain-class/calculator_server.py

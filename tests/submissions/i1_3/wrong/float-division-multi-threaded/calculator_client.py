@@ -1,0 +1,1 @@
+../all-add/calculator_client.py
