@@ -48,7 +48,7 @@ def test_the_line_that_assigns_is_named(handler: str) -> None:
         found = diagnosis(seen)
         assert found is not None
         assert found.line == 4
-        assert "has no field result, but sum" in found.cause
+        assert "has no field result; it has sum" in found.cause
         assert found.step == "Use sum there."
 
 

@@ -14,7 +14,7 @@ MAX_CHARACTERS = 110
 
 _OF_NO_HELP = re.compile(
     r"(rclpy_)?\w+\(\): incompatible function arguments.*|.*Unable to (convert|cast).*call argument.*"
-    r"| This might be a ROS 1 message type.*|, at /[\w/.-]+:\d+.*| \(/[^()]*\)(?=\.|$)"
+    r"|<built-in method \w+ of pybind11.*| This might be a ROS 1 message type.*|, at /[\w/.-]+:\d+.*| \(/[^()]*\)(?=\.|$)"
 )
 """What bindings and libraries add to a message: signatures in C++, places in their sources, a guess about ROS 1."""
 
