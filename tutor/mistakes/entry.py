@@ -83,7 +83,7 @@ class Case:
     def exceptions(self) -> tuple[RaisedException, ...]:
         """The exceptions of the last traceback that the program wrote, the likeliest root first; often none.
 
-        A criterion that says what was `raised` (a Traceback or None) knows better, such as in a launch of many programs.
+        A criterion that says what was `raised` (a Traceback or None) knows better, as in a launch of many programs.
         """
         told: Traceback | None = self.about("raised")
         last = told if "raised" in self.seen.about else last_traceback(self.trace)

@@ -13,8 +13,9 @@ MAX_CHARACTERS = 110
 """Length to which an exception's message is cut in a sentence."""
 
 _OF_NO_HELP = re.compile(
-    r"(rclpy_)?\w+\(\): incompatible function arguments.*|.*Unable to (convert|cast).*call argument.*"
-    r"|<built-in method \w+ of pybind11.*| This might be a ROS 1 message type.*|, at /[\w/.-]+:\d+.*| \(/[^()]*\)(?=\.|$)"
+    r"\w+\(\): incompatible function arguments.*|.*Unable to (convert|cast).*call argument.*"
+    r"|<built-in method \w+ of pybind11.*| This might be a ROS 1 message type.*"
+    r"|, at /[\w/.-]+:\d+.*| \(/[^()]*\)(?=\.|$)"
 )
 """What bindings and libraries add to a message: signatures in C++, places in their sources, a guess about ROS 1."""
 
