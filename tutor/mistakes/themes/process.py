@@ -25,7 +25,8 @@ _TORN_THREAD = ("terminate called without an active exception", "FATAL: exceptio
 
 def _ended(case: Case) -> Exit | None:
     """How the process ended by itself; None if it still runs, or if a traceback says more."""
-    return case.trace.exit if case.trace.exit is not None and last_traceback(case.trace) is None else None
+    says_more = bool(case.exceptions) or last_traceback(case.trace) is not None
+    return case.trace.exit if not says_more else None
 
 
 def _words(ended: Exit) -> str:
