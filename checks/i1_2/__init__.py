@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from checks.i1_2 import fast_stretch, judges, scenarios
 from checks.i1_2.gaps import judge_gaps
 from checks.i1_2.restart import judge_restart
 from checks.i1_2.side_facts import with_side_facts
 from tutor.judge.check import Check, Criterion
-from tutor.judge.exceptions import load
 
 CHECK = Check(
     "i1.2",
@@ -53,5 +50,4 @@ CHECK = Check(
     expected_s=5.0,
     expected_reason="25 messages at 8 or 9.4 a second, and 2 s without any while the publisher is replaced",
     mistakes="checks.i1_2.mistakes",
-    exceptions=load(Path(__file__).with_name("exceptions.toml")),
 )

@@ -173,7 +173,7 @@ def test_causes_of_a_launch_that_starts_nothing(out: str, cause: str, words: str
             f"{ONE} - SyntaxError: source code string cannot contain null bytes",
             NULL_BYTE,
             "syntax error",
-            "line 4 becomes",
+            "line 4",
         ),
         (f"{LOADING} - ValueError: not yet", "", "unhandled exception", "ValueError: not yet"),
     ],

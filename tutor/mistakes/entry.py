@@ -14,7 +14,8 @@ from typing import Any
 
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Trace
-from tutor.judge.tracebacks import Frame
+from tutor.judge.tracebacks import Frame, Traceback, last_traceback
+from tutor.mistakes.raised import RaisedException, exceptions_of
 from tutor.source import NodeFile, Program, SourceFile
 
 EVERY_SYMPTOM = tuple(Symptom)
@@ -77,6 +78,16 @@ class Case:
     def files(self) -> tuple[NodeFile, ...]:
         """The file that was run, then those that it imports."""
         return self.program.files
+
+    @cached_property
+    def exceptions(self) -> tuple[RaisedException, ...]:
+        """The exceptions of the last traceback that the program wrote, the likeliest root first; often none.
+
+        A criterion that says what was `raised` (a Traceback or None) knows better, as in a launch of many programs.
+        """
+        told: Traceback | None = self.about("raised")
+        last = told if "raised" in self.seen.about else last_traceback(self.trace)
+        return exceptions_of(last, self.program, self.trace.folder)
 
     @property
     def nodes(self) -> str:

@@ -1,151 +1,140 @@
-"""Exceptions as mistakes of the catalogue: the tables of known ones, and the page of all others."""
+"""Exceptions as mistakes of the catalogue: the tables of known ones."""
 
 from __future__ import annotations
 
-import ast
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import OutputLine, Trace
-from tutor.judge.tracebacks import Traceback, last_traceback
 from tutor.mistakes.entry import CATALOGUE, EVERY_SYMPTOM, Case, Catalogue, Evidence, Found, Mistake
-from tutor.mistakes.exceptions.known import KnownException
-from tutor.mistakes.exceptions.matching import RaisedException, recognise
+from tutor.mistakes.exceptions.known import Example, KnownException
+from tutor.mistakes.exceptions.matching import recognise
 from tutor.mistakes.exceptions.table import load, parse
+from tutor.mistakes.raised import RaisedException
 
-__all__ = ["KnownException", "RaisedException", "add_table", "load", "parse", "raised_in", "recognise"]
+__all__ = [
+    "EXPLAINED",
+    "EXPLAINED_WHILE_RUNNING",
+    "KnownException",
+    "RaisedException",
+    "add",
+    "add_table",
+    "found_in",
+    "from_example",
+    "load",
+    "parse",
+    "raised_in",
+    "recognise_any",
+]
 
-_EXPLAINED = tuple(symptom for symptom in EVERY_SYMPTOM if symptom is not Symptom.BAD_VALUE_ACCEPTED)
+EXPLAINED = frozenset(EVERY_SYMPTOM) - {Symptom.BAD_VALUE_ACCEPTED}
 """A bad value that is accepted and then raises an exception was accepted in the first place."""
 
-_UNSAID = object()
+EXPLAINED_WHILE_RUNNING = EXPLAINED - {Symptom.DOES_NOT_END, Symptom.ENDS_BADLY}
+"""What Ctrl+C raises while a program ends has entries of its own."""
 
-_ORDER = ("launch", "parameters", "attributes", "calls", "messages", "process", "imports", "python")
+_MAX_CODE = 80
+"""Length to which a line of code is cut."""
+
+_known: list[KnownException] = []
+"""All known exceptions of our own catalogue, in the order in which they are asked."""
 
 
 def add_table(catalogue: Catalogue, path: Path, *, validate: bool = False) -> None:
     """Add the known exceptions of a table (TOML) to a catalogue. Raises TableError if the table is not valid."""
     for known in load(path, validate=validate):
-        find = partial(_find, known)
-        catalogue.entries[known.id] = Mistake(
-            known.id,
-            "{says}",
-            "{do}",
-            frozenset(_EXPLAINED),
-            Evidence.PROCESS,
-            find,
-            known.page,
-            known.slip,
-            name=known.name,
-        )
+        add(catalogue, known)
+        if catalogue is CATALOGUE:
+            _known.append(known)
 
 
-def _find(known: KnownException, case: Case) -> Iterator[Found]:
-    for seen in raised_in(case):
-        for way in known.ways:
-            # An exception that the program itself raises because of another one says less than that other one, so
-            # ways for any type only apply to the origin.
-            if way.type == ".*" and seen.traceback.follows is not None:
-                continue
-            if (found := recognise(way, seen)) is not None:
-                place = f" ({found.file}, line {found.line})" if found.line else ""
-                words = {**found.words, "says": f"{seen.raised}{place}: {found.words['says']}"}
-                yield Found(words, found.file, found.line, found.code)
-
-
-def raised_in(case: Case) -> list[RaisedException]:
-    """The exceptions of the last traceback's chain, the likeliest root first; none if the program wrote none.
-
-    A criterion that says what was `raised` (a Traceback or None) knows better, such as in a launch of many programs.
-
-    The origin comes first; if the program handles it, and a call in its handler fails, the last exception does.
-    """
-    last = case.about("raised", _UNSAID)
-    if last is _UNSAID:
-        last = last_traceback(case.trace)
-    if last is None:
-        return []
-    chain = [last]
-    while (before := chain[-1].follows) is not None:
-        chain.append(before)
-    if not _fails_in_handler(last, case):
-        chain.reverse()
-    return [_read(each, last, case) for each in chain]
-
-
-def _read(raised: Traceback, last: Traceback, case: Case) -> RaisedException:
-    folder, sources = case.trace.folder, case.trace.sources
-    own = raised.own(folder) or last.own(folder)
-    file = own.name if own and own.name in sources else case.trace.file
-    after = "" if raised is last else f"; then {last.raised}"
-    return RaisedException(raised, folder, own, file, sources.get(file, ""), after)
-
-
-def _fails_in_handler(raised: Traceback, case: Case) -> bool:
-    """Whether the exception comes from a statement of the learner's exception handler other than a `raise`."""
-    own = raised.own(case.trace.folder)
-    if raised.follows is None or own is None:
-        return False
-    file = case.program.named(own.name)
-    statement = file.statement_at(own.line)
-    return (
-        statement is not None
-        and not isinstance(statement, ast.Raise)
-        and any(isinstance(around, ast.ExceptHandler) for around in file.ancestors(statement))
+def add(catalogue: Catalogue, known: KnownException) -> None:
+    """Add one known exception to a catalogue; its first example becomes that of its page."""
+    if known.id in catalogue.entries:
+        raise ValueError(f"there are two mistakes called {known.id}")
+    first = next((example for way in known.ways for example in way.examples), Example("Exception"))
+    catalogue.entries[known.id] = Mistake(
+        known.id,
+        "{says}",
+        "{do}",
+        EXPLAINED_WHILE_RUNNING if known.while_running else EXPLAINED,
+        Evidence.PROCESS,
+        partial(_find, known),
+        known.page,
+        known.slip,
+        name=known.name,
+        example=from_example(first),
     )
 
 
-for _name in _ORDER:
-    if (_path := Path(__file__).parent / f"{_name}.toml").exists():
-        add_table(CATALOGUE, _path)
+def _find(known: KnownException, case: Case) -> Iterator[Found]:
+    for place, seen in enumerate(case.exceptions):
+        if (told := _recognised(known, seen)) is None:
+            continue
+        # Another entry that knows an exception nearer to the root knows better.
+        if not any(recognise_any(nearer) for nearer in case.exceptions[:place]):
+            yield found_in(seen, told)
 
 
-@CATALOGUE.mistake(
-    "unhandled-exception",
-    explains=_EXPLAINED,
-    evidence=Evidence.PROCESS,
-    says="{says}",
-    do="{do}",
-    example=lambda source: example_of(source),
-)
-def unhandled_exception(case: Case) -> Iterator[Found]:
-    """An exception that nothing catches.
+def recognise_any(seen: RaisedException) -> Found | None:
+    """The first mistake of our own tables that an exception shows; its words are `says` and `do`."""
+    return next((told for known in _known if (told := _recognised(known, seen)) is not None), None)
 
-    Python stops the callback, and with it the spin and the program, at the line that raised it. The last line of the
-    traceback says what Python could not do; the line of yours above it is where to look.
 
-    Bad:
+def _recognised(known: KnownException, seen: RaisedException) -> Found | None:
+    for way in known.ways:
+        # An exception that the program itself raises because of another one says less than that other one, so ways
+        # for any type only apply to the origin.
+        if way.type == ".*" and seen.traceback.follows is not None:
+            continue
+        if (told := recognise(way, seen)) is not None:
+            return told
+    return None
 
-        def ring(self):
-            self.bell.play(self.tunes['doorbell'])
 
-    Good:
+def found_in(seen: RaisedException, told: Found | None = None, /, **words: object) -> Found:
+    """A mistake that an exception shows, with the word `raised`: the exception and its place.
 
-        def ring(self):
-            self.bell.play(self.tunes.get('doorbell', 'ding'))
-
-    See it: the log in the app, or the terminal in which the node ran.
+    `told`: with another place than the learner's line in the traceback; its word `says` follows the exception.
     """
-    for seen in raised_in(case)[:1]:
-        own = seen.line
-        if own is None:
-            says = seen.raised
-            do = "Find the line of yours that leads to it in the last lines of the output."
-            yield Found({"says": says, "do": do})
-        else:
-            do = f"Look at line {own.line} of {own.name}: what Python says about it is the last line of the traceback."
-            yield Found({"says": f"{seen.raised} ({own})", "do": do}, own.name, own.line, own.code)
+    if told is None:
+        line = seen.line
+        told = Found({}, line.name, line.line, line.code) if line is not None else Found({}, seen.file)
+    code = told.code if len(told.code) <= _MAX_CODE else f"{told.code[: _MAX_CODE - 3]}..."
+    place = f" ({told.file}, line {told.line}{': ' + code if code else ''})" if told.line else ""
+    raised = f"{seen.raised}{place}"
+    more: dict[str, object] = {**told.words, **words, "raised": raised}
+    if "says" in more:
+        more["says"] = f"{raised}: {more['says']}"
+    return Found(more, told.file, told.line, told.code)
 
 
-def example_of(source: str) -> Observation:
-    number = len(source.splitlines())
-    lines = [
-        "Traceback (most recent call last):",
-        f'  File "/ws/node.py", line {number}, in ring',
-        f"    {source.splitlines()[-1].strip()}",
-        "KeyError: 'doorbell'",
-    ]
-    output = tuple(OutputLine("stderr", line, 0.0) for line in lines)
-    return Symptom.ENDED.seen(Trace("node.py", "/ws", sources={"node.py": source}, output=output))
+def raised_in(case: Case) -> tuple[RaisedException, ...]:
+    """The exceptions of the last traceback's chain, the likeliest root first; none if the program wrote none."""
+    return case.exceptions
+
+
+def from_example(example: Example) -> Callable[[str], Observation]:
+    """A function that makes the observation in which an example's exception was raised, whatever the page's source.
+
+    The example is the file "node.py" in the folder "/ws"; without a source of its own, the line is all of it.
+    """
+
+    def observe(source: str) -> Observation:
+        text = example.source or example.line
+        lines = [line.strip() for line in text.splitlines()]
+        number = lines.index(example.line) + 1 if example.line in lines else 1
+        written = ["Traceback (most recent call last):"]
+        if example.line:
+            written += [f'  File "/ws/node.py", line {number}, in {example.function}', f"    {example.line}"]
+        if example.at:
+            path, _, function = example.at.partition(", ")
+            written.append(f'  File "{path}", line 75, in {function}')
+        if len(written) == 1:
+            written.append('  File "/lib/threading.py", line 75, in run')
+        output = tuple(OutputLine("stderr", line, 0.0) for line in (*written, example.raised))
+        return Symptom.ENDED.seen(Trace("node.py", "/ws", sources={"node.py": text}, output=output))
+
+    return observe

@@ -73,10 +73,14 @@ class Way:
 
 @dataclass(frozen=True, slots=True)
 class KnownException:
-    """A mistake that shows in exceptions: its id, its page, and the ways in which it shows, the likeliest first."""
+    """A mistake that shows in exceptions: its id, its page, and the ways in which it shows, the likeliest first.
+
+    `while_running`: it is no explanation of what a program does after Ctrl+C.
+    """
 
     id: str
     page: str
     ways: tuple[Way, ...]
     slip: bool = False
     name: str = ""
+    while_running: bool = False

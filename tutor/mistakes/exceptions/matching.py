@@ -5,31 +5,14 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 
-from tutor.judge.tracebacks import Frame, Traceback, is_in_folder
+from tutor.judge.tracebacks import Traceback, is_in_folder
 from tutor.mistakes.entry import Found
 from tutor.mistakes.exceptions.known import WORD, Way
+from tutor.mistakes.raised import RaisedException
 
 _SIMILARITY = 0.75
 """Minimum difflib ratio at which two names count as similar."""
-
-
-@dataclass(frozen=True, slots=True)
-class RaisedException:
-    """A traceback, the learner's own line in it, and the file with that line; `after` says what it led to."""
-
-    traceback: Traceback
-    folder: str
-    line: Frame | None
-    file: str = ""
-    source: str = ""
-    after: str = ""
-
-    @property
-    def raised(self) -> str:
-        """The exception as Python prints it, and what it led to."""
-        return f"{self.traceback.raised}{self.after}"
 
 
 def recognise(way: Way, seen: RaisedException) -> Found | None:
@@ -56,7 +39,7 @@ def _words(way: Way, seen: RaisedException) -> dict[str, str] | None:
     text = re.search(way.text, found.message)
     if kind is None or text is None or not _raised_at(way.at, found):
         return None
-    words = {"raised": found.raised, **_groups(kind), **_groups(text)}
+    words = {"raised": seen.raised, **_groups(kind), **_groups(text)}
     if own is not None:
         words |= {"file": own.name, "number": str(own.line), "code": own.code, "function": own.function}
     line = re.search(way.line, own.code if own else "")

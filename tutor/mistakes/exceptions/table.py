@@ -17,7 +17,7 @@ GIVEN = frozenset({"raised", "file", "number", "code", "function", "via", "there
 _PATTERNS = ("type", "text", "line", "source", "without", "through", "at")
 _TEXTS = (*_PATTERNS, "says", "do", "look_up")
 _KEYS = {*_TEXTS, "replace", "exact", "of_source", "example"}
-_MISTAKE = {"id", "name", "page", "says", "do", "slip", "when"}
+_MISTAKE = {"id", "name", "page", "says", "do", "slip", "while_running", "when"}
 
 
 def load(path: Path, *, validate: bool = True) -> tuple[KnownException, ...]:
@@ -60,7 +60,12 @@ def _mistake(data: Mapping[str, Any], words: Mapping[str, Any], where: str, vali
             _validate(way, place)
         ways.append(way)
     return KnownException(
-        data["id"], data["page"].strip(), tuple(ways), bool(data.get("slip", False)), data.get("name", "")
+        data["id"],
+        data["page"].strip(),
+        tuple(ways),
+        bool(data.get("slip", False)),
+        data.get("name", ""),
+        bool(data.get("while_running", False)),
     )
 
 

@@ -4,10 +4,13 @@ Among entries with the same kind of evidence, the earlier one is asked first.
 """
 
 # ruff: noqa: I001
-from tutor.mistakes import exceptions as exceptions
+from tutor.mistakes.themes import missing_attributes as missing_attributes
+from tutor.mistakes.themes import responses as responses
+from tutor.mistakes.themes import known_exceptions as known_exceptions
 from tutor.mistakes.themes import process as process
 from tutor.mistakes.themes import no_node as no_node
 from tutor.mistakes.themes import setting_up as setting_up
+from tutor.mistakes.themes import logged_exceptions as logged_exceptions
 from tutor.mistakes.themes import blocked_callbacks as blocked_callbacks
 from tutor.mistakes.themes import spinning as spinning
 from tutor.mistakes.themes import executors as executors
@@ -18,6 +21,7 @@ from tutor.mistakes.themes import launch_names as launch_names
 from tutor.mistakes.themes import launch_effects as launch_effects
 from tutor.mistakes.themes import launch_nodes as launch_nodes
 from tutor.mistakes.themes import nodes as nodes
+from tutor.mistakes.themes import messages as messages
 from tutor.mistakes.themes import qos as qos
 from tutor.mistakes.themes import topics as topics
 from tutor.mistakes.themes import timer_periods as timer_periods
@@ -36,5 +40,6 @@ from tutor.mistakes.themes import python as python
 from tutor.mistakes.themes import logging as logging
 from tutor.mistakes.themes import ending as ending
 from tutor.mistakes.themes import exit_codes as exit_codes
+from tutor.mistakes.themes import unhandled as unhandled
 from tutor.mistakes.themes import more_symptoms as more_symptoms
 from tutor.mistakes.themes import symptoms as symptoms

@@ -18,14 +18,18 @@ from tutor.source import NodeFile, called_name
 _EXITS = ("exit", "_exit", "quit")
 _SHUTDOWNS = ("shutdown", "try_shutdown")
 _AFTER_CTRL_C = (Symptom.DOES_NOT_END, Symptom.ENDS_BADLY)
-_WHILE_RUNNING = tuple(symptom for symptom in EVERY_SYMPTOM if symptom not in _AFTER_CTRL_C)
+_OF_A_LAUNCH = (Symptom.NOT_LAUNCHED, Symptom.WRONG_NAMES, Symptom.NOT_CONNECTED)
+"""A launch that ends by itself is explained by what launch has said."""
+
+_WHILE_RUNNING = tuple(symptom for symptom in EVERY_SYMPTOM if symptom not in (*_AFTER_CTRL_C, *_OF_A_LAUNCH))
 _TORN_THREAD = ("terminate called without an active exception", "FATAL: exception not rethrown")
 """Messages of C++ and glibc when Python, at interpreter exit, stops a thread that is inside rclpy."""
 
 
 def _ended(case: Case) -> Exit | None:
     """How the process ended by itself; None if it still runs, or if a traceback says more."""
-    return case.trace.exit if case.trace.exit is not None and last_traceback(case.trace) is None else None
+    says_more = bool(case.exceptions) or last_traceback(case.trace) is not None
+    return case.trace.exit if not says_more else None
 
 
 def _words(ended: Exit) -> str:

@@ -1,0 +1,140 @@
+"""Messages whose fields do not get what the code gives them."""
+
+from __future__ import annotations
+
+import ast
+import tomllib
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+
+from tutor.judge.symptom import Symptom
+from tutor.mistakes.entry import Case, Found, found, mistake
+from tutor.source import NodeFile, last_name, values_of
+
+_WRONG = (
+    Symptom.WRONG_VALUES,
+    Symptom.WRONG_ANSWER,
+    Symptom.REFUSED,
+    Symptom.BAD_VALUE_ACCEPTED,
+    Symptom.NO_MESSAGES,
+    Symptom.CALLS_MISSING,
+    Symptom.CHANGE_IGNORED,
+)
+_NARROW = ("float32", "float16", "single", "half")
+
+
+@cache
+def _fields() -> Mapping[str, tuple[str, ...]]:
+    """The fields of common types, by name, such as "Bool" or "SetBool.Response"."""
+    text = Path(__file__).with_name("message_fields.toml").read_text(encoding="utf-8")
+    return {name: tuple(fields.split()) for name, fields in tomllib.loads(text).items()}
+
+
+@mistake(
+    "unknown-field-in-a-constructor",
+    explains=_WRONG,
+    slip=True,
+    says="{line}: {type} has no field {given}, and rclpy drops it without a word: {code}",
+    do="{step}",
+    remark="{line} gives {type} a field {given}, which it does not have and drops without a word.",
+)
+def unknown_field(case: Case) -> Iterator[Found]:
+    """The constructor of a message is given a field that it does not have.
+
+    A message takes its fields by name. In Jazzy, a name that it does not know is dropped without a word, and the field
+    that was meant keeps its default: 0, an empty text, or False.
+
+    Bad:
+
+        from std_msgs.msg import Bool
+
+        horn = Bool(value=True)
+
+    Good:
+
+        from std_msgs.msg import Bool
+
+        horn = Bool(data=True)
+
+    See it: `ros2 interface show std_msgs/msg/Bool`; `ros2 topic echo` shows the default.
+    """
+    for file in case.files:
+        for call in (node for node in file.nodes if isinstance(node, ast.Call)):
+            name = _interface(file, call.func)
+            if name is None:
+                continue
+            fields = _fields()[name]
+            for keyword in call.keywords:
+                if keyword.arg is not None and keyword.arg not in fields:
+                    step = (
+                        f"Use the field {' or '.join(fields)} there."
+                        if fields
+                        else "Leave it out: there are no fields."
+                    )
+                    yield found(file, call, type=name, given=keyword.arg, step=step)
+
+
+def _interface(file: NodeFile, called: ast.expr) -> str | None:
+    """The type of ROS that a call makes, such as "SetBool.Response", if it is imported from a package of them."""
+    code = ast.unparse(called)
+    for statement, alias in file.imports:
+        package = statement.module if isinstance(statement, ast.ImportFrom) else alias.name
+        if not (package or "").endswith((".msg", ".srv")):
+            continue
+        if isinstance(statement, ast.Import):
+            prefix, name = f"{alias.asname or alias.name}.", ""
+        else:
+            prefix, name = alias.asname or alias.name, alias.name
+        if code.startswith(prefix) and (full := f"{name}{code.removeprefix(prefix)}") in _fields():
+            return full
+    return None
+
+
+@mistake(
+    "narrow-float-in-a-float-field",
+    explains=(Symptom.WRONG_VALUES, Symptom.NO_MESSAGES),
+    says="{line} puts a {kind} of numpy into a field that takes a Python float: {code}",
+    do="Convert it with float() before it goes into the message.",
+)
+def narrow_float(case: Case) -> Iterator[Found]:
+    """A numpy float32 goes into a float field.
+
+    numpy's float64 is a Python float, its float32 is not. rclpy reads the field as a Python float without looking, and
+    sends a number that has nothing to do with it.
+
+    Bad:
+
+        level = Float64(data=np.float32(7.5))
+
+    Good:
+
+        level = Float64(data=float(np.float32(7.5)))
+
+    See it: `ros2 topic echo TOPIC` shows numbers next to 0.
+    """
+    for file in case.files:
+        for value in _field_values(file):
+            around = file.function_around(value) or file.tree
+            for given in values_of(value.id, around) if isinstance(value, ast.Name) else [value]:
+                if (kind := _narrow(given)) is not None:
+                    yield found(file, value, kind=kind)
+
+
+def _field_values(file: NodeFile) -> Iterator[ast.expr]:
+    """What is assigned to a field `data`, or given to a constructor by that name."""
+    for node in file.nodes:
+        match node:
+            case ast.keyword(arg="data", value=value):
+                yield value
+            case ast.Assign(targets=[ast.Attribute(attr="data")], value=value):
+                yield value
+
+
+def _narrow(value: ast.expr) -> str | None:
+    match value:
+        case ast.Call(func=ast.Attribute(attr="astype"), args=[kind]) if last_name(kind) in _NARROW:
+            return last_name(kind)
+        case ast.Call(func=function) if last_name(function) in _NARROW:
+            return last_name(function)
+    return None

@@ -1,0 +1,49 @@
+"""The page of all exceptions that no other entry knows: what Python itself says about them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from tutor.mistakes.entry import Case, Evidence, Found, mistake
+from tutor.mistakes.exceptions import EXPLAINED_WHILE_RUNNING, found_in, from_example, raised_in
+from tutor.mistakes.exceptions.known import Example
+
+_STOPPED = "where Python could not go on"
+
+
+@mistake(
+    "unhandled-exception",
+    explains=EXPLAINED_WHILE_RUNNING,
+    evidence=Evidence.PROCESS,
+    slip=True,
+    says="{raised}",
+    do="{do}",
+    example=from_example(Example("KeyError: 'doorbell'", "self.bell.play(self.tunes['doorbell'])")),
+)
+def unhandled_exception(case: Case) -> Iterator[Found]:
+    """An exception that nothing catches.
+
+    Python stops the callback, and with it the spin and the program, at the line that raised it. The last line of the
+    traceback says what Python could not do; the line of yours above it is where to look.
+
+    Bad:
+
+        def ring(self):
+            self.bell.play(self.tunes['doorbell'])
+
+    Good:
+
+        def ring(self):
+            self.bell.play(self.tunes.get('doorbell', 'ding'))
+
+    See it: the log in the app, or the terminal in which the node ran.
+    """
+    for seen in raised_in(case)[:1]:
+        if seen.line is None:
+            yield found_in(seen, do="Find the line of yours that leads to it in the last lines of the output.")
+        else:
+            meant = re.search(r"Did you mean: '([\w.]+)'", seen.traceback.message)
+            place = f"line {seen.line.line} of {seen.line.name}"
+            do = f"Write {meant[1]} in {place}, if that is what you mean." if meant else f"Change {place}, {_STOPPED}."
+            yield found_in(seen, do=do)
