@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 from checks.i1_1.facts import (
     HIGHEST,
@@ -193,8 +194,8 @@ def judge_rate(found: RateProbes) -> Verdict:
     )
 
 
-_RATE_MISSING = {"parameter": SUGGESTED_RATE, "what": "the rate", "type": "double"}
-_NAME_MISSING = {"parameter": SUGGESTED_NAME, "what": "the sensor's name", "type": "string"}
+_RATE_MISSING: dict[str, Any] = {"parameter": SUGGESTED_RATE, "what": "the rate", "type": "double"}
+_NAME_MISSING: dict[str, Any] = {"parameter": SUGGESTED_NAME, "what": "the sensor's name", "type": "string"}
 
 
 def _wrong_rate(group: Sequence[RateProbe], wrong: RateProbe, declared: tuple[Parameter, ...] | None) -> Observation:

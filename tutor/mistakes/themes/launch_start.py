@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import Any
 
 from tutor.judge.launch_output import written_by
 from tutor.judge.symptom import Symptom
@@ -57,7 +58,7 @@ def line_of(found: re.Match[str]) -> str:
     return ERROR.sub("", ERROR.sub("", line)).strip().removeprefix("- ")[:200]
 
 
-def output_of(*lines: str) -> dict[str, object]:
+def output_of(*lines: str) -> dict[str, Any]:
     """The launch of an example that wrote these lines and ended."""
     return {"output": lines, "graph": Graph(), "exit": Exit(1, None, 0.5)}
 
