@@ -36,10 +36,10 @@ from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Verdict, failed, passed
 from tutor.judge.wording import output_tail
-from tutor.ros_model import Parameter
+from tutor.ros_model import Graph, Parameter
 
-NOT_STARTED = Trace("")
-"""The run of a scenario that did not start the program, since another one had shown enough."""
+NOT_STARTED = Trace("", graph=Graph(("/node",)))
+"""The run of a scenario that did not start the program, since another one had shown enough: its node, for one."""
 
 
 def judge_publishes(seen: PlainStart) -> Verdict:

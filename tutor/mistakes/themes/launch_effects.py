@@ -127,7 +127,12 @@ def own_namespace(case: Case) -> Iterator[Found]:
     for endpoint in endpoints_of(case) if case.about("argument") == "topic" else ():
         namespace = endpoint.node.rpartition("/")[0]
         if namespace and f"{namespace}/{last_part(wanted)}" == endpoint.topic != wanted:
-            words: dict[str, object] = {"node": endpoint.node, "namespace": namespace, "topic": endpoint.topic, "wanted": wanted}
+            words: dict[str, object] = {
+                "node": endpoint.node,
+                "namespace": namespace,
+                "topic": endpoint.topic,
+                "wanted": wanted,
+            }
             yield Found(words)
 
 
