@@ -13,7 +13,7 @@ import pytest
 from checks.i2_2 import CHECK, facts, judges
 from checks.i2_2.facts import LaunchRun
 from tests.checks import builders
-from tests.checks.builders import FOLDER, START, assert_passed, ending, exited, lines
+from tests.checks.builders import FOLDER, START, assert_passed, ending, exited, explained, lines
 from tutor.errors import NeedsInstalledRos
 from tutor.judge import launch_output
 from tutor.judge.trace import LogRecord, Sample, Trace
@@ -110,12 +110,12 @@ def test_subscriptions_of_ros_itself_do_not_make_a_subscriber() -> None:
         [endpoint("/chatter", TALKER)],
         [endpoint(topic, LISTENER) for topic in ("/clock", "/parameter_events", "/fibonacci/_action/feedback")],
     )
-    assert_failed(judges.judge_starts(launched(seen)), "no subscriber", TALKER)
+    assert_failed(judges.judge_starts(launched(seen)), "one side missing", TALKER)
 
 
 def test_one_node_is_not_two() -> None:
     seen = graph([endpoint("/chatter", "/both")], [endpoint("/chatter", "/both")])
-    assert_failed(judges.judge_starts(launched(seen)), "one node only")
+    assert_failed(judges.judge_starts(launched(seen)), "one side missing")
 
 
 def test_two_nodes_of_the_same_name_are_two() -> None:
@@ -144,19 +144,19 @@ DEAD = f"""\
 @pytest.mark.parametrize(
     ("out", "cause", "words"),
     [
-        (f"{ERROR}\"package 'demo' not found, searching: ['/opt/ros/jazzy']\"", "package not found", "'demo'"),
+        (f"{ERROR}\"package 'demo' not found, searching: ['/opt/ros/jazzy']\"", "package not found", "demo"),
         (f"{ERROR}executable 'talk' not found on the libexec directory '/x'", "executable not found", "'talk'"),
         (f"{LOADING} - NameError: name 'LogInfo' is not defined\n{OWN_LINE}", "unhandled exception", "line 9"),
         (
             f"{LOADING} - InvalidPythonLaunchFileError: launch file at 'x' does not contain the required function "
             "'generate_launch_description()'",
             "no generate_launch_description",
-            "my_launch.py",
+            "function",
         ),
-        (f"{ERROR}'NoneType' object has no attribute 'entities'", "nothing returned", "return LaunchDescription"),
+        (f"{ERROR}'NoneType' object has no attribute 'entities'", "nothing returned", "LaunchDescription"),
         (f"{ERROR}something else", "error in the launch", "something else"),
-        (DEAD, "a node that ends", "hearer.py, line 7"),
-        ("", "nothing to launch", "LaunchDescription(["),
+        (DEAD, "unhandled exception", "hearer.py, line 7"),
+        ("", "nothing to launch", "LaunchDescription"),
     ],
 )
 def test_causes_of_a_launch_that_starts_nothing(out: str, cause: str, words: str) -> None:
@@ -214,7 +214,7 @@ def test_a_substitution_in_an_f_string() -> None:
         "[talker-1] Couldn't parse remap rule: '-r chatter:=<launch.substitutions.launch_configuration.LaunchConfig"
     )
     out = f"{broken}uration object at 0x7f1>'\n{DEAD.replace('hearer-2', 'talker-1')}"
-    assert_failed(judges.judge_starts(launched(Graph(), out=out)), "substitution made text too early", "f-string")
+    assert_failed(judges.judge_starts(launched(Graph(), out=out)), "substitution made text too early", "before its value is known")
 
 
 def test_an_action_that_needs_an_installed_ros_is_not_the_learners_fault() -> None:
@@ -251,7 +251,7 @@ def test_a_node_that_drops_its_ros_arguments_is_blamed() -> None:
         judges.judge_topic(DEFAULT_RUN, with_program(with_topic(pair("/news", "/chatter")), program)),
         judges.judge_topic(DEFAULT_RUN, with_program(with_topic(pair("/chatter")), program)),
     ):
-        assert_failed(verdict, "arguments left out", "in ear.py, line 2 becomes: rclpy.init()")
+        assert_failed(verdict, "arguments left out", "ear.py, line 2")
 
 
 def test_a_namespace_of_its_own_is_named() -> None:
@@ -272,8 +272,7 @@ def test_a_launch_file_that_sets_the_argument_itself(more: str, is_named: bool) 
     seen = with_topic(pair("/news", "/chatter"))
     seen = replace(seen, trace=replace(seen.trace, sources={"my_launch.py": source}))
     verdict = judges.judge_topic(DEFAULT_RUN, seen)
-    assert ("argument overwritten" in verdict.cause) is is_named
-    assert ("remove line 3: SetLaunchConfiguration" in verdict.step) is is_named
+    assert ("argument overwritten" in explained(verdict, CHECK).cause) is is_named
 
 
 @pytest.mark.parametrize(
@@ -286,15 +285,14 @@ def test_a_setting_that_a_group_takes_back(more: str, read: str, is_named: bool)
     seen = with_topic(pair("/chatter", "/chatter"))
     seen = replace(seen, trace=replace(seen.trace, sources={"my_launch.py": source}))
     verdict = judges.judge_topic(DEFAULT_RUN, seen)
-    assert ("setting lost with its group" in verdict.cause) is is_named
-    assert ("GroupAction([SetLaunchConfiguration('target', topic)], scoped=False)," in verdict.step) is is_named
+    assert ("setting lost with its group" in explained(verdict, CHECK).cause) is is_named
 
 
 @pytest.mark.parametrize(("sent", "taken"), [("/news", "/chatter"), ("/chatter", "/news")])
 def test_one_node_is_not_remapped(sent: str, taken: str) -> None:
     command_lines = ["talker --ros-args -r chatter:=news", "listener --ros-args"]
     verdict = judges.judge_topic(DEFAULT_RUN, with_topic(pair(sent, taken), command_lines=command_lines))
-    assert_failed(verdict, "remapping missing on one node", "/chatter")
+    assert_failed(verdict, "only one node is renamed", "/chatter")
 
 
 def test_a_suffix_is_added_to_the_topic() -> None:
@@ -306,9 +304,9 @@ def test_a_suffix_is_added_to_the_topic() -> None:
     ("command_lines", "declares", "cause"),
     [
         (["talker --ros-args -r chatter:=chatter"], ("topik", "namespace"), "wrong argument name"),
-        (["talker --ros-args"], ("namespace",), "argument missing"),
-        (["talker --ros-args -r chatter:=my_topic"], ("topic",), "topic hard-coded"),
-        (["talker --ros-args -r topic:=news"], ("topic",), "remapping from an unused name"),
+        (["talker --ros-args"], ("namespace",), "wrong argument name"),
+        (["talker --ros-args -r chatter:=my_topic"], ("topic",), "argument without effect"),
+        (["talker --ros-args -r topic:=news"], ("topic",), "remapping without effect"),
         (["talker --ros-args -r news:=chatter"], ("topic",), "remapping the wrong way round"),
         (["talker --ros-args -r chatter:=x -r chatter:=news"], ("topic",), "remapping without effect"),
     ],
@@ -324,7 +322,7 @@ def test_a_remapping_of_another_node_does_not_show_that_the_name_is_unused() -> 
     swapped = pair("/news")
     swapped = replace(swapped, subscriptions=(replace(swapped.subscriptions[0], topic="/news/bot"),))
     seen = with_topic(swapped, command_lines=["talker -r chatter:=news", "listener -r __ns:=/news -r chatter:=bot"])
-    assert_failed(judges.judge_topic(DEFAULT_RUN, seen), "remapping missing on one node")
+    assert_failed(judges.judge_topic(DEFAULT_RUN, seen), "only one node is renamed")
 
 
 def test_a_crash_that_only_the_argument_causes_is_reported() -> None:
@@ -333,7 +331,7 @@ def test_a_crash_that_only_the_argument_causes_is_reported() -> None:
 
 
 def test_no_messages_on_the_topic() -> None:
-    assert_failed(judges.judge_topic(DEFAULT_RUN, with_topic(pair("/news"), messages=0)), "no messages")
+    assert_failed(judges.judge_topic(DEFAULT_RUN, with_topic(pair("/news"), messages=0)), "wrong names", "nothing is sent")
 
 
 def test_a_publisher_that_never_publishes_is_not_blamed_here() -> None:
@@ -375,14 +373,14 @@ def test_one_node_has_no_namespace() -> None:
     seen = graph([endpoint("/robot1/chatter", "/robot1/talker")], [endpoint("/chatter", LISTENER)])
     assert_failed(
         judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, in_robot1(seen), BOTH),
-        "namespace missing on one node",
+        "only one node is renamed",
         LISTENER,
     )
 
 
 def test_no_node_has_the_namespace() -> None:
     seen = in_robot1(pair("/chatter"), command_lines=["talker --ros-args"])
-    assert_failed(judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, seen, BOTH), "namespace not used")
+    assert_failed(judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, seen, BOTH), "argument without effect")
 
 
 def test_the_namespace_argument_has_the_wrong_name() -> None:
@@ -392,7 +390,7 @@ def test_the_namespace_argument_has_the_wrong_name() -> None:
 
 def test_a_name_that_starts_with_the_namespace_is_not_under_it() -> None:
     seen = in_robot1(pair("/robot1chatter", namespace="/robot1x"), command_lines=["talker -r __node:=robot1x"])
-    assert_failed(judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, seen, BOTH), "namespace not used")
+    assert_failed(judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, seen, BOTH), "wrong names")
 
 
 def test_an_absolute_topic_is_outside_the_namespace() -> None:
@@ -404,7 +402,7 @@ def test_a_remapping_from_an_absolute_name_fails_in_a_namespace() -> None:
     both = with_both(
         pair("/robot1/chatter", namespace="/robot1"), command_lines=["talker -r __ns:=/robot1 -r /chatter:=news"]
     )
-    assert_failed(judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, NAMESPACED, both), "absolute remapping", "/chatter")
+    assert_failed(judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, NAMESPACED, both), "remapping without effect", "/chatter")
 
 
 def test_a_topic_argument_that_is_never_used_is_left_to_the_topic_criterion() -> None:
@@ -446,13 +444,13 @@ def test_a_namespace_that_never_changes_fails(home: str) -> None:
     namespaced = in_robot1(pair(f"{home}/chatter", namespace=home))
     another = launched(pair(f"{home}/chatter", namespace=home), arguments={"namespace": "robot2"})
     verdict = judges.judge_namespace(default_run, other_topic, namespaced, BOTH, another if home == "/robot1" else None)
-    assert_failed(verdict, "namespace not used")
+    assert_failed(verdict, "argument without effect")
 
 
 def test_a_topic_that_only_one_node_uses_in_a_default_namespace_fails() -> None:
     default_run = launched(pair("/demo/chatter", namespace="/demo"))
     seen = with_topic(pair("/demo/news", "/demo/chatter", namespace="/demo"))
-    assert_failed(judges.judge_topic(default_run, seen), "remapping missing on one node")
+    assert_failed(judges.judge_topic(default_run, seen), "only one node is renamed")
 
 
 def test_a_logged_message_is_evidence() -> None:
@@ -465,7 +463,7 @@ def test_a_logged_message_is_evidence() -> None:
 def test_a_subscriber_that_logs_nothing_passes_if_it_spins() -> None:
     assert_passed(judges.judge_communicates(DEFAULT_RUN))
     assert_failed(
-        judges.judge_communicates(launched(pair("/chatter"), answering=frozenset({TALKER}))), "no spin", LISTENER
+        judges.judge_communicates(launched(pair("/chatter"), answering=frozenset({TALKER}))), "not connected", LISTENER
     )
 
 
@@ -499,7 +497,7 @@ def test_which_logged_texts_prove_communication(said: str, proves: bool) -> None
 
 def test_a_log_of_another_node_is_no_proof() -> None:
     seen = launched(pair("/chatter"), answering=frozenset(), logs=(log_record("Hello World: 0", "talker"),))
-    assert_failed(judges.judge_communicates(seen), "no spin")
+    assert_failed(judges.judge_communicates(seen), "not connected")
 
 
 @pytest.mark.parametrize(
@@ -511,7 +509,7 @@ def test_a_log_of_another_node_is_no_proof() -> None:
             endpoint("/chatter", LISTENER, durability="transient_local"),
             "incompatible QoS",
         ),
-        (endpoint("/chatter", TALKER), endpoint("/chatter", LISTENER, type="std_msgs/msg/Int32"), "wrong type"),
+        (endpoint("/chatter", TALKER), endpoint("/chatter", LISTENER, type="std_msgs/msg/Int32"), "not connected"),
         (endpoint("/chatter", TALKER), endpoint("/chater", LISTENER), "wrong topic"),
     ],
 )
@@ -532,12 +530,12 @@ def test_one_connected_pair_is_enough() -> None:
 
 
 def test_no_messages_at_all() -> None:
-    assert_failed(judges.judge_communicates(launched(pair("/chatter"), messages=0)), "no messages", TALKER)
+    assert_failed(judges.judge_communicates(launched(pair("/chatter"), messages=0)), "not connected", TALKER)
 
 
 def test_a_subscriber_that_a_message_crashed() -> None:
     seen = launched(pair("/chatter"), out=DEAD, disconnected=True)
-    assert_failed(judges.judge_communicates(seen), "a node that ends", "hearer.py, line 7")
+    assert_failed(judges.judge_communicates(seen), "unhandled exception", "hearer.py, line 7")
 
 
 # --- shutdown ---
@@ -550,7 +548,7 @@ def test_a_clean_shutdown_passes() -> None:
 def test_a_process_is_left_behind() -> None:
     left = ending()
     object.__setattr__(left, "survivors", ("sleep 1000",))
-    assert_failed(judges.judge_shutdown(launched(pair("/chatter"), ending=left)), "process left behind", "sleep 1000")
+    assert_failed(judges.judge_shutdown(launched(pair("/chatter"), ending=left)), "does not end", "sleep 1000")
 
 
 def test_the_launch_ignores_sigint() -> None:

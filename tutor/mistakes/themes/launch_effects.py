@@ -57,42 +57,6 @@ def absolute(case: Case) -> Iterator[Found]:
 
 
 @mistake(
-    "default-topic-still-used",
-    explains=_NAMES,
-    evidence=Evidence.SYMPTOM,
-    says="still on {topics}: {users}",
-    do="Give every node that uses the topic the same remappings.",
-    example=in_run(
-        Symptom.WRONG_NAMES,
-        argument="topic",
-        wanted="/dong",
-        still_used=("/ring",),
-        users=("/old_bell",),
-        graph=Graph(("/bell", "/old_bell"), (TopicEndpoint("/dong", "t", "/bell"),)),
-    ),
-)
-def still_used(case: Case) -> Iterator[Found]:
-    """Something stays on the default topic.
-
-    A topic is renamed for those nodes that have the remapping. Another node, or another copy of the same one, goes on
-    with the name in its code.
-
-    Bad:
-
-        Node(package='house', executable='bell', remappings=[('ring', LaunchConfiguration('sound'))])
-        Node(package='house', executable='bell', name='old_bell')
-
-    Good:
-
-        Node(package='house', executable='bell', remappings=[('ring', LaunchConfiguration('sound'))])
-
-    See it: `ros2 topic info -v TOPIC`.
-    """
-    if case.about("still_used") and case.about("wanted") in {endpoint.topic for endpoint in endpoints_of(case)}:
-        yield Found({"users": ", ".join(case.about("users")), "topics": ", ".join(case.about("still_used"))})
-
-
-@mistake(
     "namespace-of-its-own",
     explains=_NAMES,
     evidence=Evidence.RUN,
@@ -177,13 +141,50 @@ def one_node(case: Case) -> Iterator[Found]:
         where = f"/{wanted}"
         inside = sorted({each.node for each in endpoints if each.node.startswith(f"{where}/")})
         outside = sorted({each.node for each in endpoints if not each.node.startswith(f"{where}/")})
-    if inside and outside:
+    alone = len({each.node for each in endpoints}) > 1 and len(inside) == 1
+    if alone and outside:
         are = "uses" if case.about("argument") == "topic" else "is under"
         yield Found({"what": f"{', '.join(inside)} {are} {where}, and {', '.join(outside)}{_not(case)}"})
 
 
 def _not(case: Case) -> str:
     return "" if case.about("argument") == "topic" else " is not"
+
+
+@mistake(
+    "default-topic-still-used",
+    explains=_NAMES,
+    evidence=Evidence.SYMPTOM,
+    says="still on {topics}: {users}",
+    do="Give every node that uses the topic the same remappings.",
+    example=in_run(
+        Symptom.WRONG_NAMES,
+        argument="topic",
+        wanted="/dong",
+        still_used=("/ring",),
+        users=("/old_bell",),
+        graph=Graph(("/bell", "/old_bell"), (TopicEndpoint("/dong", "t", "/bell"),)),
+    ),
+)
+def still_used(case: Case) -> Iterator[Found]:
+    """Something stays on the default topic.
+
+    A topic is renamed for those nodes that have the remapping. Another node, or another copy of the same one, goes on
+    with the name in its code.
+
+    Bad:
+
+        Node(package='house', executable='bell', remappings=[('ring', LaunchConfiguration('sound'))])
+        Node(package='house', executable='bell', name='old_bell')
+
+    Good:
+
+        Node(package='house', executable='bell', remappings=[('ring', LaunchConfiguration('sound'))])
+
+    See it: `ros2 topic info -v TOPIC`.
+    """
+    if case.about("still_used") and case.about("wanted") in {endpoint.topic for endpoint in endpoints_of(case)}:
+        yield Found({"users": ", ".join(case.about("users")), "topics": ", ".join(case.about("still_used"))})
 
 
 @mistake(
@@ -212,5 +213,7 @@ def no_effect(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic list`.
     """
-    if case.about("argument") is not None and reaches_no_node(case):
-        yield Found({"argument": case.about("argument"), "value": value_of(case)})
+    value = value_of(case)
+    used = any(value in name.split("/") for each in endpoints_of(case) for name in (each.node, each.topic))
+    if case.about("argument") is not None and not used and reaches_no_node(case):
+        yield Found({"argument": case.about("argument"), "value": value})

@@ -20,6 +20,7 @@ _NOTHING_RETURNED = re.compile(r"NoneType|return(?:s|ed)? (?:None|nothing)")
 
 @mistake(
     "no-generate-launch-description",
+    name="no generate_launch_description",
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
     says="the file has no function generate_launch_description, which launch calls",

@@ -238,7 +238,6 @@ def not_pushed(case: Case) -> Iterator[Found]:
 
 @mistake(
     "value-in-the-wrong-place",
-    name="topic hard-coded",
     explains=_NAMES,
     says="{line}: the Node has {keyword}={given}, which {why}",
     do="Put the argument's value where a node's names are set: its remappings, and its namespace.",

@@ -101,7 +101,7 @@ def one_side(case: Case) -> Iterator[Found]:
 @mistake(
     "waits-for-a-simulator",
     name="simulated time",
-    explains=LAUNCH,
+    explains=[Symptom.NOT_CONNECTED],
     evidence=Evidence.RUN,
     says="{node} has use_sim_time set, so its timers wait for a simulator's /clock, and there is none",
     do="Leave use_sim_time off where no simulator runs.",
