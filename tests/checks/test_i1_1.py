@@ -126,8 +126,8 @@ def test_range_passes(runs: tuple[tuple[float, ...], ...]) -> None:
 )
 def test_one_value_outside_the_range_fails(before: list[float], outside: float, after: list[float]) -> None:
     verdict = judge_range(CollectedValues(((25.0,), (*before, outside, *after))), CollectedValues(()))
-    assert verdict.cause.startswith(("out of range", "an int in a float field"))
     assert not verdict.passed
+    assert builders.explained(verdict, CHECK).mistake in ("out-of-range", "int-in-a-float-field")
 
 
 @pytest.mark.parametrize(
@@ -135,8 +135,8 @@ def test_one_value_outside_the_range_fails(before: list[float], outside: float, 
     [
         ((68.0, 75.5, 86.0), "out of range", "Fahrenheit"),
         ((25.0, 31.0), "out of range", "1 of 2 values"),
-        ((25.0, 85.0, 26.0), "out of range", "values leave the range"),
-        ((1.1e-322, 1.2e-322), "an int in a float field", "float(value)"),
+        ((25.0, 85.0, 26.0), "out of range", "1 of 3 values"),
+        ((1.1e-322, 1.2e-322), "an int in a float field", "Python float"),
         ((0.0, 0.0), "out of range", "0"),
         ((float("nan"), 25.0), "out of range", "nan"),
         ((), "no messages", "no values"),
@@ -190,9 +190,9 @@ def test_random_passes(runs: tuple[tuple[float, ...], ...]) -> None:
         ((draw_values(), (25.0,) * 24), "constant value"),
         (((25.0,) * 24, draw_values()), "constant value"),
         ((tuple(20 + i / 4 for i in range(24)), draw_values()), "ramp"),
-        ((tuple(20.0 + i % 7 for i in range(24)), draw_values()), "short cycle"),
+        ((tuple(20.0 + i % 7 for i in range(24)), draw_values()), "pattern in the values"),
         ((tuple(20.0 + i % 10 for i in range(10)),) * 2, "ramp"),
-        ((draw_values(5) * 5, draw_values(5) * 5), "short cycle"),
+        ((draw_values(5) * 5, draw_values(5) * 5), "pattern in the values"),
         ((draw_values(3) + (25.0,) * 21,) * 2, "constant value"),
         ((draw_values(2), draw_values(1)), "no messages"),
         (((), ()), "no messages"),
@@ -217,7 +217,7 @@ def test_echo_passes() -> None:
     [
         (echo(TYPE, "std_msgs/msg/Float32"), "wrong type"),
         (echo(TYPE, "std_msgs/msg/Float32", shown=False), "wrong type"),
-        (echo(shown=False), "no publisher"),
+        (echo(shown=False), "no messages"),
         (echo(TYPE, shown=False), "no messages"),
         (None, "no messages"),
     ],
@@ -319,15 +319,15 @@ def test_rates_are_inverted_if_all_that_could_be_measured_are() -> None:
         (rates(declared=()), "parameter not declared", "no numeric parameter"),
         (rates(declared=None), "parameter not declared", "publish_rate"),
         (rates(*(probe(hz, 1.0) for hz in RATES_HZ), declared=()), "parameter not declared", ""),
-        (rates(*(probe(hz, 1 / hz) for hz in RATES_HZ)), "rate used as a period", "the timer's period is 1.0 / "),
+        (rates(*(probe(hz, 1 / hz) for hz in RATES_HZ)), "rate used as a period", "waits that many seconds"),
         (rates(*(probe(v, v, "period", "s") for v in (0.5, 0.125, 1.5)), declared=BOTH), "period used as a rate", ""),
-        (rates(*(probe(hz, 1.0) for hz in RATES_HZ)), "parameter ignored", "1.0 Hz"),
+        (rates(*(probe(hz, 1.0) for hz in RATES_HZ)), "parameter ignored", "1.00 Hz"),
         (rates(*(probe(hz, 1.1 if hz > 1 else 1.0) for hz in RATES_HZ)), "parameter ignored", ""),
-        (rates(*(probe(hz, hz * 2) for hz in RATES_HZ)), "wrong rate", "one timer only"),
+        (rates(*(probe(hz, hz * 2) for hz in RATES_HZ)), "wrong rate", "4.00 Hz"),
         (rates(probe(2, 2), probe(8, 5), probe(0.7, 0.7)), "wrong rate", "8 Hz"),
         (rates(probe(2, None), probe(8, None)), "wrong rate", "no message"),
         (rates(probe(2, None, seen=CRASHED), probe(8, None, seen=CRASHED)), "unhandled exception", "line 12"),
-        (rates(probe(2, 2)), "wrong rate", "one rate"),
+        (rates(probe(2, 2)), "good value refused", "only one of the rates"),
     ],
 )
 def test_rate_fails(found: RateProbes, cause: str, word: str) -> None:
@@ -405,7 +405,7 @@ def test_name_passes(found: NameProbes) -> None:
         (names(name_probe(), declared=(RATE,)), "parameter not declared"),
         (names(name_probe(), declared=None), "parameter not declared"),
         (names(name_probe(seen=CRASHED), declared=None), "unhandled exception"),
-        (names(name_probe()), "parameter ignored"),
+        (names(name_probe()), "not logged"),
         (names(name_probe(seen=trace(out=f"{TOKEN}: 25.0"))), "printed, not logged"),
         (names(name_probe(), name_probe(seen=trace(err=f"{TOKEN}: 25.0"))), "printed, not logged"),
         (names(name_probe(seen=NO_NODE)), "no node"),

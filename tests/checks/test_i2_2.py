@@ -214,7 +214,9 @@ def test_a_substitution_in_an_f_string() -> None:
         "[talker-1] Couldn't parse remap rule: '-r chatter:=<launch.substitutions.launch_configuration.LaunchConfig"
     )
     out = f"{broken}uration object at 0x7f1>'\n{DEAD.replace('hearer-2', 'talker-1')}"
-    assert_failed(judges.judge_starts(launched(Graph(), out=out)), "substitution made text too early", "before its value is known")
+    assert_failed(
+        judges.judge_starts(launched(Graph(), out=out)), "substitution made text too early", "before its value is known"
+    )
 
 
 def test_an_action_that_needs_an_installed_ros_is_not_the_learners_fault() -> None:
@@ -331,7 +333,9 @@ def test_a_crash_that_only_the_argument_causes_is_reported() -> None:
 
 
 def test_no_messages_on_the_topic() -> None:
-    assert_failed(judges.judge_topic(DEFAULT_RUN, with_topic(pair("/news"), messages=0)), "wrong names", "nothing is sent")
+    assert_failed(
+        judges.judge_topic(DEFAULT_RUN, with_topic(pair("/news"), messages=0)), "wrong names", "nothing is sent"
+    )
 
 
 def test_a_publisher_that_never_publishes_is_not_blamed_here() -> None:
@@ -402,7 +406,9 @@ def test_a_remapping_from_an_absolute_name_fails_in_a_namespace() -> None:
     both = with_both(
         pair("/robot1/chatter", namespace="/robot1"), command_lines=["talker -r __ns:=/robot1 -r /chatter:=news"]
     )
-    assert_failed(judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, NAMESPACED, both), "remapping without effect", "/chatter")
+    assert_failed(
+        judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, NAMESPACED, both), "remapping without effect", "/chatter"
+    )
 
 
 def test_a_topic_argument_that_is_never_used_is_left_to_the_topic_criterion() -> None:
