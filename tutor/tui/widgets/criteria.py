@@ -6,6 +6,7 @@ from textual import events, on
 from textual.app import ComposeResult
 from textual.containers import Container
 from textual.content import Content
+from textual.geometry import Size
 from textual.widget import Widget
 from textual.widgets import ListItem, ListView, Static
 
@@ -28,6 +29,10 @@ class CriterionRow(ListItem):
         self.finding = finding
         self._name_width = name_width
         self._outdated = False
+
+    def get_content_width(self, container: Size, viewport: Size) -> int:
+        """Return the width of the mark and the name, which is what it takes beside a diagnosis."""
+        return len("✓ ") + self._name_width + len(" ")
 
     def show(self, finding: Finding, *, outdated: bool) -> None:
         """Show this finding; a verdict on an earlier version of the code (`outdated`) is dimmed."""
@@ -97,6 +102,43 @@ class BriefLine(Widget, can_focus=True):
         return Content.assemble(head, names.pad_right(max(0, room - names.cell_length)), key)
 
 
+class CriteriaList(RowList):
+    """The rows of the criteria. Once the learner has `moved` the selection, it stays where they have put it."""
+
+    def __init__(self, id: str) -> None:
+        super().__init__(id=id, initial_index=None)
+        self.moved = False
+        """Whether the learner has selected a criterion of the lesson."""
+
+    def action_cursor_down(self) -> None:
+        """Select the next row."""
+        self.moved = True
+        super().action_cursor_down()
+
+    def action_cursor_up(self) -> None:
+        """Select the previous row."""
+        self.moved = True
+        super().action_cursor_up()
+
+    def action_first(self) -> None:
+        """Select the first row."""
+        self.moved = True
+        super().action_first()
+
+    def action_last(self) -> None:
+        """Select the last row."""
+        self.moved = True
+        super().action_last()
+
+    def action_select_cursor(self) -> None:
+        """Show the selected row's diagnosis."""
+        self.moved = True
+        super().action_select_cursor()
+
+    def _on_list_item__child_clicked(self, event: ListItem._ChildClicked) -> None:
+        self.moved = True  # Textual then calls ListView's own handler, which selects the row
+
+
 class CriteriaPanel(Container):
     """The list of criteria, and beside or below it the diagnosis of the chosen one."""
 
@@ -124,7 +166,7 @@ class CriteriaPanel(Container):
 
     def compose(self) -> ComposeResult:
         yield BriefLine(id="criteria-brief")
-        yield RowList(id="criteria-list", initial_index=None)
+        yield CriteriaList(id="criteria-list")
         yield Diagnosis(id="diagnosis")
         yield Static(id="attempts")
 
@@ -141,10 +183,11 @@ class CriteriaPanel(Container):
         """Show a lesson's criteria, and its first failure if there is one; `following` is the next lesson."""
         self._findings = None
         self._following = following
-        listed = self.query_one("#criteria-list", ListView)
+        listed = self._list
+        listed.moved = False
         await listed.clear()
         widest = max(len(finding.id) + len(" bonus") * finding.bonus for finding in findings.criteria)
-        await listed.extend(CriterionRow(finding, max(17, widest + 1)) for finding in findings.criteria)
+        await listed.extend(CriterionRow(finding, widest + 1) for finding in findings.criteria)
         self._show(findings)
         self._show_result()
 
@@ -156,28 +199,34 @@ class CriteriaPanel(Container):
             self.remove_class("-detail")
         if findings.checking:
             self._show_first_failure()
-        if before and before.checking and not findings.checking:
+        ended = before is not None and before.checking and not findings.checking
+        restored = findings.at and not (before and before.at)
+        if ended or restored:
             self._show_result()
 
     def _show_first_failure(self) -> None:
-        """During a check, show the first failure as soon as it is final, unless the learner has chosen a criterion."""
-        found = self._findings
+        """During a check, show the first failure as soon as it is final, or that of what the learner has selected."""
+        found, chosen = self._findings, self.chosen
         if found is None:
             return
         if self.has_class("-detail"):
-            if (chosen := self.chosen) is not None and chosen != self._shown_finding:
+            if chosen is not None and chosen != self._shown_finding:
+                self._show_diagnosis(chosen)
+            return
+        if self._list.moved:
+            if chosen is not None and _is_failed(chosen):
                 self._show_diagnosis(chosen)
             return
         failed = [n for n, f in enumerate(found.criteria) if _is_failed(f) and not f.bonus]
         if failed:
-            self.query_one("#criteria-list", ListView).index = failed[0]
+            self._list.index = failed[0]
             self._show_diagnosis(found.criteria[failed[0]])
 
     def _show_diagnosis(self, finding: Finding) -> None:
         """Show the diagnosis of a criterion."""
         assert self._findings is not None
         self._shown_finding = finding
-        self.query_one(Diagnosis).show_finding(finding, self._findings)
+        self.query_one(Diagnosis).show_finding(finding, self._findings, self._following)
         self.add_class("-detail")
 
     def show_attempts(self, lesson: Lesson, progress: ExerciseProgress) -> None:
@@ -207,7 +256,7 @@ class CriteriaPanel(Container):
     def open(self) -> None:
         """Unfold, and focus the list."""
         self.set_focus_inside(True)
-        self.screen.set_focus(self.query_one("#criteria-list"), scroll_visible=False)
+        self.screen.set_focus(self._list, scroll_visible=False)
 
     def show_typing(self, typing: bool) -> None:
         """Name the keys that work now: letters are typed while the editor has the focus."""
@@ -220,8 +269,12 @@ class CriteriaPanel(Container):
     @property
     def chosen(self) -> Finding | None:
         """The criterion whose diagnosis is shown."""
-        row = self.query_one("#criteria-list", ListView).highlighted_child
+        row = self._list.highlighted_child
         return row.finding if isinstance(row, CriterionRow) else None
+
+    @property
+    def _list(self) -> CriteriaList:
+        return self.query_one(CriteriaList)
 
     @property
     def rows(self) -> list[CriterionRow]:
@@ -232,9 +285,9 @@ class CriteriaPanel(Container):
         self._findings = findings
         known = {finding.id: finding for finding in findings.criteria}
         for row in self.rows:
-            row.show(known[row.finding.id], outdated=findings.outdated)
-        outdated = findings.outdated and findings.judged and not findings.checking
-        self.border_title = "Criteria: your code has changed since this check" if outdated else "Criteria"
+            row.show(known[row.finding.id], outdated=bool(findings.outdated))
+        outdated = bool(findings.outdated) and findings.judged and not findings.checking
+        self.border_title = _title(findings)
         self.border_subtitle = _headline(findings, typing=self._typing)
         self.set_class(outdated, "-outdated")
         self.query_one(BriefLine).show(findings)
@@ -242,11 +295,17 @@ class CriteriaPanel(Container):
         self.set_class(bool(findings.result and findings.result.verdict is Status.PASSED), "-passed")
 
     def _show_result(self) -> None:
-        """After a check, show the first failure, or the good news if all passed; a failure being read stays."""
-        found = self._findings
-        if found is not None and self.has_class("-detail") and (chosen := self.chosen) and _is_failed(chosen):
+        """After a check, show the first failure, or the good news if all passed.
+
+        What the learner has selected stays selected, and so does a failure that is being read.
+        """
+        found, listed, chosen = self._findings, self._list, self.chosen
+        if listed.moved and chosen is not None:
+            if found is not None and found.judged:
+                self._show_diagnosis(chosen)
             return
-        listed = self.query_one("#criteria-list", ListView)
+        if self.has_class("-detail") and chosen is not None and _is_failed(chosen):
+            return
         listed.index = None
         self.remove_class("-detail")
         if found is None or not found.judged:
@@ -277,6 +336,16 @@ class CriteriaPanel(Container):
 
 def _is_failed(finding: Finding) -> bool:
     return finding.verdict is not None and finding.verdict.status is Status.FAILED
+
+
+def _title(findings: Findings) -> str:
+    if findings.checking or not findings.judged:
+        return "Criteria"
+    if not findings.at:
+        return "Criteria: your code has changed since this check" if findings.outdated else "Criteria"
+    since = {True: ", your code has changed since", False: ", your code is the same"}
+    known = "" if findings.outdated is None else since[findings.outdated]
+    return f"Checked {wording.format_time(findings.at)}{known}"
 
 
 def _headline(findings: Findings, *, typing: bool) -> str:
