@@ -63,6 +63,7 @@ class Files:
         model = self._host.model
         self.show((model.file_index + 1) % len(model.lesson.files))
         self._host.show_page("code")
+        self._pane.release()
 
     def go_to(self, message: messages.GoToLine) -> None:
         """Open the file of the message, and put the cursor on its line."""
