@@ -128,7 +128,7 @@ class Learner(Person[TutorApp]):
 
     def diagnosis(self) -> str:
         """The full text of the diagnosis, which is folded on the screen."""
-        return "\n".join(str(part.render()) for part in self.main.query_one("#diagnosis").query(Static))
+        return "\n".join(str(part.content) for part in self.main.query_one("#diagnosis").query(Static))
 
     def text(self, selector: str) -> str:
         """The full text of one widget."""
@@ -141,8 +141,8 @@ class Learner(Person[TutorApp]):
         return next(str(row.render()) for row in rows if row.finding.id == id)
 
     async def start_check(self) -> None:
-        """Press c, and have the engine say that it has started."""
-        await self.press("c")
+        """Press F9, which checks from every page, and have the engine say that it has started."""
+        await self.press("f9")
         await self.engine_emits(*fakes.started_events())
 
     async def end_check(self) -> None:

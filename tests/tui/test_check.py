@@ -13,6 +13,7 @@ from tests.tui import fakes
 from tests.tui.conftest import open_app
 from tutor.judge.events import CriterionJudged, ExerciseJudged
 from tutor.judge.verdict import Status
+from tutor.workspace import digests_of
 
 SIZES = [(120, 36), (80, 24)]
 
@@ -286,7 +287,7 @@ async def test_what_is_said_of_the_code_is_true_of_every_file_on_disk_however_it
         await me.press("n", "s")
         await me.until(lambda: all(path.exists() for path in me.main.model.paths))
         client = me.main.model.paths[1]
-        await me.press("c")
+        await me.press("f9")
         lesson = me.main.model.lesson
         await me.engine_emits(*fakes.lesson_final_events(lesson, fakes.BAD))
         await me.end_check()
@@ -301,17 +302,47 @@ async def test_what_is_said_of_the_code_is_true_of_every_file_on_disk_however_it
         assert len(me.main.query("CodeEditor")) == 2, "none for a file that was never shown"
 
 
-async def test_after_a_restart_the_last_check_is_shown_and_hints_begin_with_what_fails(tmp_path: Path) -> None:
+async def test_after_a_restart_the_last_report_is_shown_with_its_time_and_whether_the_code_has_changed(
+    tmp_path: Path,
+) -> None:
     session = fakes.FakeSession(tmp_path / "learner")
     done = fakes.final_events(fakes.BAD)[-2]
     assert isinstance(done, ExerciseJudged)
-    session.record(done.result)
+    path = session.path(session.lessons[0].files[0])
+    session.record(replace(done.result, digests=digests_of({path.name: path})))
     async with open_app(session) as me:
-        await me.press("2", "5")
-        await me.sees("Criteria", "last check today", "2 of 3 met", "✓ publishes", "○ rate")
-        await me.press("down", "down", "down", "enter")
-        await me.sees("Not met at the last check, today", "Press c")
+        await me.sees("Checked today", "your code is the same", "✓ publishes", "✗ rate  ", "2 of 3 passed")
+        await me.sees("Next step  Give create_timer", "Cause", "Expected", "0.20 Hz over 3 messages")
+        await me.press("5", "i")
+        await me.until(lambda: "line 18" in me.diagnosis(), "the evidence")
+        await me.press("up")
+        await me.sees("54 values from 20.03 to 29.87")
+        path.write_text("# another version\n")
+        await me.sees("Checked today", "your code has changed since")
 
+        # A new check replaces it.
+        await me.start_check()
+        await me.sees_no("Checked today")
+        await me.engine_emits(*fakes.final_events(fakes.GOOD))
+        await me.sees("3 of 3 passed")
+        await me.end_check()
+        await me.until(lambda: me.main.model.progress.of("i1.1").is_passed)
+
+    # A damaged one is set aside: what is left is which criteria were met.
+    kept = session.workspace.last_checks().path_of("i1.1")
+    assert '"ros-tutor/last-check/1"' in kept.read_text()
+    kept.write_text("{")
+    async with open_app(session) as me:
+        await me.sees("the last check of i1.1 could not be read")
+        assert [each.read_text() for each in kept.parent.glob("*.damaged-*")] == ["{"]
+        await me.press("2", "5")
+        await me.sees("last check today", "3 of 3 met", "✓ publishes")
+        await me.press("down", "down", "down", "enter")
+        await me.sees("Met at the last check, today", "Press c")
+
+
+async def test_hints_begin_with_what_fails(learner: Any) -> None:
+    async with learner() as me:
         await me.start_check()
         await me.engine_emits(*fakes.final_events(fakes.BAD))
         await me.sees("Next step")
@@ -323,6 +354,39 @@ async def test_after_a_restart_the_last_check_is_shown_and_hints_begin_with_what
         await me.sees("hint 1 of 3", "Declare it.", "Think of a timer.")
         await me.press("escape", "h")
         await me.sees("hint 1 of 3", "Declare it.", "Think of a timer.")
+
+
+@pytest.mark.parametrize("size", [*SIZES, (180, 50)])
+async def test_the_selection_stays_where_the_learner_has_put_it(learner: Any, size: Any) -> None:
+    async with learner(size) as me:
+        await me.start_check()
+        await me.engine_emits(fakes.progress_event("range", 0.2, "collecting values"))
+        await me.press("5", "down", "down")
+        assert me.main.chosen_criterion == "range"
+
+        # Neither results, nor the end of the check, nor the next check move it, whatever they find.
+        await me.engine_emits(CriterionJudged("i1.1", fakes.result("publishes", fakes.BAD)))
+        await me.until(lambda: "✗ publishes" in me.criterion("publishes"))
+        assert me.main.chosen_criterion == "range"
+        await me.engine_emits(*fakes.final_events(fakes.BAD))
+        await me.sees("2 of 3 passed", "✓ range  ", "54 values", "✗ Not met yet: rate")
+        assert me.main.chosen_criterion == "range"
+        await me.end_check()
+        await me.start_check()
+        await me.engine_emits(CriterionJudged("i1.1", fakes.result("publishes", fakes.BAD)))
+        await me.until(lambda: "✗ publishes" in me.criterion("publishes"))
+        assert me.main.chosen_criterion == "range"
+        await me.engine_emits(*fakes.final_events(fakes.GOOD))
+        await me.sees("3 of 3 passed", "54 values", "✓ I1.1 passed  press n for I1.3")
+        assert me.main.chosen_criterion == "range"
+        await me.end_check()
+
+        # In another lesson the app selects again.
+        await me.press("n", "s")
+        await me.until(lambda: all(path.exists() for path in me.main.model.paths))
+        await me.start_check()
+        await me.engine_emits(*fakes.lesson_final_events(me.main.model.lesson, fakes.BAD))
+        await me.until(lambda: me.main.chosen_criterion == "rate")
 
 
 LONG = replace(

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from textual.widgets import Input
 
 from tests.tui import fakes
 from tutor.tui.widgets.code_pane import CodePane
@@ -37,6 +38,58 @@ async def test_typing_is_autosaved_and_a_change_from_outside_is_loaded(learner: 
         assert editor.cursor_location == (3, 1), "the same line, now one row further down"
         await me.press("ctrl+z")
         await me.until(lambda: me.file.read_text() == fakes.NODE)
+
+
+async def test_letters_typed_before_editing_offer_to_edit_and_run_no_command(learner: Any) -> None:
+    async with learner() as me:
+        await me.press("2")
+        await me.sees("the sensor is warm", "e Edit", "Esc Commands", "F5 Run", "F9 Check", "Esc, then  k")
+        assert "c Check" not in me.screen()
+        await me.type_text("import random")
+        await me.sees("Edit your file?", "import random", "Enter: type this there")
+        assert me.file.read_text() == fakes.NODE
+        assert len(me.app.screen_stack) == 2, "no dialog"
+        assert not me.main.nodes.running
+        await me.press("enter", "enter")
+        await me.until(lambda: me.file.read_text() == "import random\n" + fakes.NODE, "what was typed is kept")
+        await me.press("x")
+        await me.until(lambda: me.editor.text.startswith("import random\nximport signal"), "and typing goes on")
+
+        # Esc leaves the editor for commands, as ever.
+        await me.press("ctrl+z", "escape")
+        await me.sees("c Check", "k Skeleton")
+        await me.press("k")
+        await me.sees("The skeleton, read-only")
+        await me.press("escape", "k")
+        await me.sees("The skeleton, read-only")
+
+        # Esc takes the offer back: letters are commands then, until the page is opened again.
+        await me.press("escape", "1", "2", "k")
+        await me.sees("Edit your file?", "k again: Skeleton", "Esc: neither")
+        await me.press("escape")
+        await me.sees_no("Edit your file?")
+        await me.press("k")
+        await me.sees("The skeleton, read-only")
+        await me.press("escape")
+
+        # The same letter once more is its command; a second one is text.
+        await me.press("1", "2", "k", "k")
+        await me.sees("The skeleton, read-only")
+        await me.press("escape", "1", "2", "l", "m")
+        await me.sees("Edit your file?")
+        assert me.main.query_one("#offer-text", Input).value == "lm"
+        await me.press("escape")
+
+        # A paste is offered, too. The other keys work at once: pages, help, F keys, and e.
+        await me.press("1", "2")
+        me.paste("# pasted\n# twice\n")
+        await me.sees("Edit your file?")
+        await me.press("enter")
+        await me.until(lambda: "# pasted\n# twice" in me.file.read_text(), "pasted")
+        await me.press("escape", "1", "2", "question_mark")
+        await me.sees("Read the lesson, start, edit")
+        await me.press("escape", "e")
+        await me.until(lambda: me.app.focused is me.editor)
 
 
 async def test_ctrl_f_finds_a_text_and_typing_replaces_what_is_selected_and_is_indented(learner: Any) -> None:

@@ -116,7 +116,7 @@ async def test_hostile_text_in_the_code_the_log_the_terminal_a_verdict_and_the_a
         await me.press("2")
         await me.pilot.pause()
         assert_harmless(me)
-        await me.press("r", "3")
+        await me.press("f5", "3")
         await me.sees("gain")
         assert_harmless(me)
         await me.press("7")

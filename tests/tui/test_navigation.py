@@ -117,9 +117,37 @@ async def test_the_panels_fold_in_a_small_terminal_and_unfold_when_it_grows(lear
         await me.sees("Objective")
 
 
+@pytest.mark.parametrize("size", [(120, 36), (200, 60)])
+async def test_z_enlarges_the_part_with_the_focus_and_restores_it(learner: Any, size: Any) -> None:
+    def sizes() -> tuple[tuple[int, int], tuple[int, int]]:
+        page, criteria = me.main.query_one("#pages").region.size, me.main.query_one("#criteria").region.size
+        return (page.width, page.height), (criteria.width, criteria.height)
+
+    async with learner(size) as me:
+        await me.press("5")
+        await me.sees("not checked yet")
+        before = sizes()
+        await me.press("z")
+        await me.until(lambda: sizes() == ((0, 0), (size[0], size[1] - 2)), "only the criteria")
+        await me.press("down", "z")
+        await me.until(lambda: sizes() == before, "restored")
+        assert me.main.chosen_criterion == "publishes"
+        await me.press("z", "2")
+        await me.sees("the sensor is warm")
+        await me.until(lambda: sizes()[0] == before[0], "another page restores it, too")
+        await me.press("escape", "z")
+        await me.until(lambda: sizes() == ((size[0], size[1] - 4), (0, 0)), "only the page")
+        await me.press("5")
+        await me.until(lambda: sizes()[1] == before[1], "the criteria restore the panels")
+        await me.press("z", "l")
+        await me.until(lambda: sizes() == before, "and so does the list of lessons")
+
+
 def test_the_layout_follows_the_size() -> None:
-    assert layout_for(80, 24) == Layout(False, Criteria.FOLDED)
-    assert layout_for(120, 24) == Layout(True, Criteria.FOLDED)
+    assert layout_for(60, 24) == Layout(False, Criteria.FOLDED)
+    assert layout_for(80, 24) == Layout(False, Criteria.FOLDED, columns=True)
+    assert layout_for(80, 50) == Layout(False, Criteria.FOLDED)
+    assert layout_for(120, 24) == Layout(True, Criteria.FOLDED, columns=True)
     assert layout_for(120, 36) == Layout(True, Criteria.STACKED)
     assert layout_for(200, 50) == Layout(True, Criteria.BESIDE)
 
@@ -237,7 +265,7 @@ async def test_the_code_follows_the_file_on_disk_and_f_shows_the_other_file(lear
 
         await me.press("n", "s")
         await me.sees("server.py and client.py", "1  import signal")
-        await me.press("f")
+        await me.press("escape", "f")
         await me.until(lambda: me.main.model.file_index == 1)
         await me.pilot.click("#code-head", offset=(2, 0))
         assert (await asyncio.to_thread(me.session.path(me.session.lessons[1].files[1]).read_text)) == fakes.NODE

@@ -191,7 +191,7 @@ async def test_a_server_and_its_client_run_side_by_side(learner: Any) -> None:
     async with learner() as me:
         await me.press("n", "s")
         await me.sees("server.py and client.py")
-        await me.press("r")
+        await me.press("f5")
         await me.sees("● running  server.py", "the sensor is warm")
         await me.press("f")
         await me.sees("client.py")

@@ -17,9 +17,9 @@ def test_a_digest_is_that_of_the_content_and_a_file_that_cannot_be_read_has_none
 
 def test_a_file_has_changed_if_it_was_edited_added_or_removed_since_and_that_is_known() -> None:
     judged = {"server.py": "1"}
-    assert not has_changed(judged, {"server.py": "1", "client.py": ""})
-    assert not has_changed(judged, {}), "not read yet"
-    assert not has_changed({}, {"server.py": "1"}), "an unknown version was judged"
+    assert has_changed(judged, {"server.py": "1", "client.py": ""}) is False
+    assert has_changed(judged, {}) is None, "not read yet"
+    assert has_changed({}, {"server.py": "1"}) is None, "an unknown version was judged"
     assert has_changed(judged, {"server.py": "2"})
     assert has_changed(judged, {"server.py": ""})
     assert has_changed(judged, {"server.py": "1", "client.py": "3"})

@@ -120,20 +120,15 @@ def _write_report(report: Report, arguments: argparse.Namespace) -> None:
 def _record(report: Report, submissions: Sequence[Submission], course: Course, workspace: Workspace) -> None:
     """Save attempts on the workspace's own files. A failure to save does not change the verdict."""
     from tutor.errors import StorageError
-    from tutor.workspace import Progress, is_own
+    from tutor.workspace import is_own, record
 
     own = {submission.exercise for submission in submissions if is_own(submission, workspace)}
     results = [result for result in report.exercises if result.id in own]
     if not results:
         return
 
-    def add(progress: Progress) -> Progress:
-        for result in results:
-            all_ids = {criterion.id for criterion in course.find(result.id).criteria}
-            progress = progress.with_attempt(result, whole=all_ids <= {criterion.id for criterion in result.criteria})
-        return progress
-
+    criteria = {result.id: [criterion.id for criterion in course.find(result.id).criteria] for result in results}
     try:
-        workspace.progress(terminal.say).change(add)
+        record(results, workspace, criteria, terminal.say)
     except StorageError as error:
         terminal.say(f"this check is not in your progress: {error}")

@@ -99,17 +99,10 @@ class Waits:
             meanwhile()
             return self._process.exit is not None or given_up()
 
-        own_before_s = own_cpu_time().waited_s
-
-        def waited_s() -> tuple[float, ...]:
-            # Of the program's threads, only the main one's wait excuses a late exit: others may wait while it sleeps. A
-            # delay of ours changes nothing, since an exit that we see late still has its own time, unless the program
-            # calls a server of ours.
-            own_s = own_cpu_time().waited_s if self._observer.serves else own_before_s
-            return self.cpu_time().main_waited_s, own_s
-
+        # Of the program's threads, only the main one's wait for a CPU excuses a late exit: others may wait while it
+        # sleeps. A delay of ours changes nothing, since an exit that we see late still has its own time.
         idle = self._idle_detector(RESENT_S)
-        await self._until(ended, limit_s, waited_s, idle, all_sent)
+        await self._until(ended, limit_s, lambda: (self.cpu_time().main_waited_s,), idle, all_sent)
         return self._process.exit is not None
 
     async def for_response(

@@ -108,11 +108,6 @@ class Observer:
 
         self._intakes.append(Intake(self.node, topic, type_name, requested, self._gate, take))
 
-    @property
-    def serves(self) -> bool:
-        """Whether there is a service server of ours."""
-        return bool(self._servers)
-
     def serve(
         self,
         service: str,

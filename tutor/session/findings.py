@@ -9,7 +9,7 @@ from tutor.content import Lesson
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Verdict, fault
-from tutor.workspace import ExerciseProgress, last_met
+from tutor.workspace import ExerciseProgress, LastCheck, last_met
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +36,9 @@ class Finding:
 class Findings:
     """All criteria of one exercise, in display order. `note` says why there is no result, if there is none.
 
-    `outdated`: the learner's code has changed since the check. `before` is the time of the last check before the app
-    was started, as in the progress file; empty if there was none.
+    `outdated`: whether the learner's code has changed since the check; None if that is not known. `before` is the time
+    of the last check before the app was started, as in the progress file; empty if there was none. `at` is the time of
+    the check that is shown, if that is one from before the app was started, whose findings were kept.
     """
 
     exercise: str
@@ -45,8 +46,9 @@ class Findings:
     checking: bool = False
     result: ExerciseResult | None = None
     note: str = ""
-    outdated: bool = False
+    outdated: bool | None = None
     before: str = ""
+    at: str = ""
 
     @classmethod
     def of(cls, lesson: Lesson) -> Findings:
@@ -72,13 +74,19 @@ class Findings:
     def with_last_check(self, progress: ExerciseProgress) -> Findings:
         """Add the results of the last check in the progress file, unless there are verdicts or a check is running.
 
-        The progress file holds no diagnoses, so a verdict of this session is more informative.
+        The progress file holds no diagnoses, so verdicts are more informative.
         """
         if self.judged or self.checking or (last := progress.last) is None:
             return self
         met = last_met((f.id for f in self.criteria), progress)
         known = tuple(replace(f, before=met.get(f.id)) for f in self.criteria)
         return replace(self, criteria=known, before=last.at)
+
+    def with_kept(self, last: LastCheck) -> Findings:
+        """Show a check from before the app was started, unless there are verdicts or a check is running."""
+        if self.judged or self.checking:
+            return self
+        return replace(self._with_verdicts(last.result), at=last.at)
 
     def with_event(self, event: Event) -> Findings:
         """Return the findings after `event`. An event of another exercise changes nothing."""
@@ -95,10 +103,7 @@ class Findings:
             case CriterionJudged(exercise, result) if exercise == self.exercise:
                 return self._with_verdict(result)
             case ExerciseJudged(result) if result.id == self.exercise:
-                findings = self
-                for judged in result.criteria:
-                    findings = findings._with_verdict(judged)
-                return replace(findings, result=result)
+                return self._with_verdicts(result)
             case CheckFinished():
                 return self.stopped()
         return self
@@ -118,6 +123,12 @@ class Findings:
         verdict = fault(what, hint, evidence)
         judged = tuple(f if f.verdict else replace(f, checking=True, verdict=verdict) for f in self.criteria)
         return replace(self, criteria=judged, checking=False, note="could not be judged")
+
+    def _with_verdicts(self, result: ExerciseResult) -> Findings:
+        findings = self
+        for judged in result.criteria:
+            findings = findings._with_verdict(judged)
+        return replace(findings, result=result)
 
     def _with_verdict(self, result: CriterionResult) -> Findings:
         return self._with_change(

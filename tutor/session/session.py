@@ -20,12 +20,14 @@ from tutor.session.node_command import NodeCommand
 from tutor.workspace import (
     AppState,
     ExerciseState,
+    LastCheck,
     Placed,
     Progress,
     RunOptions,
     Workspace,
     domain_of,
     place_files,
+    record,
     start,
     states_of,
     versions_of,
@@ -135,8 +137,16 @@ class Session:
         return states_of(self.lessons, progress, self.workspace)
 
     def record(self, result: ExerciseResult) -> Progress:
-        """Save one attempt and return the new progress. Raises StorageError."""
-        return self.workspace.progress(self.notify).change(lambda progress: progress.with_attempt(result, whole=True))
+        """Save one attempt, and what it found; return the new progress. Raises StorageError."""
+        criteria = {lesson.id: [criterion.id for criterion in lesson.criteria] for lesson in self.lessons}
+        return record([result], self.workspace, criteria, self.notify)
+
+    def last_checks(self, progress: Progress) -> dict[str, LastCheck]:
+        """Read what the last check of each exercise found, by exercise id, if it was kept."""
+        if not self.workspace.exists:
+            return {}
+        found = self.workspace.last_checks(self.notify).read(lesson.id for lesson in self.lessons)
+        return {id: last for id, last in found.items() if last.is_current(progress)}
 
     def show_hint(self, lesson: Lesson) -> Progress:
         """Count one more hint as shown and return the new progress. Raises StorageError."""

@@ -95,7 +95,7 @@ GO_TO_ERROR = Command("go_to_error", ("g",), "Go to error", "Go to the last erro
 NEXT = Command("next", ("n",), "Next", "Go to the next lesson", footer=True, help=_STEP)
 PREVIOUS = Command("previous", ("p",), "Prev", "Go to the previous lesson", help=_STEP)
 LESSONS = Command("lessons", ("l",), "Lessons", "Show or hide the list of lessons")
-ZOOM = Command("zoom", ("z",), "Zoom", "Maximize the page, or restore the panels")
+ZOOM = Command("zoom", ("z",), "Zoom", "Enlarge the part with the focus, or restore")
 PAGE_LESSON = Command("page_lesson", ("1", "f2"), "Lesson", "Show the lesson")
 PAGE_CODE = Command("page_code", ("2", "f3"), "Code", "Show your code")
 PAGE_LOG = Command("page_log", ("3", "f4"), "Log", "Show the log of your node")

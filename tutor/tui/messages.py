@@ -11,7 +11,7 @@ from textual.message import Message
 from tutor.judge.events import Event
 from tutor.session.check_process import CheckEnded
 from tutor.session.node import NodeState
-from tutor.workspace import Progress
+from tutor.workspace import LastCheck, Progress
 
 
 @dataclass
@@ -83,6 +83,13 @@ class EditorLeft(Message):
 
 
 @dataclass
+class EditWanted(Message):
+    """Request to edit the file shown, and to type this text there."""
+
+    text: str
+
+
+@dataclass
 class GoToLine(Message):
     """Request to show a line (from 1) of a file in the editor."""
 
@@ -103,6 +110,13 @@ class ProgressRead(Message):
 
     progress: Progress
     versions: Mapping[str, str]
+
+
+@dataclass
+class LastChecksRead(Message):
+    """The last checks of all exercises, from before the app was started, were read; by exercise id."""
+
+    last: Mapping[str, LastCheck]
 
 
 @dataclass

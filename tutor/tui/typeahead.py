@@ -44,7 +44,8 @@ class Typeahead:
             screen, focused = self._app.screen, self._app.focused
             if isinstance(typed, Key):
                 # A letter in a text field is handled in the field's own queue: nothing can overtake it.
-                self._blocked = focused is None or not focused.check_consume_key(typed.key, typed.character)
+                in_field = focused is not None and focused.check_consume_key(typed.key, typed.character)
+                self._blocked = not in_field or getattr(focused, "takes_first_key", False)
             await self._forward(typed)
             if self._blocked:
                 start = focused or screen

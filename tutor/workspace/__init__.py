@@ -5,10 +5,12 @@ from tutor.workspace.atomic import write_atomically
 from tutor.workspace.digests import Digests, digest_of_file, digest_of_text, digests_of, has_changed, version_of
 from tutor.workspace.domain import domain_of, given_domain
 from tutor.workspace.exercise_states import ExerciseState, State, exercise_state, last_met, states_of, versions_of
+from tutor.workspace.last_checks import LastCheck
 from tutor.workspace.layout import Workspace, find_workspace
 from tutor.workspace.placing_files import Placed, place_files
 from tutor.workspace.progress import Attempt, ExerciseProgress, Help, Progress
 from tutor.workspace.progress_file import ProgressFile
+from tutor.workspace.recording import record
 from tutor.workspace.saving import Saved, back_up_file, overwrite_file, read_source
 from tutor.workspace.starting import TEMPLATE, Started, start, start_in
 from tutor.workspace.submissions import find_submission, is_own, is_started, look_up, solution
@@ -22,6 +24,7 @@ __all__ = [
     "ExerciseProgress",
     "ExerciseState",
     "Help",
+    "LastCheck",
     "Placed",
     "Progress",
     "ProgressFile",
@@ -47,6 +50,7 @@ __all__ = [
     "overwrite_file",
     "place_files",
     "read_source",
+    "record",
     "solution",
     "start",
     "start_in",

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
-from datetime import UTC, datetime
 from pathlib import Path
 
 from tutor.errors import StorageError
 from tutor.json_codec import convert_to, read_document, write_document
 from tutor.workspace.atomic import write_atomically
+from tutor.workspace.damaged import set_aside
 from tutor.workspace.regular import read_text
 
 SCHEMA = "ros-tutor/app/1"
@@ -87,10 +87,9 @@ class AppStateFile:
         write_atomically(self.path, encode(state))
 
     def _set_aside(self, reason: str) -> None:
-        aside = self.path.with_name(f"{self.path.name}.damaged-{datetime.now(UTC):%Y%m%dT%H%M%S%fZ}")
         try:
-            self.path.rename(aside)
-        except OSError as error:
-            self._notify(str(StorageError.of(f"rename {self.path}", error)))
+            aside = set_aside(self.path)
+        except StorageError as error:
+            self._notify(str(error))
             return
         self._notify(f"the app's saved state could not be read ({reason}); the file is kept as {aside}")

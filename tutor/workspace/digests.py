@@ -33,12 +33,14 @@ def digests_of(files: Mapping[str, Path]) -> dict[str, str]:
     return {name: digest_of_file(path) for name, path in files.items()}
 
 
-def has_changed(judged: Digests, current: Digests) -> bool:
-    """Return whether one of the `current` files is not the version that was judged; False if that is unknown (empty).
+def has_changed(judged: Digests, current: Digests) -> bool | None:
+    """Return whether one of the `current` files is not the version that was judged; None if that cannot be told.
 
     A file that was not there when it was judged may be missing from `judged`, or have an empty digest there.
     """
-    return bool(judged) and any(judged.get(name, "") != digest for name, digest in current.items())
+    if judged and any(judged.get(name, "") != digest for name, digest in current.items()):
+        return True
+    return False if judged and judged.keys() <= current.keys() else None
 
 
 def version_of(digests: Digests) -> str:

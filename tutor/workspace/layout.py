@@ -9,6 +9,7 @@ from pathlib import Path
 
 from tutor.errors import WorkspaceError
 from tutor.workspace.app_state import AppStateFile
+from tutor.workspace.last_checks import LastChecks
 from tutor.workspace.progress_file import ProgressFile, to_stderr
 
 MARKER = ".ros-tutor"
@@ -44,6 +45,10 @@ class Workspace:
     def app_state(self, notify: Callable[[str], None] = to_stderr) -> AppStateFile:
         """Return the app's state file; `notify` is called with one line if a damaged one had to be set aside."""
         return AppStateFile(self.root / MARKER / "app.json", notify)
+
+    def last_checks(self, notify: Callable[[str], None] = to_stderr) -> LastChecks:
+        """Return the last checks; `notify` is called with one line if a damaged file had to be set aside."""
+        return LastChecks(self.root / MARKER / "last-checks", notify)
 
 
 def is_launch_file(name: str) -> bool:

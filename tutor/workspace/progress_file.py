@@ -6,12 +6,12 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from datetime import UTC, datetime
 from pathlib import Path
 
 from tutor.errors import StorageError
 from tutor.terminal_text import printable
 from tutor.workspace.atomic import write_atomically
+from tutor.workspace.damaged import set_aside
 from tutor.workspace.locking import lock
 from tutor.workspace.progress import Progress, decode, encode
 from tutor.workspace.regular import read_text
@@ -86,12 +86,7 @@ class ProgressFile:
             raise StorageError.of(f"read {self.path}", error) from error
 
     def _set_aside(self, reason: str) -> None:
-        stamp = f"{datetime.now(UTC):%Y%m%dT%H%M%S%fZ}"
-        aside = self.path.with_name(f"{self.path.name}.damaged-{stamp}")
-        try:
-            self.path.rename(aside)
-        except OSError as error:
-            raise StorageError.of(f"rename {self.path}", error) from error
+        aside = set_aside(self.path)
         self._notify(
             f"your progress could not be read ({reason}); a new file is started, the old one is kept as {aside}"
         )

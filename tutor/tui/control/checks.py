@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 
@@ -19,7 +19,7 @@ from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
-from tutor.workspace import Digests, digests_of, has_changed
+from tutor.workspace import Digests, LastCheck, digests_of, has_changed
 
 CRASHED = (
     "This is a fault of ros-tutor or of the machine, not of your code. Check again; if it persists, run: "
@@ -84,7 +84,7 @@ class Checks:
             return
         if self.running is None:
             self._begin(model.lesson)
-        elif self.running.exercise != model.lesson.id or self._differs(model.lesson):
+        elif self.running.exercise != model.lesson.id or self._differs(model.lesson) is not False:
             self._recheck = model.lesson
             self._cancel_running("started again: your file has changed")
 
@@ -100,7 +100,16 @@ class Checks:
         if (outdated := self._differs(model.lesson)) != found.outdated:
             self._update(replace(found, outdated=outdated))
 
-    def _differs(self, lesson: Lesson) -> bool:
+    def restore(self, last: Mapping[str, LastCheck]) -> None:
+        """Show these checks from before the app was started."""
+        model = self._host.model
+        for exercise, check in last.items():
+            if (found := model.findings[exercise].with_kept(check)) is not model.findings[exercise]:
+                model.findings[exercise] = found
+                self._judged[exercise] = check.result.digests
+        self.compare_files()
+
+    def _differs(self, lesson: Lesson) -> bool | None:
         return has_changed(self._judged.get(lesson.id, {}), self._files.digests(lesson))
 
     def _begin(self, lesson: Lesson) -> None:

@@ -63,6 +63,7 @@ class Files:
         model = self._host.model
         self.show((model.file_index + 1) % len(model.lesson.files))
         self._host.show_page("code")
+        self._pane.release()
 
     def go_to(self, message: messages.GoToLine) -> None:
         """Open the file of the message, and put the cursor on its line."""
@@ -266,19 +267,19 @@ class Files:
         self._watch()  # from now on: its first look reads the files
         self._host.show_page("code")
         if message.written:
-            self._host.say(f"{' and '.join(message.written)} is in your workspace: e to edit, then c to check.")
+            self._host.say(f"{' and '.join(message.written)} is in your workspace: e to edit, F9 to check.")
         else:
             self._host.say("Your files are there already; nothing was changed.")
 
-    def edit(self) -> None:
-        """Focus the editor."""
+    def edit(self, text: str = "") -> None:
+        """Focus the editor, and type this text there."""
         if self.offer_start_if_missing("edit"):
             return
         path = self._host.model.path
         if self._pane.has_editor(path):
-            self._focus_editor()
+            self._focus_editor(text)
         else:  # requested before the file has been read
-            self._host.start_worker(self._focus_editor_when_read, path, group="show-line", exclusive=True)
+            self._host.start_worker(self._focus_editor_when_read, path, text, group="show-line", exclusive=True)
 
     def find(self, *, again: bool = False) -> None:
         """Open the search in the file shown, or (`again`) find the next match."""
@@ -286,15 +287,17 @@ class Files:
             self._host.show_page("code")
         self._pane.find(again=again)
 
-    async def _focus_editor_when_read(self, path: Path) -> None:
+    async def _focus_editor_when_read(self, path: Path, text: str) -> None:
         await self.refresh(path)
         if path == self._host.model.path:
-            self._focus_editor()
+            self._focus_editor(text)
 
-    def _focus_editor(self) -> None:
+    def _focus_editor(self, text: str) -> None:
         self._pane.edit()
         self._host.show_page("code")
         self._pane.focus_content(typing=True)
+        if text and (editor := self._pane.editor) is not None:
+            editor.insert(text)
 
     async def open_outside(self) -> None:
         """Hand the terminal to the learner's own editor."""
@@ -313,6 +316,7 @@ class Files:
         if problem:
             self._host.show_error(problem)
         self._host.show_page("code")
+        self._pane.release()
         self._host.refresh(layout=True)
 
     def reset(self) -> None:

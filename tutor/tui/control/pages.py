@@ -56,6 +56,7 @@ class Pages:
         """Show a page, and focus its content."""
         if name == "criteria" and not self.folded:
             self._host.remove_class("-zoomed")
+            self.arrange_side_by_side()
             self._host.query_one(CriteriaPanel).open()
             return
         self._switch_to(name)
@@ -84,6 +85,7 @@ class Pages:
     def _switch_to(self, name: str) -> None:
         self.current = name
         self._host.set_class(name == "criteria", "-criteria")
+        self._host.remove_class("-report")
         if name == "live":
             self._open_live()
         elif name == "terminal":
@@ -136,7 +138,8 @@ class Pages:
         """Show the log beside Live if that is on, both have content, and there is room; else show one page."""
         host, log, live = self._host, self._host.query_one(LogPane), self._host.query_one("#live", Container)
         filled = self.live is not None and log.has_class("-filled")
-        wanted = host.model.state.side_by_side and filled and host.size.width >= SIDE_BY_SIDE_MIN_WIDTH
+        fits = host.size.width >= SIDE_BY_SIDE_MIN_WIDTH and not host.has_class("-zoomed")
+        wanted = host.model.state.side_by_side and filled and fits
         both = wanted and self.current in ("log", "live")
         if not both and not host.has_class("-split"):
             return
@@ -173,10 +176,11 @@ class Pages:
         host, state = self._host, self._host.model.state
         for place in Criteria:
             host.set_class(layout.criteria is place, f"-{place}", update=False)
+        host.set_class(layout.columns, "-columns", update=False)
         host.set_class(not layout.lessons, "-no-lessons", update=False)
         host.set_class(not state.lessons_shown, "-lessons-away", update=False)
         host.set_class(state.zoomed, "-zoomed", update=False)
-        host.remove_class("-drawer", update=False)
+        host.remove_class("-drawer", "-report", update=False)
         return True
 
     def show_criteria_tab(self) -> None:
@@ -197,8 +201,8 @@ class Pages:
             host.toggle_class("-drawer")
             shown = host.has_class("-drawer")
         else:
-            shown = host.has_class("-lessons-away") or host.has_class("-zoomed")
-            host.remove_class("-zoomed")
+            shown = any(map(host.has_class, ("-lessons-away", "-zoomed", "-report")))
+            host.remove_class("-zoomed", "-report")
             host.set_class(not shown, "-lessons-away")
             self._preferences.update(lessons_shown=shown, zoomed=False)
         if shown:
@@ -207,6 +211,21 @@ class Pages:
             host.set_focus(host.query_one(LessonView))
 
     def zoom(self) -> None:
-        """Maximize the page, or show the panels again."""
-        self._host.toggle_class("-zoomed")
-        self._preferences.update(zoomed=self._host.has_class("-zoomed"))
+        """Enlarge the part that has the focus, be it the page or the criteria; or show all panels again."""
+        host = self._host
+        around = host.focused.ancestors_with_self if host.focused is not None else []
+        if host.has_class("-report"):
+            host.remove_class("-report")
+            return
+        if host.query_one(CriteriaPanel) in around and not self.folded:
+            host.add_class("-report")
+            return
+        host.toggle_class("-zoomed")
+        self._preferences.update(zoomed=host.has_class("-zoomed"))
+        if host.has_class("-split"):
+            pages = {name: host.query_one(f"#{name}") for name in ("log", "live")}
+            self._switch_to(next((name for name, page in pages.items() if page in around), self.current))
+            host.query_one(Tabs).active = f"tab-{self.current}"
+        self.arrange_side_by_side()
+        if host.query_one(LessonList) in around:
+            self._focus(self.current)

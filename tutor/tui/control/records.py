@@ -29,6 +29,16 @@ class Records:
         """Read the progress from disk."""
         self._start_change(self._host.model.session.progress)
 
+    def read_all(self) -> None:
+        """Read the progress from disk, and what the last check of each exercise found."""
+        self._host.start_worker(self._read_all, group="progress")
+
+    async def _read_all(self) -> None:
+        session = self._host.model.session
+        progress = await self.change(session.progress)
+        last = await self.run_in_order(session.last_checks, progress)
+        self._host.post_message(messages.LastChecksRead(last))
+
     def record_attempt(self, result: ExerciseResult) -> None:
         """Record one attempt."""
         self._start_change(self._host.model.session.record, result)
@@ -80,18 +90,20 @@ class Records:
     def _start_change(self, change: Callable[..., Progress], *args: Any) -> None:
         self._host.start_worker(self.change, change, *args, group="progress")
 
-    async def change(self, change: Callable[..., Progress], *args: Any) -> None:
-        """Change the progress on disk, and post the result or, if that fails, the progress as it was."""
+    async def change(self, change: Callable[..., Progress], *args: Any) -> Progress:
+        """Change the progress on disk; post and return the result or, if that fails, the progress as it was."""
         model = self._host.model
 
         def change_and_read() -> tuple[Progress, dict[str, str]]:
             return change(*args), model.session.versions()
 
         try:
-            self._host.post_message(messages.ProgressRead(*await self.run_in_order(change_and_read)))
+            progress, versions = await self.run_in_order(change_and_read)
         except StorageError as error:
             self._host.show_error(f"Your progress could not be saved: {error}")
-            self._host.post_message(messages.ProgressRead(model.progress, model.versions))
+            progress, versions = model.progress, dict(model.versions)
+        self._host.post_message(messages.ProgressRead(progress, versions))
+        return progress
 
     async def run_in_order[T](self, work: Callable[..., T], *args: Any) -> T:
         """Run `work(*args)` in a thread, one call at a time, so that results arrive in the order of the calls."""

@@ -34,6 +34,7 @@ from tutor.tui.control.terminal import Terminal
 from tutor.tui.control.views import Views
 from tutor.tui.model import AppModel
 from tutor.tui.palette import Actions, LessonText
+from tutor.tui.widgets.code_body import CodeBody
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.diagnosis import Diagnosis
@@ -106,7 +107,7 @@ class MainScreen(HostScreen):
         page = self.model.state.page
         self.pages.show_criteria_tab()
         await self.go_to(self.model.lesson, page if page in commands.PAGES else "lesson")
-        self.records.read()
+        self.records.read_all()
 
     # --- commands ---
 
@@ -209,7 +210,7 @@ class MainScreen(HostScreen):
         around = focused.ancestors if focused is not None else []
         if self._framed_panels:
             criteria = self.query_one(CriteriaPanel)
-            criteria.show_typing(isinstance(focused, CodeEditor))
+            criteria.show_typing(self._letters_are_typed)
             criteria.set_focus_inside(criteria in around)
         for panel in self._framed_panels:
             if panel.has_class("-focused") != (panel in around):
@@ -241,6 +242,11 @@ class MainScreen(HostScreen):
         self.checklist.show()
         lesson = model.lesson
         self.query_one(CriteriaPanel).show_attempts(lesson, message.progress.of(lesson.id))
+
+    @on(messages.LastChecksRead)
+    def _last_checks_read(self, message: messages.LastChecksRead) -> None:
+        self.checks.restore(message.last)
+        self.query_one(CriteriaPanel).show_findings(self.model.findings[self.model.lesson.id])
 
     @on(messages.Started)
     def _started(self, message: messages.Started) -> None:
@@ -276,6 +282,21 @@ class MainScreen(HostScreen):
     def _editor_left(self) -> None:
         self._code.leave_editor()
         self.start_worker(self.files.save_all, group="save")
+
+    @on(messages.EditWanted)
+    def _edit_wanted(self, message: messages.EditWanted) -> None:
+        self.files.edit(message.text)
+
+    @on(CodeBody.GuardChanged)
+    def _guard_changed(self) -> None:
+        self._code.refresh_head()
+        self.query_one(CriteriaPanel).show_typing(self._letters_are_typed)
+        self.refresh_bindings()
+
+    @property
+    def _letters_are_typed(self) -> bool:
+        """Whether letters are no commands where the focus is."""
+        return isinstance(self.focused, CodeEditor) or self._code.guarded
 
     @on(messages.NodeChanged)
     def _node_changed(self, message: messages.NodeChanged) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
+from textual import on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
@@ -14,8 +15,10 @@ from textual.widget import Widget
 from textual.widgets import Static
 
 from tutor.session.paths import short_path
+from tutor.tui.messages import EditWanted
 from tutor.tui.widgets.code_body import CodeBody
 from tutor.tui.widgets.code_view import CodeView
+from tutor.tui.widgets.edit_offer import EditOffer
 from tutor.tui.widgets.find_bar import FindBar
 from tutor.tui.widgets.line_view import Piece, Row
 
@@ -62,6 +65,7 @@ class CodePane(Vertical):
     def __init__(self, id: str) -> None:
         super().__init__(id=id)
         self.view = OWN_FILE_VIEW
+        self._body, self._offer = CodeBody(id="code-body"), EditOffer(id="code-offer")
         self._editors: dict[Path, CodeEditor] = {}
         self._paths: Sequence[Path] = ()
         self._chosen = 0
@@ -70,10 +74,11 @@ class CodePane(Vertical):
     def compose(self) -> ComposeResult:
         yield Static(id="code-head", classes="code-line")
         yield Static(id="code-looks", classes="code-line")
-        yield CodeBody(id="code-body")
+        yield self._body
         yield CodeView(id="code-view")
         yield Static(id="code-missing")
         yield FindBar(id="code-find")
+        yield self._offer
 
     def on_descendant_focus(self) -> None:
         """Name other keys while the editor has the focus."""
@@ -94,6 +99,41 @@ class CodePane(Vertical):
         bar = self.query_one(FindBar)
         if not again or not bar.again(self.editor):
             bar.begin(self.editor, typing=self.editor.has_focus)
+
+    # --- typing before editing ---
+
+    @property
+    def guarded(self) -> bool:
+        """Whether letters are no commands where the focus is, because the learner may be about to type."""
+        focused = self.screen.focused
+        return (
+            self._body.guarded and focused is not None and (focused is self._body or self._offer in focused.ancestors)
+        )
+
+    @on(CodeBody.Typed)
+    def _offer_to_edit(self, event: CodeBody.Typed) -> None:
+        """Offer to edit; a single letter that has a command may be meant as that."""
+        event.stop()
+        body, text = self._body, event.text
+        body.guarded, guarded = False, body.guarded
+        command = self.screen.active_bindings.get(text) if text.isalpha() and text.isascii() else None
+        body.guarded = guarded
+        self._offer.begin(text, command.binding.description if command and command.enabled else "")
+
+    @on(EditOffer.Accepted)
+    def _edit_with(self, event: EditOffer.Accepted) -> None:
+        event.stop()
+        self._offer.end()
+        self.post_message(EditWanted(event.text))
+
+    @on(EditOffer.CommandWanted)
+    async def _run_command_of(self, event: EditOffer.CommandWanted) -> None:
+        """Make letters commands, and run that of the letter typed twice."""
+        event.stop()
+        self.leave_editor()
+        active = self.screen.active_bindings.get(event.key)
+        if active is not None and active.enabled:
+            await self.app.run_action(active.binding.action, active.node)
 
     # --- the editors ---
 
@@ -148,7 +188,7 @@ class CodePane(Vertical):
 
             editor = self._editors[path] = CodeEditor(path, text)
             editor.display = visible
-            await self.query_one("#code-body").mount(editor)
+            await self._body.mount(editor)
         if visible:
             self.show_existing(path)
 
@@ -198,6 +238,7 @@ class CodePane(Vertical):
         self._switch_view(OWN_FILE_VIEW, "")
         if had_focus:
             self.focus_content()
+            self.release()
 
     def edit(self) -> None:
         """Show the learner's own file for editing."""
@@ -210,16 +251,24 @@ class CodePane(Vertical):
 
     def focus_content(self, *, typing: bool = False) -> None:
         """Focus the widget that the arrow keys scroll; the editor itself only if the learner is typing."""
-        target: Widget = self.query_one(CodeBody)
+        target: Widget = self._body
         if self.view != OWN_FILE_VIEW:
             target = self.query_one(CodeView)
         elif self.editor is not None and (typing or self.editor.has_focus):
             target = self.editor
+        if isinstance(target, CodeBody):
+            target.guard(True)
         self.screen.set_focus(target, scroll_visible=False)
+
+    def release(self) -> None:
+        """Have letters be commands: the learner has just used one, or has left the editor."""
+        self._body.guard(False)
 
     def leave_editor(self) -> None:
         """Move the focus out of the editor, so that single keys are commands again."""
-        self.screen.set_focus(self.query_one(CodeBody), scroll_visible=False)
+        self.release()
+        self._offer.end()
+        self.screen.set_focus(self._body, scroll_visible=False)
 
     def action_back(self) -> None:
         """Show the learner's own file again."""
@@ -245,7 +294,7 @@ class CodePane(Vertical):
                     Content.from_markup(f"[@click=screen.show_file({index})]$name[/]", name=each.name),
                     "  ",
                 ]
-        if len(self._paths) > 1 and not self._typing:
+        if len(self._paths) > 1 and not self._typing and not self.guarded:
             parts.append(("f: other file  ", "$quiet"))
         if self.editor is not None:
             parts.append(("not saved yet  ", "$warn") if self.editor.changed else ("✓ saved  ", "$good"))
@@ -262,10 +311,10 @@ class CodePane(Vertical):
         if self.view != OWN_FILE_VIEW:
             parts += [(self._title, "bold"), "  ", Content.from_markup("[@click=back]Esc: your file[/]")]
             return Content.assemble(*parts)
-        if self._typing:
-            parts.append(("Esc, then  ", "$quiet"))
-        elif self.editor is not None:
+        if self.editor is not None and not self._typing:
             parts += [("e", "bold $accent"), (" edit  ", "$quiet")]
+        if self._typing or self.guarded:
+            parts.append(("Esc, then  ", "$quiet"))
         for view, key, name in _READ_ONLY_VIEWS:
             parts += [(key, "bold $accent"), " ", Content.from_markup(f"[@click=screen.do('{view}')]{name}[/]"), "  "]
         return Content.assemble(*parts)

@@ -1,4 +1,4 @@
-"""The criteria of a lesson: progress of a running check, verdicts, and the diagnosis of the chosen criterion."""
+"""The criteria of a lesson, and the diagnosis of the chosen one."""
 
 from __future__ import annotations
 
@@ -7,69 +7,16 @@ from textual.app import ComposeResult
 from textual.containers import Container
 from textual.content import Content
 from textual.widget import Widget
-from textual.widgets import ListItem, ListView, Static
+from textual.widgets import ListView, Static
 
 from tutor.content import Lesson
 from tutor.judge.verdict import Status
-from tutor.report.plain import describe_waiting
 from tutor.session.findings import Finding, Findings
 from tutor.tui import wording
 from tutor.tui.widgets.attempts import format_attempts
+from tutor.tui.widgets.criteria_list import CriteriaList, CriterionRow
 from tutor.tui.widgets.diagnosis import Diagnosis
-from tutor.tui.widgets.row_list import RowList
 from tutor.workspace import ExerciseProgress
-
-
-class CriterionRow(ListItem):
-    """One criterion on one line: idle, being checked (a progress bar and the current step), or judged."""
-
-    def __init__(self, finding: Finding, name_width: int) -> None:
-        super().__init__()
-        self.finding = finding
-        self._name_width = name_width
-        self._outdated = False
-
-    def show(self, finding: Finding, *, outdated: bool) -> None:
-        """Show this finding; a verdict on an earlier version of the code (`outdated`) is dimmed."""
-        if (finding, outdated) != (self.finding, self._outdated):
-            self.finding, self._outdated = finding, outdated
-            self.refresh()
-
-    def render(self) -> Content:
-        """One line, fitted to the width."""
-        found, width = self.finding, self.content_size.width
-        name = Content.assemble(found.id, (" bonus", "$quiet") if found.bonus else "")
-        name = name.pad_right(max(0, self._name_width - name.cell_length))
-        progress, text, colour = Content(""), found.text, "$quiet"
-        if found.verdict is not None:
-            mark, status_colour = wording.MARKS[found.verdict.status], wording.STATUS_COLOURS[found.verdict.status]
-            if self._outdated:
-                status_colour, name = "$quiet", name.stylize("$quiet")
-            head = Content.assemble((f"{mark} ", f"bold {status_colour}"), name, " ")
-        elif found.checking:
-            head = Content.assemble(("◐ ", "$busy"), name, " ")
-            bar_cells = 14 if width > 50 else 8
-            narrow = width - head.cell_length < bar_cells + _PERCENT or (found.so_far and width <= 100)
-            progress = _bar(found.fraction, 0 if narrow else bar_cells)
-            room = width - head.cell_length - progress.cell_length - 2
-            text = describe_waiting(found.doing, found.so_far, room) or "waiting"
-            colour = "$busy" if found.doing or found.so_far else "$quiet"
-        else:
-            head = Content.assemble((f"{wording.MARKS[Status.PASSED] if found.before else '○'} ", "$quiet"), name, " ")
-        gap = "  " if progress else ""
-        room = width - head.cell_length - progress.cell_length - len(gap)
-        if room < 12:  # too short a piece of a sentence says nothing
-            gap, text = "", ""
-        text = text if found.so_far else wording.shorten_to(text, room)
-        return Content.assemble(head, progress, gap, (text, colour)).truncate(width, ellipsis=True)
-
-
-_PERCENT = len(" 100%")
-
-
-def _bar(fraction: float, width: int) -> Content:
-    filled = round(max(0.0, min(1.0, fraction)) * width)
-    return Content.assemble(("━" * filled, "$busy"), ("━" * (width - filled), "$line"), f" {fraction:4.0%}")
 
 
 class BriefLine(Widget, can_focus=True):
@@ -124,7 +71,7 @@ class CriteriaPanel(Container):
 
     def compose(self) -> ComposeResult:
         yield BriefLine(id="criteria-brief")
-        yield RowList(id="criteria-list", initial_index=None)
+        yield CriteriaList(id="criteria-list")
         yield Diagnosis(id="diagnosis")
         yield Static(id="attempts")
 
@@ -141,10 +88,11 @@ class CriteriaPanel(Container):
         """Show a lesson's criteria, and its first failure if there is one; `following` is the next lesson."""
         self._findings = None
         self._following = following
-        listed = self.query_one("#criteria-list", ListView)
+        listed = self._list
+        listed.moved = False
         await listed.clear()
         widest = max(len(finding.id) + len(" bonus") * finding.bonus for finding in findings.criteria)
-        await listed.extend(CriterionRow(finding, max(17, widest + 1)) for finding in findings.criteria)
+        await listed.extend(CriterionRow(finding, widest + 1) for finding in findings.criteria)
         self._show(findings)
         self._show_result()
 
@@ -156,28 +104,34 @@ class CriteriaPanel(Container):
             self.remove_class("-detail")
         if findings.checking:
             self._show_first_failure()
-        if before and before.checking and not findings.checking:
+        ended = before is not None and before.checking and not findings.checking
+        restored = findings.at and not (before and before.at)
+        if ended or restored:
             self._show_result()
 
     def _show_first_failure(self) -> None:
-        """During a check, show the first failure as soon as it is final, unless the learner has chosen a criterion."""
-        found = self._findings
+        """During a check, show the first failure as soon as it is final, or that of what the learner has selected."""
+        found, chosen = self._findings, self.chosen
         if found is None:
             return
         if self.has_class("-detail"):
-            if (chosen := self.chosen) is not None and chosen != self._shown_finding:
+            if chosen is not None and chosen != self._shown_finding:
+                self._show_diagnosis(chosen)
+            return
+        if self._list.moved:
+            if chosen is not None and _is_failed(chosen):
                 self._show_diagnosis(chosen)
             return
         failed = [n for n, f in enumerate(found.criteria) if _is_failed(f) and not f.bonus]
         if failed:
-            self.query_one("#criteria-list", ListView).index = failed[0]
+            self._list.index = failed[0]
             self._show_diagnosis(found.criteria[failed[0]])
 
     def _show_diagnosis(self, finding: Finding) -> None:
         """Show the diagnosis of a criterion."""
         assert self._findings is not None
         self._shown_finding = finding
-        self.query_one(Diagnosis).show_finding(finding, self._findings)
+        self.query_one(Diagnosis).show_finding(finding, self._findings, self._following)
         self.add_class("-detail")
 
     def show_attempts(self, lesson: Lesson, progress: ExerciseProgress) -> None:
@@ -207,7 +161,7 @@ class CriteriaPanel(Container):
     def open(self) -> None:
         """Unfold, and focus the list."""
         self.set_focus_inside(True)
-        self.screen.set_focus(self.query_one("#criteria-list"), scroll_visible=False)
+        self.screen.set_focus(self._list, scroll_visible=False)
 
     def show_typing(self, typing: bool) -> None:
         """Name the keys that work now: letters are typed while the editor has the focus."""
@@ -220,8 +174,12 @@ class CriteriaPanel(Container):
     @property
     def chosen(self) -> Finding | None:
         """The criterion whose diagnosis is shown."""
-        row = self.query_one("#criteria-list", ListView).highlighted_child
+        row = self._list.highlighted_child
         return row.finding if isinstance(row, CriterionRow) else None
+
+    @property
+    def _list(self) -> CriteriaList:
+        return self.query_one(CriteriaList)
 
     @property
     def rows(self) -> list[CriterionRow]:
@@ -232,9 +190,9 @@ class CriteriaPanel(Container):
         self._findings = findings
         known = {finding.id: finding for finding in findings.criteria}
         for row in self.rows:
-            row.show(known[row.finding.id], outdated=findings.outdated)
-        outdated = findings.outdated and findings.judged and not findings.checking
-        self.border_title = "Criteria: your code has changed since this check" if outdated else "Criteria"
+            row.show(known[row.finding.id], outdated=bool(findings.outdated))
+        outdated = bool(findings.outdated) and findings.judged and not findings.checking
+        self.border_title = _title(findings)
         self.border_subtitle = _headline(findings, typing=self._typing)
         self.set_class(outdated, "-outdated")
         self.query_one(BriefLine).show(findings)
@@ -242,11 +200,17 @@ class CriteriaPanel(Container):
         self.set_class(bool(findings.result and findings.result.verdict is Status.PASSED), "-passed")
 
     def _show_result(self) -> None:
-        """After a check, show the first failure, or the good news if all passed; a failure being read stays."""
-        found = self._findings
-        if found is not None and self.has_class("-detail") and (chosen := self.chosen) and _is_failed(chosen):
+        """After a check, show the first failure, or the good news if all passed.
+
+        What the learner has selected stays selected, and so does a failure that is being read.
+        """
+        found, listed, chosen = self._findings, self._list, self.chosen
+        if listed.moved and chosen is not None:
+            if found is not None and found.judged:
+                self._show_diagnosis(chosen)
             return
-        listed = self.query_one("#criteria-list", ListView)
+        if self.has_class("-detail") and chosen is not None and _is_failed(chosen):
+            return
         listed.index = None
         self.remove_class("-detail")
         if found is None or not found.judged:
@@ -277,6 +241,16 @@ class CriteriaPanel(Container):
 
 def _is_failed(finding: Finding) -> bool:
     return finding.verdict is not None and finding.verdict.status is Status.FAILED
+
+
+def _title(findings: Findings) -> str:
+    if findings.checking or not findings.judged:
+        return "Criteria"
+    if not findings.at:
+        return "Criteria: your code has changed since this check" if findings.outdated else "Criteria"
+    since = {True: ", your code has changed since", False: ", your code is the same"}
+    known = "" if findings.outdated is None else since[findings.outdated]
+    return f"Checked {wording.format_time(findings.at)}{known}"
 
 
 def _headline(findings: Findings, *, typing: bool) -> str:

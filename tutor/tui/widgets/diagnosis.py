@@ -16,6 +16,7 @@ from tutor.judge.verdict import Status
 from tutor.report.plain import one_line
 from tutor.session.findings import Finding, Findings
 from tutor.tui import wording
+from tutor.tui.widgets.wrapped import WrappedText
 
 
 class Part(Horizontal):
@@ -33,18 +34,18 @@ class Part(Horizontal):
     }
     """
 
-    def __init__(self, name: str, id: str) -> None:
+    def __init__(self, name: str, id: str, *, hang: int = 0) -> None:
         super().__init__(id=id)
-        self._name_text = name
+        self._name_text, self._hang = name, hang
 
     def compose(self) -> ComposeResult:
         yield Static(self._name_text, classes="part-name")
-        yield Static(classes="part-text", markup=False)
+        yield WrappedText(classes="part-text", hang=self._hang)
 
     def show(self, text: Content) -> None:
         """Show the text."""
         self.set_class(bool(text.plain), "-filled")
-        self.query_one(".part-text", Static).update(text)
+        self.query_one(".part-text", WrappedText).update(text)
 
 
 class Diagnosis(VerticalScroll):
@@ -57,6 +58,7 @@ class Diagnosis(VerticalScroll):
         padding: 0 1;
         scrollbar-size: 1 1;
         background: $surface;
+        & > #diagnosis-news { height: auto; display: none; &.-filled { display: block; } }
         & > #diagnosis-head { height: auto; }
         & > #diagnosis-step {
             display: none;
@@ -78,10 +80,11 @@ class Diagnosis(VerticalScroll):
     )
 
     def compose(self) -> ComposeResult:
-        yield Static(id="diagnosis-head")
-        yield Static(id="diagnosis-step")
+        yield Static(id="diagnosis-news")
+        yield WrappedText(id="diagnosis-head")
+        yield WrappedText(id="diagnosis-step")
         for key, name in self.PARTS:
-            yield Part(name, id=f"part-{key}")
+            yield Part(name, id=f"part-{key}", hang=2 if key == "evidence" else 0)
 
     def __init__(self, id: str) -> None:
         super().__init__(id=id)
@@ -89,7 +92,9 @@ class Diagnosis(VerticalScroll):
         self._unfolded = False
         self._typing = False
         self._head = partial(Content)
-        """Rebuilds the head, which names other keys while the editor has the focus."""
+        """Rebuilds the head, which names other keys while letters are typed."""
+        self._news = partial(Content)
+        """Rebuilds the news, likewise."""
 
     @property
     def has_evidence(self) -> bool:
@@ -106,21 +111,37 @@ class Diagnosis(VerticalScroll):
     def show_typing(self, typing: bool) -> None:
         """Name the keys that work now: letters are typed while the editor has the focus."""
         self._typing = typing
-        self.query_one("#diagnosis-head", Static).update(self._head())
+        self._show_head()
         self._show_evidence()
 
-    def show_finding(self, finding: Finding, findings: Findings) -> None:
-        """Show one criterion, its evidence folded."""
+    def show_finding(self, finding: Finding, findings: Findings, following: Lesson | None) -> None:
+        """Show one criterion, its evidence folded; above it the check's outcome, if the criterion does not tell it."""
         verdict = finding.verdict
         self._unfolded = False
         self._fill(
             partial(self._finding_head, finding, findings),
+            news=partial(self._outcome, finding, findings, following),
             step=verdict.step if verdict else "",
             expected=verdict.expected if verdict else "",
             observed=verdict.observed if verdict else "",
             cause=verdict.cause if verdict else "",
             evidence=verdict.evidence if verdict else (),
         )
+
+    def _outcome(self, finding: Finding, findings: Findings, following: Lesson | None) -> Content:
+        if (result := findings.result) is None or findings.checking:
+            return Content("")
+        if result.verdict is Status.PASSED:
+            passed = Content.styled(f"✓ {result.id.upper()} passed", "bold $good")
+            if following is None:
+                return passed
+            key = wording.key_hint("n", typing=self._typing)
+            where = f" for {wording.label(following)} {following.title}"
+            return Content.assemble(passed, "  press ", (key, "bold $accent"), where)
+        failed = [c.id for c in result.criteria if c.verdict.status is Status.FAILED and not c.bonus]
+        if not failed or finding.id in failed:
+            return Content("")
+        return Content.assemble((f"✗ Not met yet: {', '.join(failed)}", "bold $bad"))
 
     def _finding_head(self, finding: Finding, findings: Findings) -> Content:
         verdict = finding.verdict
@@ -178,10 +199,18 @@ class Diagnosis(VerticalScroll):
             ("Choose a criterion to see what was measured.", "$quiet"),
         )
 
-    def _fill(self, head: partial[Content], *, step: str = "", evidence: tuple[str, ...] = (), **texts: str) -> None:
-        self._head = head
-        self.query_one("#diagnosis-head", Static).update(head())
-        step_box = self.query_one("#diagnosis-step", Static)
+    def _fill(
+        self,
+        head: partial[Content],
+        *,
+        news: partial[Content] | None = None,
+        step: str = "",
+        evidence: tuple[str, ...] = (),
+        **texts: str,
+    ) -> None:
+        self._head, self._news = head, news or partial(Content)
+        self._show_head()
+        step_box = self.query_one("#diagnosis-step", WrappedText)
         step_box.set_class(bool(step), "-filled")
         step_box.update(Content.assemble(("Next step  ", "bold $accent"), step))
         for key, _ in self.PARTS[:-1]:
@@ -189,6 +218,12 @@ class Diagnosis(VerticalScroll):
         self._evidence = evidence
         self._show_evidence()
         self.scroll_home(animate=False)
+
+    def _show_head(self) -> None:
+        self.query_one("#diagnosis-head", WrappedText).update(self._head())
+        news = self._news()
+        self.query_one("#diagnosis-news", Static).update(news)
+        self.query_one("#diagnosis-news", Static).set_class(bool(news.plain), "-filled")
 
     def _show_evidence(self) -> None:
         count = len(self._evidence)
