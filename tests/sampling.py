@@ -1,4 +1,4 @@
-"""Which submissions the tests judge: enough to show each criterion kept and broken, and each shared cause.
+"""Which submissions the tests judge: enough to show each criterion kept and broken, and each mistake of the contract.
 
 `python -m tests.soundness` judges all of them.
 """
@@ -9,11 +9,33 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from tutor.content.submissions import RIGHT, WRONG, Case
-from tutor.judge.causes.names import MEANINGS
 
 SHARED_CODE = tuple(f"tutor/{package}/" for package in ("engine", "judge", "process", "ros", "bundled_ros"))
 ROOT = Path(__file__).parents[1]
-CAUSE_NAMES = frozenset(name.casefold() for name in MEANINGS)
+MISTAKES = (
+    "wrong topic",
+    "wrong type",
+    "incompatible QoS",
+    "no spin",
+    "exit at once",
+    "syntax error",
+    "import error",
+    "unhandled exception",
+    "integer parameter",
+    "callback returns None",
+    "timer not replaced",
+    "old timer kept",
+    "rate used as a period",
+    "blocked executor",
+    "deadlock by call()",
+    "float in an int field",
+    "output held back by buffering",
+    "SIGINT ignored",
+    "second node of the same name",
+)
+"""The mistakes that the contract lists: a check recognises each, under this name."""
+
+_NAMES = frozenset(name.casefold() for name in MISTAKES)
 
 
 def sample(cases: Sequence[Case]) -> list[Case]:
@@ -68,15 +90,13 @@ def judged_criteria(case: Case, first: str) -> tuple[str, ...]:
 
 
 def shows(case: Case) -> frozenset[tuple[str, str]]:
-    """Return what a wrong submission shows: (exercise, criterion) for what it breaks, ("cause", name) for why.
+    """Return what a wrong submission shows: (exercise, criterion) for what it breaks, ("mistake", name) for why.
 
-    Only the causes in `tutor.judge.causes.names` count; those of a single exercise are left to its judges' tests.
+    Only those in `MISTAKES` count; the others have a page, which is their test.
     """
     expected = case.expected
     broken = {(case.exercise, criterion) for criterion in (*expected.fails, *expected.bonus_failed)}
-    return frozenset(
-        broken | {("cause", name) for name in _main_causes(expected.causes.values()) if name in CAUSE_NAMES}
-    )
+    return frozenset(broken | {("mistake", name) for name in _main_causes(expected.causes.values()) if name in _NAMES})
 
 
 def _right_by_exercise(cases: Iterable[Case]) -> dict[str, list[Case]]:

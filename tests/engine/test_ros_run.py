@@ -15,8 +15,6 @@ from tests.engine.helpers import FILE, PUBLISHES, WAITS, Scene, node
 from tutor.errors import EngineError
 from tutor.judge import tracebacks
 from tutor.judge.bench import Run
-from tutor.judge.causes import diagnose_process
-from tutor.judge.exceptions import parse
 from tutor.ros_model import QoS
 
 CHATTER = {"/chatter": "std_msgs/msg/String"}
@@ -572,16 +570,6 @@ async def test_of_waiting_runs_the_longest_one_starts_first(scene: Scene) -> Non
         up()
         await asyncio.gather(*waiting)
     assert began == [7.0, 2.0, 0.5]
-
-
-async def test_a_checks_known_exceptions_are_used_in_the_diagnosis(scene: Scene) -> None:
-    known = parse('[[known]]\ntype = "ValueError"\nsays = "x"\nstep = "in line {number}: our own words"')
-    bench = replace(scene.bench("raise ValueError('no')"), exceptions=known)
-    async with bench.start(FILE) as run:
-        await run.wait_for_exit(STARTUP_S)
-        cause = diagnose_process(run.trace())
-    assert cause is not None
-    assert cause.hint == "in line 1: our own words"
 
 
 @pytest.mark.parametrize(("dropped", "idle_s"), [(None, 6.0), (5, 1.0)])  # where nothing was lost, a second is enough

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from tutor.cli import terminal
+from tutor.cli import context, terminal
 from tutor.cli.errors import PASSED
 from tutor.errors import UsageError
 from tutor.invocation import command
@@ -23,9 +23,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print a page, the mistakes that the words fit, or all. Raises UsageError if there is none."""
+    from tutor.engine.modules import load_catalogues
     from tutor.mistakes import pages
 
-    mistakes = pages.every_mistake(pages.exercise_catalogues())
+    mistakes = pages.every_mistake(load_catalogues(context.load_course(arguments)))
     if not arguments.words:
         _print_list(sorted((entry.id, entry.summary) for entry in mistakes.values()))
         terminal.say(f"`{command('explain', 'MISTAKE')}` shows the page of one")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import contextlib
+import importlib
 import json
 import signal
 import sys
@@ -64,9 +65,7 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
 
 async def _stand_by() -> None:
     async with prepare(forks=True) as prepared:
-        from tutor.judge.exceptions import load_shipped  # a check that is not on standby imports it with its judges
-
-        load_shipped()
+        importlib.import_module("tutor.mistakes")  # a check that is not on standby imports it when something fails
         if line := await _read_line():
             await _check(_parse(json.loads(line)), prepared)
 

@@ -17,7 +17,6 @@ from tutor.engine.run import CollectedFacts, RosRun
 from tutor.engine.start_limiter import StartLimiter
 from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
 from tutor.judge.bench import Run, Scenario
-from tutor.judge.exceptions import KnownException
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MAX_CHARACTERS
 from tutor.process import LearnerProcess
@@ -49,7 +48,7 @@ class RosBench:
 
     `get_facts` returns the facts of another scenario. `on_progress` gets (fraction, text), and `on_facts` what
     the scenario reports before it ends. `expected_s`: the check's; of several waiting starts, the one with the longest
-    goes first (a start may give its own). `exceptions`: known exceptions of the check. `follow`: entered for each run,
+    goes first (a start may give its own). `follow`: entered for each run,
     with its watched topics and their types. `sigkilled`: the files whose process was ended by SIGKILL.
     `fork_server`: where processes are forked. `tools`: the programs of a sourced terminal (see `Prepared`).
     """
@@ -60,7 +59,6 @@ class RosBench:
     on_progress: Callable[[float, str], None]
     start_limiter: StartLimiter = field(default_factory=StartLimiter)
     expected_s: float = 0.0
-    exceptions: tuple[KnownException, ...] = ()
     isolation: Isolation | None = None
     follow: Callable[[RosRun, Mapping[str, str]], AbstractAsyncContextManager[None]] = lambda run, watched: (
         nullcontext()
@@ -166,7 +164,7 @@ class RosBench:
                     on_change=facts.notify,
                 ) as process:
                     with _raise_if_killed(process):
-                        yield RosRun(path, parameters, domain_id, process, observer, facts, self.exceptions)
+                        yield RosRun(path, parameters, domain_id, process, observer, facts)
                     if process.killed:
                         self.sigkilled.append(path)
             finally:

@@ -1,4 +1,4 @@
-"""Load the check of a lesson."""
+"""Load the check of a lesson, and the mistakes that only its exercise can know."""
 
 from __future__ import annotations
 
@@ -7,10 +7,14 @@ import sys
 import traceback
 from pathlib import Path
 from types import ModuleType
+from typing import TYPE_CHECKING
 
-from tutor.content import Lesson
+from tutor.content import Course, Lesson
 from tutor.errors import EngineError, TableError
 from tutor.judge.check import Check
+
+if TYPE_CHECKING:
+    from tutor.mistakes import Catalogue
 
 
 def load_check(lesson: Lesson) -> Check:
@@ -33,6 +37,31 @@ def load_check(lesson: Lesson) -> Check:
     if not isinstance(check, Check):
         raise EngineError(f"{source} defines no CHECK", "assign a tutor.judge.check.Check to CHECK there")
     return check
+
+
+def load_catalogues(course: Course) -> list[Catalogue]:
+    """The catalogues of mistakes that only the exercises of a course can know, in the course's order.
+
+    A lesson whose check cannot be loaded has none. Raises EngineError if the module that a check names has none.
+    """
+    found = []
+    for lesson in course.lessons:
+        try:
+            check = load_check(lesson)
+        except EngineError:
+            continue
+        if check.mistakes:
+            found.append(_load_catalogue(check))
+    return found
+
+
+def _load_catalogue(check: Check) -> Catalogue:
+    from tutor.mistakes import Catalogue  # late: judging needs it only when something has failed
+
+    catalogue = getattr(importlib.import_module(check.mistakes), "CATALOGUE", None)
+    if not isinstance(catalogue, Catalogue):
+        raise EngineError(f"{check.mistakes} defines no CATALOGUE", "assign a tutor.mistakes.Catalogue to it")
+    return catalogue
 
 
 def _import_check(name: str, source: Path) -> ModuleType:

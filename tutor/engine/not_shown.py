@@ -9,7 +9,7 @@ from tutor.content import Lesson
 from tutor.engine.source import read_sources
 from tutor.judge.result import CriterionResult
 from tutor.judge.submission import Submission
-from tutor.judge.syntax_tree import parse
+from tutor.source.tree import parse
 
 
 def read_all_sources(submission: Submission) -> tuple[str, ...]:

@@ -18,7 +18,6 @@ from tutor.engine.source import launch_arguments, read_sources, uncalled_main
 from tutor.engine.waits import POLL_S, Waits
 from tutor.errors import UnknownType
 from tutor.judge.bench import Handler
-from tutor.judge.exceptions import KnownException
 from tutor.judge.trace import (
     CallAnswer,
     Echo,
@@ -71,9 +70,7 @@ class RosRun:
         process: LearnerProcess,
         observer: Observer,
         facts: CollectedFacts,
-        exceptions: tuple[KnownException, ...] = (),
     ) -> None:
-        self._exceptions = exceptions
         self._path = path
         self._given = dict(given)
         self._domain_id = domain_id
@@ -294,7 +291,6 @@ class RosRun:
             file=self._path.name,
             folder=str(self._path.parent),
             **self._source,
-            exceptions=self._exceptions,
             parameters=self._given,
             started_at=self.started_at,
             samples={topic: tuple(samples) for topic, samples in self._observer.samples.items()},

@@ -196,7 +196,6 @@ class Runner:
             provisional.report,
             self._start_limiter,
             self._check.expected_s,
-            self._check.exceptions,
             self._isolation,
             provisional.follow,
             lambda facts: self._take_facts(scenario, facts),

@@ -12,8 +12,8 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
-from tutor.judge.syntax_tree import parse
 from tutor.judge.tracebacks import Frame
+from tutor.source.tree import parse
 from tutor.workspace.regular import read_regular
 
 _NAME = re.compile(r"[\w.-]+")

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from tutor.judge.bench import Scenario
-from tutor.judge.known_exception import KnownException
 from tutor.judge.verdict import Verdict
 
 Judge = Callable[..., Verdict]
@@ -44,7 +43,7 @@ class Check:
 
     `expected_s`: the longest wall-clock wait in seconds that a scenario needs with our own solution, such as for three
     messages at 0.5 Hz, and `expected_reason` what it waits for; anything a check takes beyond it is overhead, which a
-    benchmark measures. `exceptions`: known exceptions of this exercise, which take precedence over the built-in ones.
+    benchmark measures.
     `mistakes`: the module whose `CATALOGUE` has the mistakes that only this exercise can know, such as
     "checks.i1_2.mistakes"; it is imported when something has failed.
     """
@@ -53,7 +52,6 @@ class Check:
     criteria: tuple[Criterion, ...]
     expected_s: float = 0.0
     expected_reason: str = ""
-    exceptions: tuple[KnownException, ...] = ()
     mistakes: str = ""
 
     def __post_init__(self) -> None:

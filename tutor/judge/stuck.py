@@ -8,13 +8,12 @@ from collections.abc import Awaitable, Callable, Sequence
 from math import inf
 from typing import Self
 
-from tutor.judge import source, tracebacks
+from tutor.judge import tracebacks
 from tutor.judge.bench import Run
-from tutor.judge.rewriting.callbacks import Loop, only_waits
-from tutor.judge.rewriting.node import file_of
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.ros_model import Parameter
+from tutor.source import Function, Loop, Program, called_name, last_name, only_waits
 
 SLOW_ANSWER_S = 0.5
 """A spinning node answers within this time, unless the machine is busy."""
@@ -88,35 +87,36 @@ def waits_for_ever(trace: Trace, stuck: Sequence[Frame]) -> bool:
 
     Only a signal could do something then, such as one that the program asks for with an alarm.
     """
-    if source.mentions(trace, "alarm", "setitimer"):
+    program = Program(trace.sources, trace.file)
+    if program.mentions("alarm", "setitimer"):
         return False
     threads = tracebacks.frames_by_thread(stuck)
     own = [tracebacks.own_frame(thread, trace.folder) for thread in threads]
-    return bool(own) and all(at is not None and _is_in_waiting_loop(trace, at, len(threads) == 1) for at in own)
+    return bool(own) and all(at is not None and _is_in_waiting_loop(program, at, len(threads) == 1) for at in own)
 
 
-def _is_in_waiting_loop(trace: Trace, at: Frame, alone: bool) -> bool:
+def _is_in_waiting_loop(program: Program, at: Frame, alone: bool) -> bool:
     """`alone`: no other thread can change what the loop waits for."""
-    file = file_of(trace, at)
+    file = program.named(at.name)
     inside = [file.statement_at(at.line), *file.ancestors(file.statement_at(at.line) or file.tree)]
     loop = next((each for each in inside if isinstance(each, Loop)), None)
     if not isinstance(loop, ast.While) or file.function_around(loop) is not file.function_at(at.line):
         return False
-    endless = ast.unparse(loop.test) in _UNTIL_SIGINT or (alone and _only_looks(trace, loop.test))
+    endless = ast.unparse(loop.test) in _UNTIL_SIGINT or (alone and _only_looks(program, loop.test))
     return endless and all(map(only_waits, loop.body))
 
 
-def _only_looks(trace: Trace, test: ast.expr) -> bool:
+def _only_looks(program: Program, test: ast.expr) -> bool:
     """Whether evaluating a condition runs no code of the learner's, and asks no clock: only others can change it."""
-    own = {each.name for each in source.all_nodes(trace) if isinstance(each, source.Function)}
+    own = {each.name for each in program.nodes() if isinstance(each, Function)}
     if any(name.startswith("__") and name != "__init__" for name in own):  # such as __bool__ or __eq__
         return False
     for each in ast.walk(test):
         if isinstance(each, ast.Call):
-            if source.called_name(each) not in _QUERIES:
+            if called_name(each) not in _QUERIES:
                 return False
         elif isinstance(each, ast.Name | ast.Attribute):
-            if source.last_name(each) in own:  # perhaps a property
+            if last_name(each) in own:  # perhaps a property
                 return False
         elif not isinstance(each, _PLAIN):
             return False

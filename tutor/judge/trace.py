@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any
 
-from tutor.judge.known_exception import KnownException
 from tutor.ros_model import Graph, QoS
 
 
@@ -148,10 +147,10 @@ class Trace:
     """Everything observed in one run of the learner's process.
 
     `folder`: the folder of the learner's file. `output` is bounded: `dropped_lines` counts the lines dropped from its
-    middle. `exceptions`: the check's own known exceptions.
+    middle.
 
     Three fields come from the source, and only shape the wording of a diagnosis, never a verdict (see
-    `tutor.judge.source`). `uncalled_main`: the file defines `main` but never calls it. `launch_arguments`: the names of
+    `tutor.source`). `uncalled_main`: the file defines `main` but never calls it. `launch_arguments`: the names of
     the launch arguments that it declares. `sources`: by file name, the text of the file and of its local imports.
     """
 
@@ -160,7 +159,6 @@ class Trace:
     uncalled_main: bool = False
     launch_arguments: tuple[str, ...] = ()
     sources: Mapping[str, str] = field(default_factory=dict)
-    exceptions: tuple[KnownException, ...] = ()
     parameters: Mapping[str, Any] = field(default_factory=dict)
     started_at: float = 0.0
     samples: Mapping[str, tuple[Sample, ...]] = field(default_factory=dict)

@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 import difflib
-import importlib.util
-import pkgutil
 from collections.abc import Iterable, Mapping, Sequence
 
 from tutor.mistakes.entry import CATALOGUE, Catalogue, Mistake
-
-THEMES = "tutor.mistakes.themes"
 
 
 def every_mistake(catalogues: Sequence[Catalogue] = ()) -> Mapping[str, Mistake]:
@@ -19,14 +15,6 @@ def every_mistake(catalogues: Sequence[Catalogue] = ()) -> Mapping[str, Mistake]
         for entry in catalogue.entries.values():
             found.setdefault(entry.id, entry)
     return found
-
-
-def exercise_catalogues() -> list[Catalogue]:
-    """The catalogues of the exercises of our own course."""
-    import checks
-
-    modules = [f"checks.{each.name}.mistakes" for each in pkgutil.iter_modules(checks.__path__)]
-    return [importlib.import_module(name).CATALOGUE for name in modules if importlib.util.find_spec(name) is not None]
 
 
 def search(words: str, mistakes: Iterable[Mistake]) -> list[Mistake]:

@@ -9,6 +9,7 @@ from tutor.source.file import (
     last_name,
     values_of,
 )
+from tutor.source.loops import Loop, only_waits, outermost_loop
 from tutor.source.node import NodeFile, node_file
 from tutor.source.patterns import Holes, argument, fill, find, match
 from tutor.source.program import Program
@@ -16,6 +17,7 @@ from tutor.source.program import Program
 __all__ = [
     "Function",
     "Holes",
+    "Loop",
     "NodeFile",
     "Program",
     "SourceFile",
@@ -28,5 +30,7 @@ __all__ = [
     "last_name",
     "match",
     "node_file",
+    "only_waits",
+    "outermost_loop",
     "values_of",
 ]

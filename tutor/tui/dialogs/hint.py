@@ -33,7 +33,7 @@ class HintScreen(Dialog[bool]):
         parts: list[Content | str | tuple[str, str]] = []
         if self._failed is not None:
             parts += [("✗ ", "bold $bad"), (self._failed.id, "bold"), "  ", (self._failed.text, "$quiet"), "\n"]
-            parts += [self._failed.step, "\n\n" if self._shown else ""]
+            parts += [self._failed.hint, "\n\n" if self._shown else ""]
         for number, hint in enumerate(hints[: self._shown], start=1):
             last = number == self._shown
             parts += [
