@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from tests.checks.builders import trace
-from tests.repairs import apply_step
 from tutor.judge.causes.printing import diagnose_own_logger, find_print, log_instead_of_print
 from tutor.judge.rewriting.node import node_file
+from tutor.judge.step_parsing import apply_step
 from tutor.judge.trace import Trace
 
 

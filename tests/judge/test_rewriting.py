@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from tests.repairs import apply_step
 from tutor.judge.causes import parameter_callback_slips, parameter_slips, period_slips
 from tutor.judge.edits import Edit
 from tutor.judge.rewriting import parameter_callbacks, parameters, publishing
 from tutor.judge.rewriting.node import NodeFile, node_file
+from tutor.judge.step_parsing import apply_step
 
 RATE, PREFIX, ENABLED = "publish_rate", "message_prefix", "enabled"
 NODE = """\

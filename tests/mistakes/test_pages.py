@@ -11,7 +11,6 @@ from tutor.mistakes import Evidence, Mistake
 from tutor.mistakes.diagnosis import describe
 
 MISTAKES = {f"{where}:{entry.id}": entry for where, found in all_catalogues() for entry in found.entries.values()}
-MAX_WORDS = 70
 
 
 @pytest.fixture(params=MISTAKES.values(), ids=list(MISTAKES))
@@ -33,8 +32,6 @@ def test_it_is_found_in_its_bad_example_and_says_so(entry: Mistake) -> None:
         found = next(iter(entry.find(case)), None)
         assert found is not None, f"not found in:\n{bad}"
         told = describe(entry, found, case)
-        assert len(f"{told.cause} {told.step}".split()) <= MAX_WORDS
-        assert "\n" not in told.step
         assert told.step.endswith((".", "?", ")", "'", '"')) or entry.slip
 
 

@@ -1,9 +1,11 @@
 """Judge recordings again, without ROS, and show what has changed.
 
-    uv run python -m tests.recordings.replay FOLDER [EXERCISE[/right|wrong[/NAME]] ...] [--accept] [--reports]
+    uv run python -m tests.recordings.replay FOLDER [EXERCISE[/right|wrong[/NAME]] ...] [--accept]
+                                             [--reports|--limits]
 
 Prints each criterion whose status, mistake or place differs from what the recording holds, and how many do not.
-`--accept` writes today's outcomes into the recordings; `--reports` prints every failing report as a learner reads it.
+`--accept` writes today's outcomes into the recordings; `--reports` prints every failing report as a learner reads it;
+`--limits` prints only the reports that are too long, or whose step has too much code or a line of our solution.
 """
 
 from __future__ import annotations
@@ -11,10 +13,12 @@ from __future__ import annotations
 import argparse
 import sys
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from statistics import median
 
+from tests.mistakes.limits import MAX_WORDS, MEDIAN_WORDS, faults_of, solution_lines, words_of
 from tests.recordings.recording import JudgeCall, Outcome, Recording, outcome, read_all, scenario_name, write
 from tutor.content import load_course
 from tutor.engine.explanation import explain
@@ -22,6 +26,7 @@ from tutor.engine.modules import load_check
 from tutor.judge.check import Check
 from tutor.judge.result import CriterionResult, tell_roots_once
 from tutor.judge.verdict import Status, Verdict, bounded, skipped
+from tutor.mistakes import catalogues_of
 
 
 def judge_again(recording: Recording, check: Check) -> dict[str, Outcome]:
@@ -77,6 +82,38 @@ def _print_reports(case: str, outcomes: Mapping[str, Outcome]) -> None:
             print(f"    step      {told.step}")
 
 
+class Limits:
+    """Looks at every failing report of one run for what breaks a limit, and keeps their lengths in words."""
+
+    def __init__(self) -> None:
+        self.words: list[int] = []
+        self.broken = 0
+
+    def look_at(self, case: str, outcomes: Mapping[str, Outcome], check: Check, solution: Sequence[str]) -> None:
+        """Count the words of each failing report, and print what is wrong with it."""
+        entries = {
+            entry.id: entry for catalogue in reversed(catalogues_of(check)) for entry in catalogue.entries.values()
+        }
+        for criterion, told in outcomes.items():
+            if told.status != Status.FAILED.value or told.same_as:
+                continue
+            length = words_of(told.cause, told.step)
+            self.words.append(length)
+            entry = entries.get(told.mistake)
+            faults = list(faults_of(told.step, slip=entry is not None and entry.slip, solution=solution))
+            if length > MAX_WORDS:
+                faults.append(f"it has {length} words")
+            if faults:
+                self.broken += 1
+                print(f"{case} {criterion}: {'; '.join(faults)}\n    {told.cause}\n    step  {told.step}")
+
+    def summary(self) -> str:
+        """The median of the words, and how many reports break a limit."""
+        middle = median(self.words) if self.words else 0
+        reports = len(self.words)
+        return f"{reports} failing reports, median {middle:g} words (limit {MEDIAN_WORDS}), {self.broken} break a limit"
+
+
 def _slug(mistake: str) -> str:
     return mistake.lower().replace(" ", "-")
 
@@ -88,16 +125,24 @@ def main() -> int:
     parser.add_argument("wanted", nargs="*")
     parser.add_argument("--accept", action="store_true", help="write today's outcomes into the recordings")
     parser.add_argument("--reports", action="store_true", help="print every failing report")
+    parser.add_argument("--limits", action="store_true", help="print only the reports that break a limit")
     arguments = parser.parse_args()
+    limits = Limits()
+    solutions: dict[str, tuple[str, ...]] = {}
     course = load_course(None)
     checks: dict[str, Check] = {}
     counts: Counter[str] = Counter()
     for recording in read_all(arguments.folder, arguments.wanted):
         if recording.exercise not in checks:
-            checks[recording.exercise] = load_check(course.find(recording.exercise))
+            lesson = course.find(recording.exercise)
+            checks[recording.exercise] = load_check(lesson)
+            solutions[recording.exercise] = solution_lines(lesson.folder / "solution")
         now = judge_again(recording, checks[recording.exercise])
         lines = differences(recording.outcomes, now)
-        if lines:
+        if arguments.limits:
+            judged = {each: told for each, told in now.items() if told is not recording.outcomes.get(each)}
+            limits.look_at(recording.case, judged, checks[recording.exercise], solutions[recording.exercise])
+        elif lines:
             print(f"{recording.case}\n  " + "\n  ".join(lines))
         if arguments.reports:
             _print_reports(recording.case, now)
@@ -109,6 +154,8 @@ def main() -> int:
         if arguments.accept:
             write(replace(recording, outcomes=now), arguments.folder)
     print(", ".join(f"{count} {what}" for what, count in counts.items()))
+    if arguments.limits:
+        print(limits.summary())
     return 1 if counts["other status"] else 0
 
 
