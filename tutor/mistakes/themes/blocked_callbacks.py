@@ -61,12 +61,12 @@ def _blocked(case: Case) -> tuple[Frame, tuple[Frame, ...]] | None:
     name="deadlock by call()",
     explains=_SILENT,
     evidence=Evidence.RUN,
-    says="{line} waits for a service's answer, which cannot come while this callback keeps the executor busy: {code}",
-    do="Await call_async() in an async callback, and put client and callback into groups that may run together.",
+    says="{line} waits for a service's answer, which cannot arrive while this callback keeps the executor busy: {code}",
+    do="Await call_async() in an async callback, and put it and the client into groups that may run together.",
     example=in_run(Symptom.NO_ANSWER, stuck_at=_stuck_in(("/lib/rclpy/client.py", "call"))),
 )
 def deadlock_by_call(case: Case) -> Iterator[Found]:
-    """A callback calls a service with call(), and waits for ever.
+    """A callback calls a service with call(), and waits forever.
 
     call() blocks until the answer is there. The answer is taken in by the executor, which is busy running this
     callback; with one thread, or in the same callback group, neither can go on.
@@ -97,15 +97,15 @@ def deadlock_by_call(case: Case) -> Iterator[Found]:
     "spin-inside-a-callback",
     explains=_SILENT,
     evidence=Evidence.RUN,
-    says="{line} spins the node inside its own callback, and waits for what cannot happen before it returns: {code}",
-    do="Take the spin out of the callback; await the future there, or go on in its done callback.",
+    says="{line} spins the node inside its own callback, and waits for what cannot happen until that returns: {code}",
+    do="Take the spin out of the callback; await the future there, or continue in its done callback.",
     example=in_run(Symptom.NO_ANSWER, stuck_at=_stuck_in(("/lib/rclpy/__init__.py", "spin"))),
 )
 def spin_inside_callback(case: Case) -> Iterator[Found]:
     """A callback spins the node that runs it.
 
     The executor calls the callback; a second spin inside it takes the node away from that executor, or waits for a
-    callback that only the first one could run. Nothing of the node runs any more.
+    callback that only the first spin could run. Nothing in the node runs any more.
 
     Bad:
 
@@ -142,8 +142,8 @@ def spin_inside_callback(case: Case) -> Iterator[Found]:
 def waits_for_a_lock(case: Case) -> Iterator[Found]:
     """A callback waits for a lock that nobody releases.
 
-    A lock lets one thread in at a time. Whoever holds it while it sleeps, or takes a plain Lock twice, makes all others
-    wait: for as long as the work takes, or for ever.
+    A lock lets one thread in at a time. A thread that holds it while it sleeps makes all others wait that long; one
+    that takes a plain Lock twice waits for itself, forever.
 
     Bad:
 
@@ -178,8 +178,8 @@ def waits_for_a_lock(case: Case) -> Iterator[Found]:
     "polls-a-future",
     explains=_SILENT,
     evidence=Evidence.RUN,
-    says="{line} waits in a loop for an answer that cannot come while this callback keeps the executor busy: {code}",
-    do="Await {future} in an async callback, or go on in its done callback.",
+    says="{line} waits in a loop for an answer that cannot arrive while this callback keeps the executor busy: {code}",
+    do="Await {future} in an async callback, or continue in its done callback.",
     example=in_run(Symptom.NO_ANSWER, stuck_at=_stuck_in()),
 )
 def polls_a_future(case: Case) -> Iterator[Found]:
@@ -217,14 +217,14 @@ def polls_a_future(case: Case) -> Iterator[Found]:
     explains=_SILENT,
     evidence=Evidence.RUN,
     says="{line} keeps a callback from returning{why}: {code}",
-    do="Let the callback return at once, and leave what has to wait, or to come again, to a timer.",
+    do="Let the callback return at once, and leave to a timer whatever has to wait, or happen again.",
     example=in_run(Symptom.NO_ANSWER, stuck_at=_stuck_in()),
 )
 def blocked_executor(case: Case) -> Iterator[Found]:
     """A callback never returns.
 
-    An executor runs one callback after the other (a MultiThreadedExecutor as many as it has threads). A loop or a
-    wait in one of them keeps all others waiting, also those that answer requests for parameters.
+    An executor runs one callback after another (a MultiThreadedExecutor, as many at once as it has threads). A loop or
+    a wait in one of them keeps all others waiting, even those that answer requests for parameters.
 
     Bad:
 
@@ -249,14 +249,14 @@ def blocked_executor(case: Case) -> Iterator[Found]:
 @mistake(
     "deadlock-by-await",
     explains=(Symptom.NO_ANSWER, Symptom.WRONG_ANSWER, Symptom.CALLS_MISSING),
-    says="{line} awaits something that comes in by the same callback group, which this callback keeps busy: {code}",
-    do="Put the client into a callback group of its own, or into a reentrant one.",
+    says="{line} awaits something that arrives in its own callback group, which this callback keeps busy: {code}",
+    do="Put the client into a callback group of its own, or a reentrant one.",
 )
 def deadlock_by_await(case: Case) -> Iterator[Found]:
     """A callback awaits an answer in its own callback group.
 
-    await frees the executor, not the callback's group: in a mutually exclusive group (the default) nothing else of that
-    group runs before this callback has ended, and the answer of a client of the same group arrives there.
+    await frees the executor, but not the callback's group: in a mutually exclusive group (the default), nothing else in
+    that group runs before this callback has ended, and a client's answer is handled in the client's group.
 
     Bad:
 

@@ -26,14 +26,14 @@ _UNSERVED = (
 @mistake(
     "attribute-of-node-overwritten",
     explains=(*_UNSERVED, Symptom.SERVICE_MISSING, Symptom.WRONG_RATE),
-    says="{line} overwrites {name}, by which rclpy's Node knows what it has to serve: {code}",
+    says="{line} overwrites {name}, in which rclpy's Node keeps what it has to serve: {code}",
     do="Give the attribute another name.",
 )
 def overwritten_attribute(case: Case) -> Iterator[Found]:
     """A node overwrites an attribute of rclpy's Node.
 
-    Names with an underscore in front belong to the base class. Node keeps its timers, subscriptions, services and
-    clients in lists of that kind, and an executor looks into them for what is to be served.
+    Names that begin with an underscore belong to the base class. Node keeps its timers, subscriptions, services and
+    clients in lists with such names, and an executor looks there for what it has to serve.
 
     Bad:
 
@@ -67,9 +67,9 @@ def overwritten_attribute(case: Case) -> Iterator[Found]:
     do="Let one executor spin all nodes that have callbacks.",
 )
 def another_node_spun(case: Case) -> Iterator[Found]:
-    """One node is spun, and another one has the callbacks.
+    """One node is spun, but another has the callbacks.
 
-    rclpy.spin(node) serves this one node. Any other node of the program is in the graph, and does nothing, unless it is
+    rclpy.spin(node) serves that one node. Any other node of the program is in the graph, but does nothing unless it is
     added to an executor that spins.
 
     Bad:
@@ -142,14 +142,14 @@ def _has_callbacks(file: NodeFile, made: ast.Call) -> bool:
 @mistake(
     "node-taken-from-its-executor",
     explains=_UNSERVED,
-    says="{line} moves the node to an executor of its own, and takes it out of {executor}: {code}",
-    do="Let {executor} do this spin, too.",
+    says="{line} moves the node to another executor, and so takes it out of {executor}: {code}",
+    do="Let {executor} do this spin as well.",
 )
 def node_taken(case: Case) -> Iterator[Found]:
     """rclpy.spin_once() takes a node out of its executor.
 
     A node is in one executor at a time. rclpy.spin_once(node) and rclpy.spin_until_future_complete(node, …) add it to
-    the global one, which removes it from the one that it was added to before.
+    the global executor, which takes it out of the one it was in before.
 
     Bad:
 
@@ -188,8 +188,8 @@ def node_taken(case: Case) -> Iterator[Found]:
 def second_spin(case: Case) -> Iterator[Found]:
     """One spin comes after another.
 
-    spin() returns when the program ends. A second one below it, or the next round of a loop around it, is never
-    reached.
+    spin() does not return until the program is to end. A second one below it, or the next round of a loop around it, is
+    never reached.
 
     Bad:
 
@@ -221,13 +221,13 @@ def second_spin(case: Case) -> Iterator[Found]:
 @mistake(
     "another-executor-for-each-node",
     explains=_UNSERVED,
-    says="{line} makes an executor for each node, and line {spin} spins only the last: {code}",
-    do="Make one executor above the loop.",
+    says="{line} makes an executor for each node, but line {spin} spins only the last: {code}",
+    do="Make one executor, above the loop.",
 )
 def executor_for_each(case: Case) -> Iterator[Found]:
     """A loop makes an executor for each node.
 
-    Each executor serves the nodes that were added to it. Where the loop makes a new one each time, the one that is spun
+    Each executor serves the nodes that were added to it. If the loop makes a new one each time, the one that is spun
     afterwards has only the last node.
 
     Bad:

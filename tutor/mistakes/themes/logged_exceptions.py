@@ -35,15 +35,15 @@ _BROAD = ("Exception", "BaseException", *(kind.rpartition(".")[2] for kind, _, _
     "exception-only-logged",
     explains=EXPLAINED_WHILE_RUNNING,
     evidence=Evidence.RUN,
-    says="{raised}{what}, and your own except catches it",
+    says="{raised}{what}, and an except of your own catches it",
     do="{step}",
     example=in_run(Symptom.NO_MESSAGES, logs=["failed: 'Bell' object has no attribute 'tunee'"]),
 )
 def only_logged(case: Case) -> Iterator[Found]:
     """A mistake is caught, and only its message is logged.
 
-    A broad `except Exception` also catches what is a mistake of the program: a misspelled name, an attribute that is
-    not there. The program goes on without what it was to do, and of the traceback only the last line is left.
+    A broad `except Exception` also catches mistakes in the program itself: a misspelled name, an attribute that is not
+    there. The program goes on without having done its work, and only the last line of the traceback is left.
 
     Bad:
 

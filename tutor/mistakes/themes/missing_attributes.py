@@ -74,8 +74,8 @@ def _set(inside: ast.AST, name: str) -> list[ast.Attribute]:
 def used_before_set_up(case: Case) -> Iterator[Found]:
     """A node is used before rclpy has set it up.
 
-    Node's own constructor makes what its methods work with: parameters, timers, publishers. It runs when your
-    __init__ calls it, and not before; a class with an __init__ that never calls it has nothing at all.
+    Node's own constructor sets up what its methods work with: parameters, timers, publishers. It runs only when your
+    __init__ calls it; a class whose __init__ never calls it has none of them.
 
     Bad:
 
@@ -111,7 +111,7 @@ def used_before_set_up(case: Case) -> Iterator[Found]:
     explains=EXPLAINED,
     evidence=Evidence.PROCESS,
     says="{raised}: rclpy's Node uses the name {name} itself{what}",
-    do="Give yours another name than {name}, wherever you use it.",
+    do="Give yours a name other than {name}, wherever you use it.",
     example=from_example(
         Example(
             "AttributeError: property 'publishers' of 'Bell' object has no setter",
@@ -122,8 +122,8 @@ def used_before_set_up(case: Case) -> Iterator[Found]:
 def name_taken(case: Case) -> Iterator[Found]:
     """A node's attribute or method has a name that rclpy's Node uses itself.
 
-    A class that inherits from Node shares its names with it. A method called `handle`, or an attribute `_timers`, takes
-    the place of Node's own, and rclpy falls over it later; names such as `publishers` cannot be set at all.
+    A class that inherits from Node shares its names. A method called `handle`, or an attribute `_timers`, replaces
+    Node's own, and rclpy trips over it later; names such as `publishers` cannot be set at all.
 
     Bad:
 
@@ -172,7 +172,7 @@ def _taken(file: NodeFile, *, method: bool) -> Iterator[tuple[str, int]]:
     "parent-not-set-up",
     explains=EXPLAINED,
     evidence=Evidence.PROCESS,
-    says="{raised}: super().__init__ calls that of Node only, the first of the parents, so {parent} was never set up",
+    says="{raised}: super().__init__ reaches only Node, the first of the parents, so {parent} was never set up",
     do="Call the __init__ of {parent} as well.",
     example=from_example(
         Example(
@@ -184,10 +184,10 @@ def _taken(file: NodeFile, *, method: bool) -> Iterator[tuple[str, int]]:
     ),
 )
 def parent_not_set_up(case: Case) -> Iterator[Found]:
-    """Of two parents, only the first one is set up.
+    """Of two parents, only the first is set up.
 
     super() stands for the next class in line. rclpy's Node does not pass the call on, so the constructors of the
-    parents behind it are not called.
+    parents after it are not called.
 
     Bad:
 
@@ -233,8 +233,8 @@ def parent_not_set_up(case: Case) -> Iterator[Found]:
 def used_before_set(case: Case) -> Iterator[Found]:
     """An attribute is used before it has a value.
 
-    An attribute comes into being when it is set. The lines of __init__ run from top to bottom, and a callback that adds
-    to an attribute, or reads it, needs one that is there.
+    An attribute exists once it has been set. The lines of __init__ run from top to bottom, and a callback that adds to
+    an attribute, or reads it, needs it to exist.
 
     Bad:
 

@@ -17,14 +17,14 @@ _WHILE_RUNNING = tuple(symptom for symptom in EVERY_SYMPTOM if symptom not in _A
 @mistake(
     "another-domain",
     explains=(Symptom.ENDED, Symptom.NO_MESSAGES, Symptom.NOTHING_RECEIVED, Symptom.SERVICE_MISSING, Symptom.NO_ANSWER),
-    says="{line} puts the node into another domain, where nothing else sees it: {code}",
-    do="Leave the domain to the environment in which the node is started.",
+    says="{line} puts the node into another ROS domain, where nothing else sees it: {code}",
+    do="Leave the choice of the domain to whoever starts the node.",
 )
 def another_domain(case: Case) -> Iterator[Found]:
     """The program chooses a ROS domain of its own.
 
-    Nodes see each other only within one domain. It comes from the environment variable ROS_DOMAIN_ID; a program that
-    sets it, or passes domain_id, leaves everybody else's.
+    Nodes see each other only within one domain, which the environment variable ROS_DOMAIN_ID chooses. A program that
+    sets that variable, or passes domain_id, leaves the domain that everybody else is in.
 
     Bad:
 
@@ -50,14 +50,14 @@ def another_domain(case: Case) -> Iterator[Found]:
     explains=_WHILE_RUNNING,
     evidence=Evidence.SYMPTOM,
     says="the program runs, but has made no ROS node{output}",
-    do="Call rclpy.init() and make the node first; a loop before that keeps it from happening.",
+    do="Call rclpy.init() and make the node first: a loop above them keeps the program from getting there.",
     example=in_run(Symptom.NO_MESSAGES, graph=Graph()),
 )
 def no_node(case: Case) -> Iterator[Found]:
-    """The program runs, and there is no node.
+    """The program runs, but there is no node.
 
-    A node appears in the graph when its constructor has run, after rclpy.init(). A program that waits, prints or
-    computes before that is just a program.
+    A node appears in the graph once its constructor has run, after rclpy.init(). Until then, a program that waits,
+    prints or computes is just a program.
 
     Bad:
 

@@ -14,15 +14,15 @@ from tutor.ros_model import Graph
     "second-node-of-the-same-name",
     explains=(Symptom.WRONG_RATE, Symptom.WRONG_ANSWER, Symptom.STANDS_STILL, Symptom.CHANGE_IGNORED),
     evidence=Evidence.RUN,
-    says="there are {count} nodes called {name}, and all of them are at work",
-    do="Make one node only: look whether the class is instantiated, or the program started, twice.",
+    says="there are {count} nodes called {name}, and all of them are running",
+    do="Make only one node: see whether the class is instantiated, or the program started, twice.",
     example=in_run(Symptom.WRONG_RATE, graph=Graph(("/lamp", "/lamp"))),
 )
 def same_name(case: Case) -> Iterator[Found]:
     """Two nodes have one name.
 
-    ROS lets any number of nodes have the same name, warns, and goes on. Both publish, and a tool that asks "the" node
-    for its parameters gets an answer from either.
+    ROS lets any number of nodes have the same name; it warns, and goes on. All of them publish, and a tool that asks
+    "the" node for its parameters gets an answer from any of them.
 
     Bad:
 

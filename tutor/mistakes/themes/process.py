@@ -48,14 +48,14 @@ def _signal_name(number: int) -> str:
     explains=_WHILE_RUNNING,
     evidence=Evidence.PROCESS,
     says="{ended}: {what}",
-    do="End the file with the usual two lines that call main() when it is run as a program.",
+    do="End the file with the usual two lines that call main() when the file is run as a program.",
     example=in_run(Symptom.ENDED, exit=Exit(0, None, 0.2), graph=Graph()),
 )
 def no_main_call(case: Case) -> Iterator[Found]:
-    """main() is defined, and nothing calls it.
+    """main() is defined, but nothing calls it.
 
-    Python runs a file from top to bottom; a def only makes a function. What runs it is a call at the end of the file,
-    under a test of the variable __name__, which is "__main__" in the file that was started.
+    Python runs a file from top to bottom; a def only defines a function. What runs it is a call at the end of the file,
+    guarded by a test of the variable __name__, which is "__main__" in the file that was started.
 
     Bad:
 
@@ -91,13 +91,13 @@ def no_main_call(case: Case) -> Iterator[Found]:
     explains=EVERY_SYMPTOM,
     evidence=Evidence.PROCESS,
     says="the program ended while one of its threads was still spinning, which aborts it with {ended}",
-    do="End that thread first: shut rclpy or its executor down, then join the thread, also if it is a daemon.",
+    do="End that thread first: shut down rclpy or its executor, then join the thread, even if it is a daemon.",
     example=in_run(Symptom.ENDED, exit=Exit(None, 6, 1.0), output=["terminate called without an active exception"]),
 )
 def torn_thread(case: Case) -> Iterator[Found]:
     """The program ends while a thread is still inside rclpy.
 
-    When the main thread is done, Python stops the daemon threads wherever they are. One that is inside rclpy's C++ code
+    When the main thread is done, Python stops daemon threads wherever they are. One that is inside rclpy's C++ code
     cannot be stopped there, and the whole process aborts.
 
     Bad:
@@ -127,14 +127,14 @@ def torn_thread(case: Case) -> Iterator[Found]:
     explains=_WHILE_RUNNING,
     evidence=Evidence.PROCESS,
     says="{ended} ({signal})",
-    do="See the last lines of its output; if it is the same each time, look for what sends that signal.",
+    do="Read the last lines of its output; if it happens every time, look for what sends that signal.",
     example=in_run(Symptom.ENDED, exit=Exit(None, 11, 1.0)),
 )
 def killed(case: Case) -> Iterator[Found]:
     """A signal ended the program.
 
-    The system, another program or the program itself ended it: SIGSEGV is a crash in C or C++ code, often by an object
-    that was destroyed while another thread used it; SIGKILL comes from outside, or from os.kill in the code.
+    The system, another program or the program itself ended it: SIGSEGV is a crash in C or C++ code, often because an
+    object was destroyed while another thread used it; SIGKILL comes from outside, or from os.kill in the code.
 
     Bad:
 
@@ -144,7 +144,7 @@ def killed(case: Case) -> Iterator[Found]:
 
         rclpy.try_shutdown()
 
-    See it: `echo $?` after the program: 128 and the number of the signal.
+    See it: `echo $?` after the program: 128 plus the signal's number.
     """
     ended = _ended(case)
     if ended is not None and ended.signal is not None:
@@ -156,7 +156,7 @@ def killed(case: Case) -> Iterator[Found]:
     explains=_WHILE_RUNNING,
     evidence=Evidence.PROCESS,
     says="{ended}: {what}",
-    do="Leave the arguments that begin with --ros-args to rclpy: parse only those before it, or none.",
+    do="Leave --ros-args and what follows it to rclpy: parse only the arguments before it, or none.",
     example=in_run(
         Symptom.ENDED, exit=Exit(2, None, 0.2), output=["node.py: error: unrecognized arguments: --ros-args"]
     ),
@@ -164,8 +164,8 @@ def killed(case: Case) -> Iterator[Found]:
 def arguments_refused(case: Case) -> Iterator[Found]:
     """A program refuses the arguments that ROS gives it.
 
-    ROS starts a node with arguments of its own, such as --ros-args -p volume:=7. A parser that does not know them
-    ends the program, and so does a test of their number.
+    ROS starts a node with arguments of its own, such as --ros-args -p volume:=7. A parser that does not know them ends
+    the program, and so does a check of how many there are.
 
     Bad:
 
@@ -201,14 +201,14 @@ def arguments_refused(case: Case) -> Iterator[Found]:
     "ended-by-a-callback",
     explains=_WHILE_RUNNING,
     evidence=Evidence.PROCESS,
-    says="{ended}: {line}, in {function}, ends it: {code}",
-    do="Let the callback return, and the program run until Ctrl+C.",
+    says="{ended}: {line}, in {function}, ends the program: {code}",
+    do="Let the callback return, and let the program run until Ctrl+C.",
     example=in_run(Symptom.ENDED, exit=Exit(0, None, 1.2)),
 )
 def exit_in_callback(case: Case) -> Iterator[Found]:
     """A callback ends the program.
 
-    A callback that calls sys.exit() or rclpy.shutdown() ends the node with the first message or tick.
+    A callback that calls sys.exit() or rclpy.shutdown() ends the node at the first message or tick.
 
     Bad:
 

@@ -47,7 +47,7 @@ def response_not_returned(case: Case) -> Iterator[Found]:
             response.success = True
             return response
 
-    See it: the caller waits in vain, and the node is gone.
+    See it: the caller waits forever, and the node is gone.
 
     Lesson: i1.3, answering a call.
     """

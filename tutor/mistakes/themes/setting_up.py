@@ -38,9 +38,9 @@ _WARNING = re.compile(r"coroutine '(?:[\w<>]+\.)*(\w+)' was never awaited")
 def not_activated(case: Case) -> Iterator[Found]:
     """A lifecycle node was never activated.
 
-    A lifecycle node begins "unconfigured", and its publishers are switched off until somebody has configured and
-    activated it: a launch file, `ros2 lifecycle set`, or the program itself. An on_activate() of one's own has to call
-    the one of the base class, which switches them on.
+    A lifecycle node begins "unconfigured", and its publishers are switched off until something has configured and
+    activated it: a launch file, `ros2 lifecycle set`, or the program itself. An on_activate() of your own has to call
+    that of the base class, which switches them on.
 
     Bad:
 
@@ -129,7 +129,7 @@ def _is_mentioned(case: Case, file: NodeFile, function: Function) -> bool:
     explains=_MISSING,
     evidence=Evidence.RUN,
     says="{line} waits for {service}, which nobody offers, before it goes on: {code}",
-    do="Make everything else first, and wait for the service where it is needed, with a limit.",
+    do="Make everything else first, and wait for the service only where it is needed, with a time limit.",
     example=in_run(
         Symptom.NO_MESSAGES,
         graph=Graph(("/bell",), clients=(ServiceEndpoint("/open_door", "std_srvs/srv/Trigger", "/bell"),)),
@@ -138,7 +138,7 @@ def _is_mentioned(case: Case, file: NodeFile, function: Function) -> bool:
 def waits_for_service(case: Case) -> Iterator[Found]:
     """A node waits for a service that nobody offers.
 
-    wait_for_service() in a loop returns once the service is there. While nobody offers it, the program stays in that
+    A loop around wait_for_service() ends once the service is there. While nobody offers it, the program stays in that
     loop, and nothing below it is made.
 
     Bad:
@@ -170,10 +170,10 @@ def waits_for_service(case: Case) -> Iterator[Found]:
     example=in_run(Symptom.NO_MESSAGES, output=["RuntimeWarning: coroutine 'Bell.ring' was never awaited"]),
 )
 def not_awaited(case: Case) -> Iterator[Found]:
-    """A coroutine is made, and nobody awaits it.
+    """A coroutine is made, but nothing awaits it.
 
-    Calling an async def runs none of its lines; it gives a coroutine, which runs when it is awaited. rclpy awaits a
-    callback that is itself an async def, not a lambda or a wrapper that calls one.
+    Calling an async def runs none of its lines; it returns a coroutine, which runs when it is awaited. rclpy awaits a
+    callback that is itself an async def, but not what a lambda or a wrapper returns.
 
     Bad:
 
@@ -208,7 +208,7 @@ def not_awaited(case: Case) -> Iterator[Found]:
 def set_up_twice(case: Case) -> Iterator[Found]:
     """A class repeats what its base class has done.
 
-    super().__init__() runs the constructor of the base class, with all that it calls. A second call of the same method
+    super().__init__() runs the constructor of the base class, and all that it calls. Calling the same method again
     makes a second timer, or a second subscription.
 
     Bad:

@@ -46,14 +46,14 @@ def _stuck_in_main(source: str) -> Sequence[Frame]:
     explains=_SILENT,
     evidence=Evidence.RUN,
     says="{nodes} exists, but its callbacks are never run{where}",
-    do="Spin the node once everything is set up, and let nothing else keep the program from it.",
+    do="Spin the node once everything is set up, and let nothing else keep the program from getting there.",
     example=in_run(Symptom.NO_ANSWER, answers=False, stuck_at=_stuck_in_main),
 )
 def no_spin(case: Case) -> Iterator[Found]:
     """Nothing spins the node.
 
     A node's callbacks are called by an executor, and only while it spins: rclpy.spin(node) does that until Ctrl+C. A
-    program that sleeps, or works in a loop of its own, has a node that can be seen, and that does nothing.
+    program that sleeps, or runs a loop of its own, has a node that can be seen but does nothing.
 
     Bad:
 
@@ -89,14 +89,14 @@ def no_spin(case: Case) -> Iterator[Found]:
 @mistake(
     "spins-in-the-constructor",
     explains=_SILENT,
-    says="{line} spins inside the constructor, which ends only when the program does: what comes after is never made",
-    do="Spin the node in main(), when its constructor has ended.",
+    says="{line} spins inside the constructor, until the program ends: what comes after it is never made",
+    do="Spin the node in main(), after its constructor has returned.",
 )
 def spin_in_constructor(case: Case) -> Iterator[Found]:
     """A node spins before its constructor has made everything.
 
-    rclpy.spin() returns on Ctrl+C. In a constructor it keeps everything below it from being made, and the program from
-    getting its node.
+    rclpy.spin() does not return until Ctrl+C. In a constructor, it keeps everything below it from being made, and the
+    program from ever getting its node.
 
     Bad:
 
@@ -146,12 +146,12 @@ def _spins_itself(file: NodeFile, statement: ast.stmt) -> bool:
     "nap-between-callbacks",
     explains=_SLOW,
     says="{line} makes the loop that spins the node sleep, and meanwhile no callback runs: {code}",
-    do="Take the sleep out; spin_once waits by itself until there is something to do.",
+    do="Remove the sleep; spin_once already waits until there is something to do.",
 )
 def nap_between_spins(case: Case) -> Iterator[Found]:
     """The loop that spins the node sleeps.
 
-    spin_once() runs one callback, or waits for one. A sleep beside it delays every callback, also those that are due.
+    spin_once() runs one callback, or waits for one. A sleep next to it delays every callback, even those that are due.
 
     Bad:
 
@@ -177,12 +177,12 @@ def nap_between_spins(case: Case) -> Iterator[Found]:
     name="spin_once waits",
     explains=_SLOW,
     says="{line} waits until a callback runs, {why}: {code}",
-    do="Give spin_once a timeout_sec, or let a timer do what the loop does.",
+    do="Give spin_once a timeout_sec, or let a timer do the loop's work.",
 )
 def untimed_spin_once(case: Case) -> Iterator[Found]:
     """A loop stands still in spin_once().
 
-    Without timeout_sec, spin_once() waits until there is a callback to run. A loop that does its own work beside it is
+    Without timeout_sec, spin_once() waits until there is a callback to run. A loop that also does work of its own is
     held up until then; with several nodes, each waits for the others' callbacks.
 
     Bad:
@@ -197,7 +197,7 @@ def untimed_spin_once(case: Case) -> Iterator[Found]:
             node.horn.publish(Bool(data=True))
             rclpy.spin_once(node, timeout_sec=0.1)
 
-    See it: messages come only when somebody asks the node for something.
+    See it: messages come only when another program asks the node for something.
     """
     for file in case.files:
         for loop in file.nodes:
