@@ -18,7 +18,7 @@ _NAMES = (Symptom.WRONG_NAMES,)
     explains=_NAMES,
     evidence=Evidence.SYMPTOM,
     says="the nodes are under /{namespace}, but {node} uses {topic}: {because}",
-    do="Leave out the slash in front of the name: then it is taken within the namespace.",
+    do="Leave out the slash in front of the name, so that it is taken within the namespace.",
     example=in_run(
         Symptom.WRONG_NAMES,
         argument="namespace",
@@ -29,8 +29,8 @@ _NAMES = (Symptom.WRONG_NAMES,)
 def absolute(case: Case) -> Iterator[Found]:
     """A topic's name begins with a slash.
 
-    A name with a slash in front is absolute, and no namespace changes it. Without the slash, it is in the namespace
-    of its node.
+    A name with a leading slash is absolute, and no namespace changes it. Without the slash, it is in the namespace of
+    its node.
 
     Bad:
 
@@ -60,7 +60,7 @@ def absolute(case: Case) -> Iterator[Found]:
     "namespace-of-its-own",
     explains=_NAMES,
     evidence=Evidence.RUN,
-    says="{node} is in the namespace {namespace}, and so it uses {topic} in place of {wanted}",
+    says="{node} is in the namespace {namespace}, so it uses {topic} instead of {wanted}",
     do="Give both nodes the same namespace.",
     example=in_run(
         Symptom.WRONG_NAMES,
@@ -72,7 +72,7 @@ def absolute(case: Case) -> Iterator[Found]:
 def own_namespace(case: Case) -> Iterator[Found]:
     """A node is in a namespace of its own.
 
-    A relative topic name is taken within the namespace of its node, so the same name is another topic in another
+    A relative topic name is taken within the namespace of its node, so the same name means another topic in another
     namespace.
 
     Bad:
@@ -118,7 +118,7 @@ def own_namespace(case: Case) -> Iterator[Found]:
 def one_node(case: Case) -> Iterator[Found]:
     """Only one of two nodes is renamed.
 
-    Remappings and namespaces are a matter of each node. What one node has, the other does not.
+    Each node has its own remappings and its own namespace: what one node is given, the other does not have.
 
     Bad:
 
@@ -169,8 +169,8 @@ def _not(case: Case) -> str:
 def still_used(case: Case) -> Iterator[Found]:
     """Something stays on the default topic.
 
-    A topic is renamed for those nodes that have the remapping. Another node, or another copy of the same one, goes on
-    with the name in its code.
+    A topic is renamed for those nodes that have the remapping. Another node, or another copy of the same one, keeps
+    using the name in its code.
 
     Bad:
 
@@ -191,15 +191,15 @@ def still_used(case: Case) -> Iterator[Found]:
     "argument-without-effect",
     explains=_NAMES,
     evidence=Evidence.SYMPTOM,
-    says="{argument}:={value} is given, and its value reaches no node",
+    says="{argument}:={value} is given, but its value reaches no node",
     do="Use the value of the argument in every node: a topic in its remappings, a namespace as its namespace.",
     example=in_run(Symptom.WRONG_NAMES, argument="topic", wanted="/dong"),
 )
 def no_effect(case: Case) -> Iterator[Found]:
-    """A launch argument is declared, and used nowhere.
+    """A launch argument is declared, but used nowhere.
 
-    A declaration only says that there is such an argument. Its value is what LaunchConfiguration stands for, and counts
-    where that is given to a node.
+    A declaration only says that there is such an argument. LaunchConfiguration stands for its value, which has an
+    effect only where it is given to a node.
 
     Bad:
 

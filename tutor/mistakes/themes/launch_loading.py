@@ -30,7 +30,7 @@ _NOTHING_RETURNED = re.compile(r"NoneType|return(?:s|ed)? (?:None|nothing)")
 def no_function(case: Case) -> Iterator[Found]:
     """A launch file has no generate_launch_description().
 
-    launch imports the file and calls the function of this name; everything else in the file is there for it.
+    launch imports the file and calls the function of this name; everything else in the file serves it.
 
     Bad:
 
@@ -59,7 +59,7 @@ def no_function(case: Case) -> Iterator[Found]:
 def nothing_returned(case: Case) -> Iterator[Found]:
     """generate_launch_description() returns nothing.
 
-    A function without return gives None, and there is nothing for launch to start.
+    A function without a return gives None, so launch has nothing to start.
 
     Bad:
 
@@ -86,16 +86,16 @@ def nothing_returned(case: Case) -> Iterator[Found]:
     name="a node that ends",
     explains=LAUNCH,
     evidence=Evidence.RUN,
-    says="{process} has ended by itself with exit code {code}{words}",
-    do="Start this program alone, and look at its output.",
+    says="{process} has ended on its own with exit code {code}{words}",
+    do="Start this program on its own, and look at its output.",
     example=in_run(
         Symptom.NOT_LAUNCHED, output=["[ERROR] [bell-1]: process has died [pid 7, exit code 1, cmd 'bell']."]
     ),
 )
 def node_ends(case: Case) -> Iterator[Found]:
-    """A program of a launch ends by itself.
+    """A program of a launch ends on its own.
 
-    A launch goes on when one of its nodes ends. What that program wrote last, behind its name in the launch's output,
+    A launch goes on when one of its nodes ends. What that program wrote last, after its name in the launch's output,
     says why.
 
     Bad:
@@ -118,12 +118,12 @@ def node_ends(case: Case) -> Iterator[Found]:
     "command-in-one-piece",
     explains=LAUNCH,
     says="{line} asks for a program whose name is the whole command, spaces included: {code}",
-    do="Give cmd= a list with each word of the command by itself.",
+    do="Give cmd= a list that has each word of the command as an entry of its own.",
 )
 def split_command(case: Case) -> Iterator[Found]:
-    """A command is given as one text.
+    """A command is given as a single text.
 
-    ExecuteProcess takes the first entry of cmd for the program. A whole command line in one entry is the name of a
+    ExecuteProcess takes the first entry of cmd as the program. A whole command line in one entry is the name of a
     program that does not exist.
 
     Bad:
@@ -156,7 +156,7 @@ def split_command(case: Case) -> Iterator[Found]:
 def error(case: Case) -> Iterator[Found]:
     """Launch reports an error.
 
-    What launch cannot do, it says in a line with [ERROR] [launch], and ends.
+    When launch cannot do something, it says so in a line with [ERROR] [launch], and ends.
 
     Bad:
 
@@ -176,14 +176,14 @@ def error(case: Case) -> Iterator[Found]:
     "nothing-to-launch",
     explains=LAUNCH,
     evidence=Evidence.SYMPTOM,
-    says="the launch ends by itself after {after_s:.1f} s, and has started nothing",
-    do="Put what is to be started into the list of the LaunchDescription.",
+    says="the launch ends on its own after {after_s:.1f} s, and has started nothing",
+    do="Put what should be started into the list of the LaunchDescription.",
     example=in_run(Symptom.NOT_LAUNCHED, exit=Exit(0, None, 0.5), graph=Graph()),
 )
 def nothing(case: Case) -> Iterator[Found]:
     """A launch description is empty.
 
-    launch starts what is in the list of the LaunchDescription, and ends when nothing of it is left.
+    launch starts what is in the list of the LaunchDescription, and ends when none of it is left.
 
     Bad:
 

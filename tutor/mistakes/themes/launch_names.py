@@ -70,7 +70,7 @@ def _is_used(file: LaunchFile, argument: str, code: str) -> bool:
     explains=_NAMES,
     evidence=Evidence.RUN,
     says="{name} is in the namespace {namespace} twice",
-    do="Use one of the two ways: the namespace of each node, or one that is pushed for all.",
+    do="Use only one of the two: a namespace for each node, or one that is pushed for all.",
     example=in_run(
         Symptom.WRONG_NAMES,
         argument="namespace",
@@ -81,7 +81,8 @@ def _is_used(file: LaunchFile, argument: str, code: str) -> bool:
 def twice(case: Case) -> Iterator[Found]:
     """A namespace is applied twice.
 
-    PushRosNamespace puts all nodes of its group into a namespace, and namespace= a single node. Together they nest.
+    PushRosNamespace puts all nodes of its group into a namespace, and namespace= puts a single node into one. Together,
+    they nest.
 
     Bad:
 
@@ -106,14 +107,14 @@ def twice(case: Case) -> Iterator[Found]:
     "wrong-argument-name",
     explains=_NAMES,
     evidence=Evidence.RUN,
-    says="{argument}:= changes nothing, since the launch file declares {declared}",
+    says="{argument}:= changes nothing, since what the launch file declares is {declared}",
     do="Use exactly this name where the argument is declared and where its value is read.",
     example=in_run(Symptom.WRONG_NAMES, argument="sound", wanted="ding"),
 )
 def argument_name(case: Case) -> Iterator[Found]:
     """A launch argument has another name, or is not declared.
 
-    name:=value on the command line sets the launch configuration of this name. If no argument is called so, nothing
+    name:=value on the command line sets the launch configuration of that name. If no argument has that name, nothing
     reads it, and launch does not complain.
 
     Bad:
@@ -135,15 +136,15 @@ def argument_name(case: Case) -> Iterator[Found]:
 @mistake(
     "argument-overwritten",
     explains=_NAMES,
-    says="{line} sets {name} itself, for all that is evaluated from then on: {code}",
-    do="Leave the value to the one who starts the launch.",
+    says="{line} sets {name} itself, for everything that is evaluated from then on: {code}",
+    do="Leave the value to whoever starts the launch.",
     example=in_run(Symptom.WRONG_NAMES, argument="sound"),
 )
 def argument_overwritten(case: Case) -> Iterator[Found]:
     """A launch file sets its own argument.
 
-    SetLaunchConfiguration replaces the value that was given on the command line, for what comes after it and for
-    handlers of events.
+    SetLaunchConfiguration replaces the value that was given on the command line, for everything after it and for event
+    handlers.
 
     Bad:
 
@@ -153,7 +154,7 @@ def argument_overwritten(case: Case) -> Iterator[Found]:
 
         DeclareLaunchArgument('sound', default_value='ding')
 
-    See it: `ros2 launch FILE sound:=dong`, and what is started.
+    See it: `ros2 launch FILE sound:=dong`, and see what is started.
     """
     name = case.about("argument", "")
     for call in launch_file(case).calls("SetLaunchConfiguration"):
@@ -165,13 +166,13 @@ def argument_overwritten(case: Case) -> Iterator[Found]:
 @mistake(
     "setting-lost-with-its-group",
     explains=_NAMES,
-    says="{line} sets {name} in a group, and the end of the group takes it back: {code}",
-    do="Set it outside of the group, or make the group not scoped.",
+    says="{line} sets {name} in a group, and the end of the group undoes it: {code}",
+    do="Set it outside the group, or make the group unscoped.",
 )
 def lost_with_group(case: Case) -> Iterator[Found]:
-    """A configuration is set in a group, and read outside.
+    """A configuration is set in a group, but read outside it.
 
-    A GroupAction is scoped: at its end, launch configurations are again what they were before it.
+    A GroupAction is scoped: at its end, launch configurations are what they were before it.
 
     Bad:
 
@@ -200,14 +201,14 @@ def lost_with_group(case: Case) -> Iterator[Found]:
     name="namespace not used",
     explains=_NAMES,
     says="{line}: {why}: {code}",
-    do="Put the nodes and what pushes the namespace into one group, the namespace first.",
+    do="Put the nodes into one group with what pushes the namespace, and the namespace first.",
     example=in_run(Symptom.WRONG_NAMES, argument="namespace", wanted="hall"),
 )
 def not_pushed(case: Case) -> Iterator[Found]:
     """A pushed namespace does not reach a node.
 
-    PushRosNamespace changes what comes after it in the same list or group, if its condition is met. A node before it,
-    or one that a handler of an event starts later, is not in that namespace.
+    PushRosNamespace affects what comes after it in the same list or group, if its condition is met. A node before it,
+    or one that an event handler starts later, is not in that namespace.
 
     Bad:
 
@@ -244,11 +245,11 @@ def not_pushed(case: Case) -> Iterator[Found]:
     example=in_run(Symptom.WRONG_NAMES, argument="topic", wanted="/dong"),
 )
 def wrong_place(case: Case) -> Iterator[Found]:
-    """An argument's value is put in the wrong place of a node.
+    """An argument's value is put in the wrong place.
 
-    parameters= sets ROS parameters, arguments= what the program itself parses, name= the node's name. A topic is
-    renamed by remappings=, and a node is put into a namespace by namespace=. A text in quotation marks is that text,
-    not the value of the argument.
+    parameters= sets ROS parameters, arguments= is for what the program itself parses, name= is the node's name. A topic
+    is renamed by remappings=, and a node is put into a namespace by namespace=. A text in quotation marks is just that
+    text, not the value of the argument.
 
     Bad:
 

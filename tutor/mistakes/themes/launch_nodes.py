@@ -27,10 +27,10 @@ _LATER = {
     do="Put the node itself into the list of the LaunchDescription, without a condition.",
 )
 def not_started(case: Case) -> Iterator[Found]:
-    """A node is described, and not started.
+    """A node is described, but not started.
 
-    launch starts the nodes that are in the list of the LaunchDescription, when their condition is met. What is in a
-    handler of an event starts when that event comes, or never.
+    launch starts the nodes that are in the list of the LaunchDescription, if their condition is met. What is in an
+    event handler starts when that event comes, or never.
 
     Bad:
 
@@ -66,9 +66,9 @@ def not_started(case: Case) -> Iterator[Found]:
     example=in_run(Symptom.NOT_LAUNCHED, graph=Graph(("/bell",), (TopicEndpoint("/ring", "t", "/bell"),))),
 )
 def one_side(case: Case) -> Iterator[Found]:
-    """There is a publisher and no subscriber, or the other way round.
+    """There is a publisher but no subscriber, or the other way round.
 
-    Two nodes talk to each other only if one publishes and another one subscribes.
+    Two nodes talk to each other only if one publishes and the other subscribes.
 
     Bad:
 
@@ -110,7 +110,7 @@ def one_side(case: Case) -> Iterator[Found]:
 def simulator(case: Case) -> Iterator[Found]:
     """A node waits for the clock of a simulation.
 
-    With use_sim_time, a node's time is that of the topic /clock. While nobody publishes there, no timer is ever due.
+    With use_sim_time, a node takes its time from the topic /clock. While nobody publishes there, no timer is ever due.
 
     Bad:
 
@@ -146,7 +146,7 @@ def simulator(case: Case) -> Iterator[Found]:
 def different_topics(case: Case) -> Iterator[Found]:
     """Publisher and subscriber use different topics.
 
-    Each node has a name for its topic in its code. Two programs that were not written for each other need remappings to
+    Each node's code has a name for its topic. Two programs that were not written for each other need remappings to
     meet.
 
     Bad:

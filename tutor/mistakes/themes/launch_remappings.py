@@ -18,7 +18,7 @@ _NAMES = (Symptom.WRONG_NAMES,)
     explains=_NAMES,
     evidence=Evidence.RUN,
     says="{source} is remapped to {target}, so {target} keeps its name",
-    do="Write first the name in the node's code, then the new one.",
+    do="Write the name in the node's code first, then the new one.",
     example=in_run(
         Symptom.WRONG_NAMES, argument="topic", wanted="/dong", command_lines=("bell --ros-args -r dong:=ring",)
     ),
@@ -26,7 +26,7 @@ _NAMES = (Symptom.WRONG_NAMES,)
 def swapped(case: Case) -> Iterator[Found]:
     """A remapping is the wrong way round.
 
-    A remapping is a pair: the name that the node's code uses, and the one that it shall use instead.
+    A remapping is a pair: the name that the node's code uses, and the one to use instead.
 
     Bad:
 
@@ -60,8 +60,8 @@ def swapped(case: Case) -> Iterator[Found]:
 def without_effect(case: Case) -> Iterator[Found]:
     """A remapping changes nothing.
 
-    Only the exact name in the node's code is remapped, and the first rule that fits is taken. With a slash in front, a
-    rule is for the name outside of any namespace.
+    Only the exact name in the node's code is remapped, and the first rule that fits is taken. A rule with a leading
+    slash is for the name outside any namespace.
 
     Bad:
 
@@ -109,7 +109,7 @@ def without_effect(case: Case) -> Iterator[Found]:
 def altered(case: Case) -> Iterator[Found]:
     """A name is made of the argument and something else.
 
-    The value of an argument is a name as it is. A prefix or suffix that the launch file adds makes another name.
+    The value of an argument is the whole name. A prefix or suffix that the launch file adds makes another name of it.
 
     Bad:
 

@@ -68,15 +68,15 @@ def output_of(*lines: str) -> dict[str, Any]:
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
     says="{what}",
-    do="Declare the argument, under this name, at the beginning of the launch description.",
+    do="Declare the argument, under this name, at the start of the launch description.",
     example=in_run(Symptom.NOT_LAUNCHED, **output_of("launch configuration 'sound' does not exist")),
 )
 def not_declared(case: Case) -> Iterator[Found]:
     """A launch configuration is read that does not exist.
 
-    LaunchConfiguration('sound') stands for a value that a DeclareLaunchArgument('sound') has set. The entries of a
-    launch description are executed in order, so the declaration comes first; a declaration that is not in the list
-    counts for nothing, and perform() in generate_launch_description() asks before there is any value.
+    LaunchConfiguration('sound') stands for the value that DeclareLaunchArgument('sound') sets. The entries of a launch
+    description are executed in order, so the declaration comes first; a declaration that is not in the list has no
+    effect, and perform() in generate_launch_description() asks before there is any value.
 
     Bad:
 
@@ -118,14 +118,14 @@ def not_declared(case: Case) -> Iterator[Found]:
     "argument-without-a-default",
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
-    says="the argument {name} has no default_value, so a launch without arguments is refused",
+    says="the argument {name} has no default_value, so launch refuses to start without it",
     do="Give its declaration a default_value.",
     example=in_run(Symptom.NOT_LAUNCHED, **output_of("missing required argument 'sound'")),
 )
 def no_default(case: Case) -> Iterator[Found]:
     """A launch argument has no default.
 
-    An argument without a default_value has to be given each time; without it, launch starts nothing.
+    An argument without a default_value has to be given every time; without it, launch starts nothing.
 
     Bad:
 
@@ -146,15 +146,15 @@ def no_default(case: Case) -> Iterator[Found]:
     "remappings-not-a-list-of-pairs",
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
-    says="remappings takes a list of pairs, and got something else",
-    do="Write each remapping as a pair in round brackets, and the pairs into a list.",
+    says="remappings takes a list of pairs, but got something else",
+    do="Write each remapping as a pair in parentheses, and put the pairs into a list.",
     example=in_run(Symptom.NOT_LAUNCHED, **output_of("TypeError: Expected 'remap_rule' to be ...")),
 )
 def not_pairs(case: Case) -> Iterator[Found]:
-    """Remappings are no list of pairs.
+    """Remappings are not a list of pairs.
 
-    Each remapping is a pair: the name in the node's code, and the new one. A node may have several, so remappings
-    takes a list of them.
+    Each remapping is a pair: the name in the node's code, and the new one. A node may have several, so remappings takes
+    a list of them.
 
     Bad:
 
@@ -175,15 +175,15 @@ def not_pairs(case: Case) -> Iterator[Found]:
     "substitution-made-text-too-early",
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
-    says="a substitution such as LaunchConfiguration is made part of a text before its value is known",
-    do="Give a list of the parts instead; launch joins them when it runs.",
+    says="a substitution such as LaunchConfiguration is turned into text before its value is known",
+    do="Pass a list of the parts instead: launch joins them when it runs.",
     example=in_run(Symptom.NOT_LAUNCHED, **output_of("<launch.substitutions.LaunchConfiguration object at 0x7f>")),
 )
 def early_text(case: Case) -> Iterator[Found]:
     """A substitution is put into a text.
 
-    While the file is read, LaunchConfiguration('sound') is an object that stands for a value of later. An f-string,
-    str() or + makes text of the object itself: <launch.substitutions… object at 0x…>, or a TypeError.
+    While the file is being read, LaunchConfiguration('sound') is an object that stands for a later value. An f-string
+    or str() turns the object itself into text, <launch.substitutions… object at 0x…>, and + raises a TypeError.
 
     Bad:
 
@@ -203,15 +203,15 @@ def early_text(case: Case) -> Iterator[Found]:
     "invalid-name",
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
-    says="{name} is no valid name in ROS: letters, digits and _ only, and no digit first",
+    says="{name} is not a valid name in ROS: only letters, digits and _ are, and no digit comes first",
     do="Choose another name.",
     example=in_run(Symptom.NOT_LAUNCHED, **output_of("Couldn't parse remap rule: '-r ring:=door-bell'")),
 )
 def invalid_name(case: Case) -> Iterator[Found]:
     """A name is not allowed in ROS.
 
-    Names of nodes, topics and namespaces consist of letters, digits and underscores, with slashes between their
-    parts. No part begins with a digit.
+    Names of nodes, topics and namespaces consist of letters, digits and underscores, with slashes between their parts.
+    No part begins with a digit.
 
     Bad:
 
@@ -232,13 +232,13 @@ def invalid_name(case: Case) -> Iterator[Found]:
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
     says="there is no package {name}",
-    do="Check the spelling of package=, and that the package is there (ros2 pkg list).",
+    do="Check the spelling of package=, and whether the package is there (ros2 pkg list).",
     example=in_run(Symptom.NOT_LAUNCHED, **output_of("package 'hous' not found, searching: ...")),
 )
 def no_package(case: Case) -> Iterator[Found]:
     """A package is not found.
 
-    Node(package=…) names a ROS package that is installed, or built and sourced in this terminal.
+    Node(package=…) needs the name of a ROS package that is installed, or built and sourced in this terminal.
 
     Bad:
 
@@ -266,8 +266,8 @@ def no_package(case: Case) -> Iterator[Found]:
 def no_program(case: Case) -> Iterator[Found]:
     """A package has no such executable.
 
-    An executable is a console script of setup.py, or an installed program, by its name there: without .py, and not the
-    name of the node.
+    An executable is a console script from setup.py, or an installed program, under its name there: without .py, and not
+    the node's name.
 
     Bad:
 

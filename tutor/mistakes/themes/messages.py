@@ -35,15 +35,15 @@ def _fields() -> Mapping[str, tuple[str, ...]]:
     "unknown-field-in-a-constructor",
     explains=_WRONG,
     slip=True,
-    says="{line}: {type} has no field {given}, and rclpy drops it without a word: {code}",
+    says="{line}: {type} has no field {given}, which is dropped without a word: {code}",
     do="{step}",
-    remark="{line} gives {type} a field {given}, which it does not have and drops without a word.",
+    remark="{line} gives {type} a field {given}, which it does not have and which is dropped without a word.",
 )
 def unknown_field(case: Case) -> Iterator[Found]:
     """The constructor of a message is given a field that it does not have.
 
-    A message takes its fields by name. In Jazzy, a name that it does not know is dropped without a word, and the field
-    that was meant keeps its default: 0, an empty text, or False.
+    A message takes its fields by name. In Jazzy, a name that it does not know is dropped without a word, and the
+    intended field keeps its default: 0, an empty text, or False.
 
     Bad:
 
@@ -94,14 +94,14 @@ def _interface(file: NodeFile, called: ast.expr) -> str | None:
 @mistake(
     "narrow-float-in-a-float-field",
     explains=(Symptom.WRONG_VALUES, Symptom.NO_MESSAGES),
-    says="{line} puts a {kind} of numpy into a field that takes a Python float: {code}",
+    says="{line} puts numpy's {kind} into a field that takes a Python float: {code}",
     do="Convert it with float() before it goes into the message.",
 )
 def narrow_float(case: Case) -> Iterator[Found]:
     """A numpy float32 goes into a float field.
 
-    numpy's float64 is a Python float, its float32 is not. rclpy reads the field as a Python float without looking, and
-    sends a number that has nothing to do with it.
+    numpy's float64 is a Python float; its float32 is not. rclpy reads the field as a Python float without checking, and
+    sends a number that has nothing to do with the value.
 
     Bad:
 
@@ -111,7 +111,7 @@ def narrow_float(case: Case) -> Iterator[Found]:
 
         level = Float64(data=float(np.float32(7.5)))
 
-    See it: `ros2 topic echo TOPIC` shows numbers next to 0.
+    See it: `ros2 topic echo TOPIC` shows numbers close to 0.
     """
     for file in case.files:
         for value in _field_values(file):

@@ -28,7 +28,7 @@ def _mismatches(case: Case) -> Iterable[str]:
     explains=(Symptom.NOTHING_RECEIVED, Symptom.NOT_CONNECTED),
     evidence=Evidence.RUN,
     says="{mismatch}",
-    do="Let the subscription ask for no more than the publisher offers; a plain depth in place of a QoSProfile does.",
+    do="Let the subscription ask for no more than the publisher offers, as a plain depth instead of a QoSProfile does.",
     example=in_run(
         Symptom.NOTHING_RECEIVED,
         graph=Graph(
@@ -42,8 +42,9 @@ def _mismatches(case: Case) -> Iterable[str]:
 def incompatible_qos(case: Case) -> Iterator[Found]:
     """Publisher and subscription have incompatible QoS.
 
-    A publisher offers a quality of service, a subscription requests one. If it requests more than is offered (reliable
-    from a best-effort publisher, old messages from a volatile one), the two are not connected, and nothing arrives.
+    A publisher offers a quality of service, and a subscription requests one. If it requests more than is offered
+    (reliability from a best-effort publisher, old messages from a volatile one), the two are not connected, and nothing
+    arrives.
 
     Bad:
 
@@ -68,8 +69,8 @@ def incompatible_qos(case: Case) -> Iterator[Found]:
 def bare_topic_names(case: Case) -> Iterator[Found]:
     """A QoS profile hides a topic from ROS.
 
-    ROS gives its topics a prefix in DDS. With avoid_ros_namespace_conventions the prefix is left out, so that programs
-    without ROS can join; nodes that do not do the same never meet it.
+    ROS gives its topics a prefix in DDS. avoid_ros_namespace_conventions leaves it out, so that programs without ROS
+    can join; nodes that do not do the same never see such a topic.
 
     Bad:
 

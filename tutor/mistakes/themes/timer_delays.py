@@ -18,14 +18,14 @@ _CLOCKS = ("time", "monotonic", "perf_counter", "now", "time_ns", "monotonic_ns"
 @mistake(
     "callback-sleeps",
     explains=[Symptom.WRONG_RATE],
-    says="{line} makes the timer's callback sleep, and until it returns the timer is not called again: {code}",
+    says="{line} makes the timer's callback sleep, and the timer is not called again until it returns: {code}",
     do="Let the callback do its work and return at once; the timer does the waiting.",
 )
 def callback_sleeps(case: Case) -> Iterator[Found]:
     """A timer's callback sleeps.
 
-    A timer is called when it is due and its last call has returned. Time that a callback sleeps is added to the period,
-    and no other callback of the node runs meanwhile.
+    A timer is called when it is due and its last call has returned. If its callback sleeps for longer than the period,
+    calls are lost, and no other callback of the node runs in the meantime.
 
     Bad:
 
@@ -70,13 +70,14 @@ def _is_short(file: NodeFile, call: ast.Call, hz: float) -> bool:
     "ticks-dropped",
     explains=[Symptom.WRONG_RATE],
     says="{line} drops each tick that comes a little early: {code}",
-    do="Leave the waiting to the timer, and take this test out of its callback.",
+    do="Leave the waiting to the timer, and remove this test from its callback.",
 )
 def ticks_dropped(case: Case) -> Iterator[Found]:
     """A timer's callback returns if it was called a moment too early.
 
-    Timers are due at fixed times, but are called a little before or after. A callback that compares clocks with the
-    exact period drops every tick that is a millisecond early, so that the rate falls by a third or more.
+    Timers are due at fixed times, but the time between two calls is now a little more, now a little less. A callback
+    that compares it with the exact period drops every tick that comes a moment early, so that the rate falls by a third
+    or more.
 
     Bad:
 
@@ -113,13 +114,13 @@ def ticks_dropped(case: Case) -> Iterator[Found]:
     explains=[Symptom.WRONG_RATE],
     evidence=Evidence.RUN,
     says="{name} {wanted:g} is treated as {hz:.0f}",
-    do="Keep the decimals of the rate on its way from the parameter to the timer.",
+    do="Keep the rate's decimals all the way from the parameter to the timer.",
     example=in_run(Symptom.WRONG_RATE, parameter="tempo", wanted_hz=1.5, rate=Rate(1.0, 5, 4.0)),
 )
 def whole_rate(case: Case) -> Iterator[Found]:
     """A rate is cut to a whole number.
 
-    int(), round() and // throw decimals away: 1.5 Hz becomes 1 or 2, and 0.75 Hz becomes 0 or 1.
+    int(), round() and // discard decimals: 1.5 Hz becomes 1 or 2, and 0.75 Hz becomes 0 or 1.
 
     Bad:
 
@@ -143,13 +144,13 @@ def whole_rate(case: Case) -> Iterator[Found]:
     explains=[Symptom.WRONG_RATE],
     evidence=Evidence.SYMPTOM,
     says="{name} changes, but the timer keeps the period that it was made with",
-    do="When the rate has changed, cancel the timer and make one with the new period.",
+    do="When the rate changes, cancel the timer and make one with the new period.",
     example=in_run(Symptom.WRONG_RATE, parameter="tempo", unchanged=True, at_start=False),
 )
 def not_replaced(case: Case) -> Iterator[Found]:
     """A timer keeps its old period.
 
-    A timer takes its period when it is made. A parameter that changes later does not reach it, unless a parameter
+    A timer takes its period when it is made. A parameter that changes later does not reach it unless a parameter
     callback makes a new timer, or sets the period of this one.
 
     Bad:
@@ -177,11 +178,11 @@ def not_replaced(case: Case) -> Iterator[Found]:
     explains=[Symptom.WRONG_RATE],
     evidence=Evidence.SYMPTOM,
     says="{name} given at start-up does not change the rate",
-    do="Follow the value from the declaration to create_timer, and see where another one is used.",
+    do="Follow the value from the declaration to create_timer, and see where another value is used.",
     example=in_run(Symptom.WRONG_RATE, parameter="tempo", unchanged=True),
 )
 def rate_ignored(case: Case) -> Iterator[Found]:
-    """A rate is declared, and not used.
+    """A rate is declared, but not used.
 
     A parameter does nothing by itself: its value has to be read after the declaration, and given to the timer as a
     period.

@@ -30,15 +30,15 @@ def periods(file: NodeFile) -> Iterator[ast.expr]:
     "rate-used-as-a-period",
     explains=[Symptom.WRONG_RATE],
     evidence=Evidence.RUN,
-    says="{name} is a rate in Hz, but the timer waits that many seconds: a higher rate gives fewer messages",
-    do="Give the timer the period that belongs to the rate; look at its unit in create_timer's documentation.",
+    says="{name} is a rate in Hz, but the timer waits that many seconds, so a higher rate gives fewer messages",
+    do="Give the timer the period that belongs to this rate: create_timer takes seconds between two calls.",
     example=in_run(Symptom.WRONG_RATE, parameter="blinks_per_second", unit="Hz", inverted=True),
 )
 def rate_as_period(case: Case) -> Iterator[Found]:
     """A rate in Hz is given to a timer, which takes seconds.
 
     create_timer takes a period: the time between two calls, in seconds. A rate says how many calls fit into a second.
-    One is 1 divided by the other, so at 1 Hz nobody sees the difference, and at 5 Hz the timer fires every 5 seconds.
+    One is 1 divided by the other, so at 1 Hz nobody sees a difference, but at 5 Hz the timer fires every 5 seconds.
 
     Bad:
 
@@ -58,15 +58,15 @@ def rate_as_period(case: Case) -> Iterator[Found]:
     "period-used-as-a-rate",
     explains=[Symptom.WRONG_RATE],
     evidence=Evidence.RUN,
-    says="{name} is a period, but the node publishes that many times a second: a longer period gives more messages",
+    says="{name} is a period, but the node publishes that many times a second, so a longer period gives more messages",
     do="Give the timer this period as it is, in seconds.",
     example=in_run(Symptom.WRONG_RATE, parameter="seconds_between_blinks", unit="s", inverted=True),
 )
 def period_as_rate(case: Case) -> Iterator[Found]:
     """A period is treated as if it were a rate.
 
-    The name of the parameter promises a time between two messages, and the node divides by it once too often. At 1
-    second nobody sees the difference.
+    The parameter's name promises the time between two messages, but the node divides by it once too often. At 1 second,
+    nobody sees a difference.
 
     Bad:
 
@@ -91,7 +91,7 @@ def period_as_rate(case: Case) -> Iterator[Found]:
 def whole_number_period(case: Case) -> Iterator[Found]:
     """A timer's period is cut to whole seconds.
 
-    A period is a number of seconds, and most rates give a fraction of one. Whole-number division and int() throw the
+    A period is a number of seconds, and most rates give a fraction of one. Integer division and int() throw the
     fraction away, and a period of 0 makes a timer fire as fast as it can.
 
     Bad:
@@ -119,8 +119,8 @@ def whole_number_period(case: Case) -> Iterator[Found]:
 def period_in_another_unit(case: Case) -> Iterator[Found]:
     """A timer's period is in milliseconds, or in another unit.
 
-    create_timer takes seconds, as a number with decimals. rclcpp's 500ms and other libraries' milliseconds become 0.5.
-    Only the attribute timer_period_ns of a timer is in nanoseconds, of which a second has 1,000,000,000.
+    create_timer takes seconds, as a number with decimals: rclcpp's 500ms becomes 0.5. Only a timer's attribute
+    timer_period_ns is in nanoseconds, of which a second has 1,000,000,000.
 
     Bad:
 
@@ -150,14 +150,14 @@ def period_in_another_unit(case: Case) -> Iterator[Found]:
 @mistake(
     "no-such-attribute-of-a-timer",
     explains=_RATES,
-    says="{line} sets an attribute that a timer does not have, so Python makes a new one that nothing reads: {code}",
-    do="Cancel the timer and make one with the new period, or set the attribute that a timer does have.",
+    says="{line} sets an attribute that timers do not have, so Python makes a new one that nothing reads: {code}",
+    do="Cancel the timer and make one with the new period, or set the attribute that timers do have for it.",
 )
 def period_attribute(case: Case) -> Iterator[Found]:
     """The period of a timer is set by an attribute that it does not have.
 
-    A timer's period is timer_period_ns, a whole number of nanoseconds. Python lets any other attribute be assigned, and
-    keeps it where nobody looks.
+    A timer's period is timer_period_ns, a whole number of nanoseconds. Python lets you assign any other attribute, too,
+    and keeps it where nothing looks.
 
     Bad:
 

@@ -26,8 +26,8 @@ _TOO_FEW = (Symptom.NO_MESSAGES, Symptom.WRONG_RATE, Symptom.STANDS_STILL, Sympt
 def old_timer_kept(case: Case) -> Iterator[Found]:
     """A timer that is replaced runs on until it is cancelled.
 
-    The node keeps every timer that it has made; giving the name to another one does not stop the first. Their messages
-    add up: a forgotten timer of 1 Hz beside a new one of 10 Hz measures 11 Hz.
+    The node keeps every timer that it has made; giving the name to another timer does not stop the first. Their
+    messages add up: a forgotten 1 Hz timer beside a new one of 10 Hz measures 11 Hz.
 
     Bad:
 
@@ -74,14 +74,14 @@ def old_timer_kept(case: Case) -> Iterator[Found]:
 @mistake(
     "two-timers",
     explains=(*_TOO_MANY, Symptom.STANDS_STILL),
-    says="{line} makes a timer, and line {other} another one with the same callback: both call it",
+    says="{line} makes a timer, and line {other} another with the same callback, so both call it",
     do="Keep one of the two timers.",
 )
 def two_timers(case: Case) -> Iterator[Found]:
     """Two timers call one callback.
 
     Each create_timer makes a timer that runs from then on. A second one with the same callback doubles the rate, or
-    mixes a fixed one with the one that was asked for; the timer of a tutorial is easily left behind.
+    mixes a fixed rate with the one that was asked for; a tutorial's timer is easily left behind.
 
     Bad:
 
@@ -112,14 +112,14 @@ def two_timers(case: Case) -> Iterator[Found]:
 @mistake(
     "several-timers",
     explains=_TOO_MANY,
-    says="the loop in line {loop} makes a timer each time, and each of them calls the callback at the full rate",
+    says="the loop in line {loop} makes a timer in each round, and each of them calls the callback at the full rate",
     do="Make one timer, outside the loop.",
 )
 def several_timers(case: Case) -> Iterator[Found]:
     """A loop makes several timers.
 
-    A timer made for each room, sensor or name calls its callback at the whole rate. One timer whose callback goes
-    through them all keeps the rate that was asked for.
+    A timer for each room, sensor or name calls its callback at the full rate. One timer whose callback goes through
+    them all keeps the rate that was asked for.
 
     Bad:
 
@@ -148,15 +148,15 @@ def several_timers(case: Case) -> Iterator[Found]:
     "messages-in-bursts",
     explains=[Symptom.WRONG_RATE],
     evidence=Evidence.SYMPTOM,
-    says="several messages are sent at once, then none for a while: that is no rate",
-    do="Send one message in each call of the timer's callback.",
+    says="several messages are sent at once, then none for a while",
+    do="Send one message in each call of the timer's callback, and leave the pace to the timer.",
     example=in_run(Symptom.WRONG_RATE, rate=Rate(5.0, 10, 1.8, 0.001)),
 )
 def bursts(case: Case) -> Iterator[Found]:
     """Messages are sent in bursts.
 
-    A rate of 5 Hz means a message every 0.2 seconds, not five at the beginning of each second. Bursts overflow queues
-    of small depth, and whoever listens sees nothing in between.
+    A rate of 5 Hz means a message every 0.2 seconds, not five at the beginning of each second. Bursts overflow short
+    queues, and whoever listens sees nothing in between.
 
     Bad:
 
@@ -169,7 +169,7 @@ def bursts(case: Case) -> Iterator[Found]:
         def blink(self):
             self.lamp.publish(Bool(data=True))
 
-    See it: `ros2 topic hz TOPIC`: the smallest gap is next to zero.
+    See it: `ros2 topic hz TOPIC`: the smallest gap is close to zero.
     """
     rate = case.about("rate")
     if rate is not None and rate.in_bursts:
@@ -179,13 +179,13 @@ def bursts(case: Case) -> Iterator[Found]:
 @mistake(
     "timer-not-started",
     explains=_TOO_FEW,
-    says="{line} makes a timer that does not start by itself (autostart is False), and nothing starts it",
-    do="Let the timer start by itself, or call its reset() when it should begin.",
+    says="{line} makes a timer that does not start on its own (autostart is False), and nothing starts it",
+    do="Let the timer start on its own, or call its reset() when it should begin.",
 )
 def timer_not_started(case: Case) -> Iterator[Found]:
     """A timer is made with autostart=False, and nothing starts it.
 
-    Such a timer waits until its reset() is called. It is meant for timers that are made early and needed later.
+    Such a timer waits until its reset() is called. That is meant for timers that are made early and needed later.
 
     Bad:
 
@@ -196,7 +196,7 @@ def timer_not_started(case: Case) -> Iterator[Found]:
         self.lamp = self.create_timer(0.5, self.blink, autostart=False)
         self.lamp.reset()
 
-    See it: the callback never logs a thing.
+    See it: the callback never logs anything.
     """
     for file in case.files:
         resets = {ast.unparse(call.func) for call in file.calls("reset")}
@@ -215,8 +215,8 @@ def timer_not_started(case: Case) -> Iterator[Found]:
 def self_cancelling(case: Case) -> Iterator[Found]:
     """A timer ends itself.
 
-    cancel() and destroy_timer() stop a timer for good. In its own callback they make a timer that fires once, or a few
-    times.
+    cancel() stops a timer until its reset() is called, and destroy_timer() stops it for good. In its own callback, they
+    make a timer that fires once, or a few times.
 
     Bad:
 
@@ -255,8 +255,8 @@ def self_cancelling(case: Case) -> Iterator[Found]:
 def simulated_time(case: Case) -> Iterator[Found]:
     """Timers wait for the clock of a simulator.
 
-    With the parameter use_sim_time, a node takes its time from the topic /clock. While nobody publishes there, its time
-    stands still at 0, and no timer is ever due.
+    With the parameter use_sim_time, a node takes its time from the topic /clock. While nobody publishes there, its
+    clock stands still at 0, and no timer is ever due.
 
     Bad:
 

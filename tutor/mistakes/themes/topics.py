@@ -46,10 +46,10 @@ def _endpoint_graph(*, topic: str = "/horn", type: str = "std_msgs/msg/Bool") ->
     example=in_run(Symptom.NO_MESSAGES, graph=_endpoint_graph(), topic="/horn", type="std_msgs/msg/String"),
 )
 def wrong_type(case: Case) -> Iterator[Found]:
-    """The right topic, with another type.
+    """The topic is right, but its type is not.
 
-    A publisher and a subscription meet only if their types are the same: package and name. Types with equal fields, or
-    equal names in two packages, are still different types.
+    A publisher and a subscription meet only if their types are the same, package and name. Types with the same fields,
+    or the same name in two packages, are still different types.
 
     Bad:
 
@@ -78,10 +78,10 @@ def wrong_type(case: Case) -> Iterator[Found]:
     example=in_run(Symptom.NO_MESSAGES, graph=_endpoint_graph(topic="/horns"), topic="/horn", type="std_msgs/msg/Bool"),
 )
 def wrong_topic(case: Case) -> Iterator[Found]:
-    """The right type, under another name.
+    """The type is right, but the name is not.
 
-    Names are compared letter by letter. Without a slash in front, a name is relative: the node's namespace comes before
-    it; with a ~ in front, the node's name as well. Two names that differ are two topics, and ROS does not complain.
+    Names are compared letter by letter. Without a leading slash, a name is relative: the node's namespace comes before
+    it; with a leading ~, so does the node's name. Two names that differ are two topics, and ROS does not complain.
 
     Bad:
 
@@ -131,8 +131,8 @@ def name_difference(given: str, wanted: str) -> str:
 def no_publisher(case: Case) -> Iterator[Found]:
     """A node has no publisher on the topic.
 
-    A topic exists once somebody publishes or subscribes. create_publisher has to be called, with the type and the name,
-    while the node is set up.
+    A topic exists once some node publishes or subscribes. create_publisher has to be called, with the type and the
+    name, while the node is set up.
 
     Bad:
 
@@ -162,8 +162,8 @@ def no_publisher(case: Case) -> Iterator[Found]:
 def subscription_destroyed(case: Case) -> Iterator[Found]:
     """A node gives up its subscription.
 
-    A subscription lives until it is destroyed, whoever publishes. It needs no renewal when a publisher goes: the next
-    one is found by itself.
+    A subscription lives until it is destroyed, whoever publishes. It needs no renewal when a publisher goes away: the
+    next one is found automatically.
 
     Bad:
 
@@ -218,13 +218,13 @@ def no_subscription(case: Case) -> Iterator[Found]:
     "nothing-calls-publish",
     explains=[Symptom.NO_MESSAGES],
     says="{line} makes a publisher, and {what}: {code}",
-    do="Let a timer call a method that publishes, again and again.",
+    do="Let a timer call the method that publishes, again and again.",
 )
 def unused_publisher(case: Case) -> Iterator[Found]:
-    """A publisher is made, and never used.
+    """A publisher is made, but never used.
 
     create_publisher only announces that messages may come. Each message takes a call of publish(), and something has to
-    make that call: a timer, a subscription, a service.
+    make that call: the callback of a timer, a subscription or a service.
 
     Bad:
 
