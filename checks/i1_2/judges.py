@@ -18,7 +18,7 @@ from checks.i1_2.faults import (
 )
 from checks.i1_2.reading import parse_log
 from checks.i1_2.summaries import Summary, count_complete, find_summaries, possible_totals
-from checks.i1_2.totals import counts_truly, total_as_rate, true_total
+from checks.i1_2.totals import counts_truly, may_lack_lost_messages, total_as_rate, true_total
 from tutor.judge import ending
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import LogRecord
@@ -61,6 +61,8 @@ def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
         return skipped(NO_SUMMARY)
     seen = [(trial, summary) for trial in (steady, jump) for summary in find_summaries(trial)]
     wrong = [(trial, summary) for trial, summary in seen if not true_total(summary, trial)]
+    if wrong and all(may_lack_lost_messages(summary, trial) for trial, summary in wrong):
+        return undecided("to tell whether the node lost messages")
     if wrong:
         trial, summary = wrong[-1]  # after the jump, N and the count differ most, so that the cause is clearest
         return failed(

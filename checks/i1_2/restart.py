@@ -11,7 +11,7 @@ from checks.i1_2.faults import EVERY_MESSAGE, Fault, ended, too_many, wrong_log
 from checks.i1_2.judges import NO_SUMMARY, judge_slow_summary
 from checks.i1_2.reports import new_lines
 from checks.i1_2.summaries import Summary, find_summaries
-from checks.i1_2.totals import counts_truly, true_total
+from checks.i1_2.totals import counts_truly, may_lack_lost_messages, true_total
 from tutor.judge.symptom import Symptom
 from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
 from tutor.judge.wording import output_tail
@@ -61,7 +61,7 @@ def judge_new_publisher(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
         restarted = true_total(summary, restart, before=before)
         if restarted and reports:
             continue
-        if not restarted and _may_lack_lost_messages(summary, restart):
+        if not restarted and may_lack_lost_messages(summary, restart, starts=(0, before)):
             return undecided("to tell whether the node lost messages")
         fault: Fault = (
             {"fault": "starts-over-silently", "restarted": restarted, "messages": summary.messages}
@@ -76,13 +76,6 @@ def judge_new_publisher(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
     if judge_slow_summary(steady, jump).passed and (changed := _find_fault(after, restart, steady)):
         return failed(expected, observed, wrong_log(restart.trace, changed), evidence)
     return passed(expected, observed, [*evidence, *reports[:2]])
-
-
-def _may_lack_lost_messages(summary: Summary, restart: Trial) -> bool:
-    """Whether a summary states one message fewer, or two, which a node that keeps one may have lost on this machine."""
-    fewer = {summary.messages - start - lost for start in (0, restart.before_break) for lost in (1, 2)}
-    hurried = any(restart.was_hurried(messages) for messages in range(1, summary.messages + 1))
-    return hurried and any(total > 0 and summary.states(total) for total in fewer)
 
 
 def _find_fault(after: Sequence[Summary], restart: Trial, steady: Trial) -> Fault | None:

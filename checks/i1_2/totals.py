@@ -31,6 +31,16 @@ def true_total(summary: Summary, trial: Trial, *, before: int = 0) -> int:
     return next((t for t in held_back if _is_made_after(before + t, summary, trial, before=before)), 0)
 
 
+def may_lack_lost_messages(summary: Summary, trial: Trial, *, starts: tuple[int, ...] = (0,)) -> bool:
+    """Whether a summary states one message fewer, or two, which a node that keeps one may have lost on this machine.
+
+    `starts`: how many messages had come when the node may have begun to count.
+    """
+    fewer = {summary.messages - start - lost for start in starts for lost in (1, 2)}
+    hurried = any(trial.was_hurried(messages) for messages in range(1, summary.messages + 1))
+    return hurried and any(total > 0 and summary.states(total) for total in fewer)
+
+
 def total_as_rate(summary: Summary, trial: Trial) -> Number | None:
     """The number that states the true total, if its unit says that it is a rate; None if another one states it, too."""
     stating = [number for number in summary.numbers if true_total(summary, trial) in number.values]

@@ -1426,6 +1426,16 @@ def test_a_message_that_a_node_may_have_lost_before_a_restart_is_undecided() -> 
     assert_undecided(judge_new_publisher(starved, *others))
 
 
+def test_a_count_of_one_fewer_is_undecided_where_the_node_may_have_lost_that_message() -> None:
+    steady_trial, jump_trial = steady(FakeStats()), jump(LosesOne())
+    assert_failed(judges.judge_slow_count(steady_trial, jump_trial), "off by one")
+    assert_failed(judges.judge_slow_count(steady_trial, with_delays(jump_trial, 100, cpu_wait_s=0.02)), "off by one")
+    starved = with_delays(jump_trial, 100, cpu_wait_s=0.1)
+    assert_undecided(judges.judge_slow_count(steady_trial, starved))
+    always = steady(CountsOneTooFew()), with_delays(jump(CountsOneTooFew()), 100, cpu_wait_s=0.1)
+    assert_failed(judges.judge_slow_count(*always), "off by one")
+
+
 @pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])
 def test_a_warning_about_one_gap_does_not_cover_the_other(cpu_wait_s: float) -> None:
     jump_trial = jump_twice(SkipsTheFirstGap(), cpu_wait_s=cpu_wait_s)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import re
 import signal
+import socket
+import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -14,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from tests.process.conftest import LIMIT_S, until
-from tutor.process import LearnerProcess, fork_link
+from tutor.process import LearnerProcess, fork_link, supervisor
 from tutor.process.fork_link import ForkedSupervisor, ForkServerLink
 
 PACKAGE = {
@@ -331,6 +333,21 @@ async def test_programs_start_without_a_server_that_is_gone_or_hangs(
         process.interrupt()
         assert await process.wait(LIMIT_S) is not None
     assert not process.survivors()
+
+
+def test_a_supervisor_that_was_given_up_writes_nothing_into_the_programs_output() -> None:
+    ours, theirs = socket.socketpair()
+    theirs.send(b"4711")  # its pid: we close our end before we read it, as after a fork that takes too long
+    with theirs:
+        process = subprocess.Popen(
+            [sys.executable, "-I", "-S", supervisor.__file__, str(theirs.fileno()), str(os.getpid())],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            pass_fds=(theirs.fileno(),),
+        )
+    ours.close()
+    assert process.communicate(timeout=LIMIT_S) == (b"", None)
+    assert process.returncode == 0
 
 
 async def test_the_end_of_the_owner_ends_what_was_forked(programs: Programs) -> None:

@@ -232,9 +232,7 @@ class RosRun:
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         over = asyncio.Event()
-        echoing = asyncio.ensure_future(
-            echo.echo_topic(self._domain_id, topic, samples=samples, limit_s=limit_s, over=over)
-        )
+        echoing = asyncio.ensure_future(echo.echo_topic(self._domain_id, topic, samples=samples, over=over))
         echoing.add_done_callback(lambda _: self._facts.notify())
         try:
             await self.until(echoing.done, limit_s, idle_s=RESENT_S)

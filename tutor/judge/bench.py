@@ -151,7 +151,10 @@ class Run(Protocol):
         """
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
-        """Subscribe as `ros2 topic echo` does: a separate participant that takes type and QoS from the publishers."""
+        """Subscribe as `ros2 topic echo` does: a separate participant that takes type and QoS from the publishers.
+
+        It looks for up to `limit_s` seconds, longer while the machine lets neither the node nor us run.
+        """
 
     async def interrupt(self, limit_s: float = 5.0) -> Ending | None:
         """Press Ctrl+C (SIGINT to the process group), wait for the process to end, and record what it leaves behind.

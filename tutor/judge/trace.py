@@ -133,7 +133,10 @@ class ServedRequest:
 
 @dataclass(frozen=True, slots=True)
 class Echo:
-    """What `ros2 topic echo` would have shown. `types`: all types on the topic; with more than one, echo refuses."""
+    """What `ros2 topic echo` would have shown. `types`: all types on the topic; with more than one, echo refuses.
+
+    `limit_s`: how long it looked, in seconds.
+    """
 
     topic: str
     types: tuple[str, ...]

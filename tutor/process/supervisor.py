@@ -192,7 +192,10 @@ class Supervisor:
     def _read_request(self) -> list[bytes] | None:
         data = b""
         while len(data) < 8 or len(data) < 8 + int(data[:8]):
-            more = os.read(self._control, 1 << 16)
+            try:
+                more = os.read(self._control, 1 << 16)
+            except ConnectionResetError:  # it has given us up, and closed its end before it read our pid
+                return None
             if not more:
                 return None
             data += more

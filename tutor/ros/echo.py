@@ -11,21 +11,17 @@ from tutor.ros.qos import from_rclpy
 from tutor.ros_model import QoS, echo_qos
 
 
-async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float, over: asyncio.Event) -> Echo:
-    """Join as a new participant, choose type and QoS, and collect `samples` messages of `topic` for up to `limit_s`.
-
-    Returns early if `over` is set, since nothing more is to come then.
-    """
+async def echo_topic(domain_id: int, topic: str, *, samples: int, over: asyncio.Event) -> Echo:
+    """Join as a new participant, choose type and QoS, and collect `samples` messages of `topic` until `over` is set."""
     changed = asyncio.Event()
     observer = Observer(domain_id, changed.set)
     loop = asyncio.get_running_loop()
     began, ending = loop.time(), asyncio.ensure_future(over.wait())
-    deadline = began + limit_s
     ending.add_done_callback(lambda _: changed.set())
     try:
         types: tuple[str, ...] = ()
         qos = QoS()
-        while loop.time() < deadline and not over.is_set():
+        while not over.is_set():
             publishers = observer.node.get_publishers_info_by_topic(topic)
             types = tuple(sorted({info.topic_type for info in publishers}))
             if publishers:
@@ -37,24 +33,11 @@ async def echo_topic(domain_id: int, topic: str, *, samples: int, limit_s: float
                 observer.watch(topic, types[0], qos)
             except UnknownType:
                 types = ()
-        while (
-            topic in observer.samples
-            and len(observer.samples[topic]) < samples
-            and loop.time() < deadline
-            and not over.is_set()
-        ):
+        while topic in observer.samples and len(observer.samples[topic]) < samples and not over.is_set():
             changed.clear()
-            try:
-                await asyncio.wait_for(changed.wait(), deadline - loop.time())
-            except TimeoutError:
-                break
-        return Echo(
-            topic=topic,
-            types=types,
-            qos=qos,
-            samples=tuple(observer.samples.get(topic, ())),
-            limit_s=round(loop.time() - began, 1) if over.is_set() else limit_s,
-        )
+            await changed.wait()
+        shown = tuple(observer.samples.get(topic, ()))
+        return Echo(topic=topic, types=types, qos=qos, samples=shown, limit_s=round(loop.time() - began, 1))
     finally:
         ending.cancel()
         observer.close()
