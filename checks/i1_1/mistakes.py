@@ -22,15 +22,15 @@ _DRAWING = ("uniform", "random", "randint", "randrange", "gauss", "normalvariate
     name="an int in a float field",
     explains=[Symptom.WRONG_VALUES],
     evidence=Evidence.RUN,
-    says="the field is a float, and got something else, such as an int: its bits are read wrongly",
+    says="a field that takes a float is given something else, such as an int, whose bits are then read wrongly",
     do="Make it a Python float before it goes into the message.",
     example=in_run(Symptom.WRONG_VALUES, wrong=(4e-323,)),
 )
 def int_in_float(case: Case) -> Iterator[Found]:
-    """A float field gets something else than a float.
+    """A float field is given something that is not a float.
 
-    The wheels are built without assertions: rclpy takes an int, or numpy's float32, for the bits of a float, and
-    sends a number next to 0. A ROS with assertions stops with "must be of type 'float'".
+    Without assertions, as in the wheels that ros-tutor brings, rclpy reads an int, or numpy's float32, as if it were
+    the bits of a float, and sends a number close to 0. A ROS with assertions stops with "must be of type 'float'".
 
     Bad:
 
@@ -50,15 +50,15 @@ def int_in_float(case: Case) -> Iterator[Found]:
 @CATALOGUE.mistake(
     "initial-value-out-of-range",
     explains=[Symptom.WRONG_VALUES],
-    says="{line}: the node starts with {value:g}, and publishes it before it has drawn a value: {code}",
-    do="Draw a value before the first message, or begin with one from the range.",
+    says="{line}: the node starts with {value:g}, and publishes it before it draws a value: {code}",
+    do="Draw a value before the first message, or start with one from the range.",
     example=in_run(Symptom.WRONG_VALUES, wrong=(0.0, 0.0)),
 )
 def initial_value(case: Case) -> Iterator[Found]:
-    """A node publishes the value that it began with.
+    """A node publishes the value that it started with.
 
-    An attribute has its first value until something sets another one. If the message goes out before that, it carries
-    the first.
+    An attribute keeps its first value until something sets another. A message that goes out before that carries the
+    first value.
 
     Bad:
 
@@ -95,14 +95,14 @@ def _is_set_to(node: ast.Assign, value: float) -> bool:
     explains=[Symptom.WRONG_VALUES],
     evidence=Evidence.SYMPTOM,
     says="{what}",
-    do="Look at how a value is drawn, and which numbers that can give.",
+    do="Look at how a value is drawn, and at which numbers that can give.",
     example=in_run(Symptom.WRONG_VALUES, wrong=(75.0,), lowest=3.0, highest=5.0, fahrenheit=True),
 )
 def out_of_range(case: Case) -> Iterator[Found]:
     """Values leave the range.
 
-    random.random() gives 0 to 1, random.gauss() any number; random.uniform(a, b) stays between a and b. An offset, or a
-    unit (Fahrenheit for Celsius), moves all of them.
+    random.random() gives 0 to 1, random.gauss() any number; random.uniform(a, b) stays between a and b. An offset, or
+    another unit (Fahrenheit for Celsius), moves all of them.
 
     Bad:
 
@@ -146,7 +146,7 @@ def _draws_in(file: NodeFile, functions: list[ast.FunctionDef | ast.AsyncFunctio
     "constant-value",
     explains=[Symptom.WRONG_VALUES],
     evidence=Evidence.RUN,
-    says="{text}: a value that is drawn once, or seeded alike each time, is the same in every message",
+    says="{text}: a value that is drawn once, or drawn with the same seed each time, is the same in every message",
     do="Draw a new value for every message, where the message is made.",
     example=in_run(Symptom.WRONG_VALUES, pattern=Pattern("constant value", "all 8 values are 23.4")),
 )
@@ -175,14 +175,14 @@ def constant(case: Case) -> Iterator[Found]:
     "ramp",
     explains=[Symptom.WRONG_VALUES],
     evidence=Evidence.RUN,
-    says="{text}: that is a ramp, and no random value",
-    do="Draw each value by itself, and do not compute it from the one before.",
+    says="{text}: that is a ramp, not a random value",
+    do="Draw each value afresh, instead of computing it from the one before.",
     example=in_run(Symptom.WRONG_VALUES, pattern=Pattern("ramp", "each value is the one before it +0.5")),
 )
 def ramp(case: Case) -> Iterator[Found]:
     """Values go up or down in steps.
 
-    A value that is computed from the one before, from a counter or from the clock can be foretold. Random values jump.
+    A value that is computed from the one before, from a counter or from the clock is predictable. Random values jump.
 
     Bad:
 
@@ -209,7 +209,7 @@ def ramp(case: Case) -> Iterator[Found]:
 def cycle(case: Case) -> Iterator[Found]:
     """The same values come again and again.
 
-    A list that is gone through, a sine, or a few numbers that were drawn at the start repeat themselves.
+    A list that the node goes through, a sine, or a few numbers that were drawn at the start repeat themselves.
 
     Bad:
 
@@ -231,13 +231,14 @@ def cycle(case: Case) -> Iterator[Found]:
     explains=[Symptom.NO_MESSAGES],
     evidence=Evidence.RUN,
     says="{topic} carries two types, {types}: a tool that takes the type from the topic cannot choose",
-    do="Let everything on this topic have the type that is asked for.",
+    do="Give everything on this topic the type that is asked for.",
     example=in_run(Symptom.NO_MESSAGES, topic="/ring", types=("std_msgs/msg/Bool", "std_msgs/msg/String")),
 )
 def two_types(case: Case) -> Iterator[Found]:
     """Two types are on one topic.
 
-    Publishers and subscriptions with one name and two types never meet, and `ros2 topic echo` refuses to choose.
+    Publishers and subscriptions of two types never meet, even if the name is the same, and `ros2 topic echo` refuses to
+    choose.
 
     Bad:
 
@@ -267,8 +268,8 @@ def two_types(case: Case) -> Iterator[Found]:
 def stops(case: Case) -> Iterator[Found]:
     """A node stops publishing.
 
-    One message from __init__, or a few, are gone before anybody listens. What is to be there for everyone who comes
-    later has to be sent again and again.
+    One message from __init__, or a few, are gone before anybody listens. What should be there for whoever comes later
+    has to be sent again and again.
 
     Bad:
 

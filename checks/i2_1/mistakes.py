@@ -20,14 +20,14 @@ def _seen(case: Case, how: str) -> Iterator[Found]:
     "does-not-resume",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
-    says="{name} stops the messages, and set to true again it does not bring them back",
+    says="{name} stops the messages, but does not bring them back when it is set to true again",
     do="Let one timer run all the time, and let its callback decide whether to publish.",
     example=in_run(Symptom.CHANGE_IGNORED, parameter="ringing", how="does not resume"),
 )
 def does_not_resume(case: Case) -> Iterator[Found]:
     """What was switched off does not come back.
 
-    A timer that was cancelled stays cancelled until reset() is called; a thread that has ended cannot be started
+    A timer that was cancelled stays cancelled until reset() is called, and a thread that has ended cannot be started
     again. A test in the callback has no such state.
 
     Bad:
@@ -50,14 +50,14 @@ def does_not_resume(case: Case) -> Iterator[Found]:
     "value-inverted",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.RUN,
-    says="{name} set to true stops the messages, and set to true once more it brings them back",
+    says="setting {name} to true stops the messages, and setting it to true once more brings them back",
     do="Use the value that is set, not the opposite of the one before.",
     example=in_run(Symptom.CHANGE_IGNORED, parameter="ringing", how="inverted"),
 )
 def inverted(case: Case) -> Iterator[Found]:
-    """Each set turns the value round.
+    """Each set flips the value.
 
-    Setting a parameter says what it shall be. A callback that toggles an attribute is right only as long as every set
+    Setting a parameter says what it should be. A callback that toggles an attribute is right only as long as every set
     is a change.
 
     Bad:
@@ -84,8 +84,8 @@ def inverted(case: Case) -> Iterator[Found]:
 def stops(case: Case) -> Iterator[Found]:
     """Setting a parameter ends the messages.
 
-    A parameter callback is called for every change. One that cancels a timer, or raises an exception, whatever has
-    changed, ends more than it should.
+    A parameter callback is called for every change. If it cancels a timer, or raises an exception, whatever has
+    changed, it ends more than it should.
 
     Bad:
 
@@ -113,10 +113,10 @@ def stops(case: Case) -> Iterator[Found]:
     example=in_run(Symptom.CHANGE_IGNORED, parameter="tempo", how="restarts"),
 )
 def restarted(case: Case) -> Iterator[Found]:
-    """One parameter undoes another one.
+    """One parameter undoes another.
 
-    A new timer runs from the moment it is made. Where "off" means that there is no timer, making one for a new rate
-    means "on".
+    A new timer runs from the moment it is made. If "off" means that there is no timer, making one for a new rate means
+    "on".
 
     Bad:
 
@@ -138,13 +138,13 @@ def restarted(case: Case) -> Iterator[Found]:
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
     says="the new value of {name} is shown, and the old one beside it",
-    do="Put the new value in the place of the old one.",
+    do="Let the new value replace the old one.",
     example=in_run(Symptom.CHANGE_IGNORED, parameter="greeting", how="adds"),
 )
 def added(case: Case) -> Iterator[Found]:
     """A new value is added to the old one.
 
-    A set replaces the value. What is built from it, such as a text, has to be built again from the new one alone.
+    A set replaces the value. What is built from it, such as a text, has to be rebuilt from the new value alone.
 
     Bad:
 
@@ -163,8 +163,8 @@ def added(case: Case) -> Iterator[Found]:
     "messages-held-back",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
-    says="what was due while {name} was false is kept, and sent all at once when it is true again",
-    do="Leave out what is due while it is switched off.",
+    says="what was due while {name} was false is kept, and sent all at once when {name} is true again",
+    do="Skip what is due while it is switched off.",
     example=in_run(Symptom.CHANGE_IGNORED, parameter="ringing", how="held back"),
 )
 def held_back(case: Case) -> Iterator[Found]:
@@ -190,14 +190,14 @@ def held_back(case: Case) -> Iterator[Found]:
     "rate-changed-by-another-parameter",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
-    says="the rate is another one after parameters were set that have nothing to do with it",
+    says="the rate has changed after parameters were set that have nothing to do with it",
     do="Make a new timer only when the rate itself has changed, and cancel the old one.",
     example=in_run(Symptom.CHANGE_IGNORED, parameter="ringing", how="rate changed"),
 )
 def rate_changed(case: Case) -> Iterator[Found]:
     """Setting one parameter changes the rate.
 
-    A parameter callback that makes a timer whatever has changed leaves one more behind each time, or begins with
+    A parameter callback that makes a timer whatever has changed leaves another one behind each time, or gives it
     another period.
 
     Bad:

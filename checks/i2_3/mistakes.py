@@ -17,15 +17,15 @@ _SHORT, _LONG = 1.0, 5.0
     "ticks-in-a-burst",
     explains=[Symptom.STANDS_STILL],
     evidence=Evidence.RUN,
-    says="around a call, more ticks are logged than the timer makes",
-    do="Log ticks in the timer's callback only, and do not make up for missed ones.",
+    says="around a call, more ticks are logged than the timer can make",
+    do="Log ticks only in the timer's callback, and do not make up for missed ones.",
     example=in_run(Symptom.STANDS_STILL, pace="fast", stops=False),
 )
 def burst(case: Case) -> Iterator[Found]:
     """More ticks are logged than the timer makes.
 
-    A timer that could not run does not catch up: ticks that were missed are gone. Messages that make up for them, or
-    that other code logs in the timer's words, hide that the timer stood still.
+    A timer that could not run does not catch up: missed ticks are gone. Messages that make up for them, or that other
+    code logs in the timer's name, hide that the timer stood still.
 
     Bad:
 
@@ -48,14 +48,14 @@ def burst(case: Case) -> Iterator[Found]:
     "slowed-timer",
     explains=[Symptom.STANDS_STILL],
     evidence=Evidence.RUN,
-    says="the timer ticks during a call, but not as often as outside one",
+    says="the timer ticks during a call, but less often than outside one",
     do="Let the service's callback sleep rather than compute, and share nothing with the timer while it does.",
     example=in_run(Symptom.STANDS_STILL, pace="slow", stops=False),
 )
 def slowed(case: Case) -> Iterator[Found]:
     """A timer loses ticks while other work goes on.
 
-    Python runs one thread at a time. Work that computes without a pause, or threads that take turns with the timer,
+    Python runs one thread at a time. Work that computes without a pause, or threads that take turns with the timer's,
     leave it fewer chances to run than it needs.
 
     Bad:
@@ -82,10 +82,10 @@ def slowed(case: Case) -> Iterator[Found]:
     example=in_run(Symptom.STANDS_STILL, pace="pauses", pause_s=1.2, stops=False),
 )
 def pauses(case: Case) -> Iterator[Found]:
-    """A timer pauses for a part of a call.
+    """A timer pauses for part of a call.
 
-    Two callbacks that may run side by side still wait for each other where they share a lock, or where one waits for
-    what the other does.
+    Two callbacks that may run side by side still wait for each other if they share a lock, or if one waits for what the
+    other does.
 
     Bad:
 
@@ -109,14 +109,14 @@ def pauses(case: Case) -> Iterator[Found]:
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.SYMPTOM,
     says="the work takes {took_s:.1f} s, not {wanted_s:g} s",
-    do="Look at how long the callback waits before it answers, and in which unit.",
+    do="Look at how long the callback waits before it answers, and in which unit that is.",
     example=in_run(Symptom.WRONG_ANSWER, took_s=_SHORT, wanted_s=_LONG),
 )
 def wrong_duration(case: Case) -> Iterator[Found]:
-    """A callback takes another time than it should.
+    """A callback takes longer, or less long, than it should.
 
-    time.sleep() takes seconds. An Event that is already set returns from wait() at once; a loop of short naps takes a
-    little longer than their sum.
+    time.sleep() takes seconds. The wait() of an Event that is already set returns at once; a loop of short sleeps takes
+    a little longer than their sum.
 
     Bad:
 

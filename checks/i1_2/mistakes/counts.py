@@ -10,16 +10,16 @@ from tutor.mistakes import Case, Found
 
 @shown(
     "missed-messages-counted",
-    says="it says {stated}, but {missed} of these were never sent",
-    do="Count only what the callback is called for, and keep what is missing in a number of its own.",
+    says="it says {stated}, but {missed} of these never arrived",
+    do="Count only what the callback is called for, and keep the number of missing messages separately.",
     stated=31,
     missed=4,
 )
 def missed_counted(case: Case) -> Iterator[Found]:
     """Messages that never came are counted.
 
-    How many have come and how many should have come are two numbers. Whoever adds what is missing to the first one
-    loses both.
+    How many messages have come and how many should have come are two numbers. If what is missing is added to the first,
+    both are lost.
 
     Bad:
 
@@ -36,14 +36,14 @@ def missed_counted(case: Case) -> Iterator[Found]:
 
 @shown(
     "number-taken-for-the-count",
-    says="it states the number in “{content}”, not how many messages have come",
-    do="Let the node count for itself: whoever starts late, or misses a message, has received fewer than that.",
+    says="it gives the number in “{content}”, not how many messages have come",
+    do="Let the node count for itself: a node that starts late, or misses a message, has received fewer than that.",
     content="Hello World: 97",
 )
 def number_as_count(case: Case) -> Iterator[Found]:
     """The sender's number is taken for the receiver's count.
 
-    A number in a message says how many the publisher has sent. A subscriber that starts late, or misses some, has
+    The number in a message says how many the publisher has sent. A subscriber that starts late, or misses some, has
     received fewer.
 
     Bad:
@@ -62,16 +62,15 @@ def number_as_count(case: Case) -> Iterator[Found]:
 @shown(
     "off-by-one",
     says="it says {stated} after {sent} messages",
-    do="Follow the count from its first value to the log: what is it before the first message, and is it raised "
-    "before it is logged?",
+    do="Follow the count to the log: what is it before the first message, and is it raised before it is logged?",
     stated=30,
     sent=29,
 )
 def off_by_one(case: Case) -> Iterator[Found]:
     """A count is one too high or too low.
 
-    A counter begins with 0 and is raised once for each message, before it is used. A first value of 1, or a log
-    message before the addition, shifts it.
+    A counter starts at 0, and is raised once for each message, before it is used. A first value of 1, or a log message
+    before the addition, makes it wrong by one.
 
     Bad:
 
@@ -97,8 +96,8 @@ def off_by_one(case: Case) -> Iterator[Found]:
 def wrong_count(case: Case) -> Iterator[Found]:
     """A count is not the number of messages.
 
-    What counts messages is an attribute that lives as long as the node and that the callback raises by one. A local
-    variable begins anew in each call; a list of limited length has a limited length.
+    Messages are counted by an attribute that lives as long as the node, and that the callback raises by one. A local
+    variable starts anew in each call, and the length of a bounded list stops growing.
 
     Bad:
 
@@ -121,10 +120,10 @@ def wrong_count(case: Case) -> Iterator[Found]:
     number="30.00",
 )
 def swapped(case: Case) -> Iterator[Found]:
-    """Two values have changed places.
+    """Two values are swapped.
 
-    format() and % take values in the order in which they are given, whatever the words around them say. An f-string
-    has each value where it is shown.
+    format() and % take values in the order in which they are given, whatever the words around them say. An f-string has
+    each value where it is shown.
 
     Bad:
 

@@ -15,8 +15,8 @@ _MISSED = "5 numbers are missing"
 @shown(
     "0-taken-for-no-number",
     symptom=Symptom.NOT_LOGGED,
-    says="a jump from another number is noticed, but not one from 0",
-    do="See what your condition does where the last number is 0: in Python, 0 is false, as None is.",
+    says="a jump from any other number is noticed, but not one from 0",
+    do="See what your condition does when the last number is 0: in Python, 0 is false, as None is.",
 )
 def zero(case: Case) -> Iterator[Found]:
     """0 counts as no number.
@@ -39,14 +39,14 @@ def zero(case: Case) -> Iterator[Found]:
 @shown(
     ALARM,
     says="{what}",
-    do="Follow one of these messages, which lacks nothing, through the condition to see which two values differ there.",
+    do="Follow such a message, before which none is missing, through your condition: which two values differ there?",
     what="it also says so where N rises by one: gap at 10",
 )
 def false_alarm(case: Case) -> Iterator[Found]:
     """A loss is reported where nothing is lost.
 
-    Numbers rise by one from each message to the next. What compares texts or single digits, or keeps an old number,
-    finds gaps where there are none.
+    Numbers rise by one from each message to the next. Code that compares texts or single digits, or keeps an old
+    number, finds gaps where there are none.
 
     Bad:
 
@@ -64,15 +64,15 @@ def false_alarm(case: Case) -> Iterator[Found]:
 @shown(
     UNNOTICED,
     symptom=Symptom.NOT_LOGGED,
-    says="{missed}, and nothing in the log tells this from any other message",
-    do="Work out from a message's number, and that of the one before, whether any are missing between them.",
+    says="{missed}, but nothing in the log shows it",
+    do="From a message's number, and that of the one before, work out whether any are missing in between.",
     missed=_MISSED,
 )
 def unnoticed(case: Case) -> Iterator[Found]:
     """A gap is not noticed.
 
-    DDS does not say which messages of a best-effort topic were lost. A subscriber finds out by a number in the messages
-    that rises by one.
+    DDS does not say which messages were lost. A subscriber can tell if the messages carry a number that rises by one
+    each time.
 
     Bad:
 
@@ -93,14 +93,14 @@ def unnoticed(case: Case) -> Iterator[Found]:
 
 @shown(
     "negative-number-of-missing-messages",
-    says="the number falls when the publisher starts again; then the difference of the two is no count of messages",
+    says="when the publisher starts again the number falls, and the difference is no longer a count of messages",
     do="Let a lower number mean a restart, and count missing messages only where the number is too high.",
 )
 def negative(case: Case) -> Iterator[Found]:
-    """A negative number of messages is said to be missing.
+    """A negative number of messages is reported missing.
 
-    A publisher that starts again begins with a low number. The difference to the last one is negative, and counts
-    nothing.
+    A publisher that starts again begins with a low number. The difference from the last one is then negative, and
+    counts nothing.
 
     Bad:
 

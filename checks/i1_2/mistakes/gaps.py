@@ -23,13 +23,13 @@ def _callbacks(case: Case, *faults: str) -> list[Function]:
     "number-misread",
     explains=[Symptom.WRONG_LOG, Symptom.NOT_LOGGED],
     says="{line}: {text}",
-    do="Take the whole number, and nothing else: it is all that comes after the colon.",
+    do="Take the whole number and nothing else: it is everything after the colon.",
     example=in_run(Symptom.WRONG_LOG, fault=ALARM),
 )
 def misread(case: Case) -> Iterator[Found]:
     """A number is taken from the wrong place of a text.
 
-    A position that is right for a number of one digit is wrong for one of two. What stands around the number does not
+    A position that is right for a one-digit number is wrong for one of two digits. The text around the number does not
     change, so look for that.
 
     Bad:
@@ -57,16 +57,16 @@ def misread(case: Case) -> Iterator[Found]:
 @CATALOGUE.mistake(
     "number-compared-with-the-count",
     explains=[Symptom.WRONG_LOG, Symptom.NOT_LOGGED],
-    says="{line} compares a message's number with {counter}, how many have come: these differ for anyone who starts "
-    "late, and for good after a gap",
+    says="{line} compares a message's number with {counter}, a count: the two differ if the node starts late, and for "
+    "good after a gap",
     do="Compare it with the number of the message before.",
     example=in_run(Symptom.WRONG_LOG, fault=ALARM),
 )
 def count_compared(case: Case) -> Iterator[Found]:
     """The sender's number is compared with the receiver's count.
 
-    The two are the same only for a subscriber that was there from the beginning and has missed nothing. After one gap,
-    they differ for good.
+    The two are the same only for a subscriber that was there from the start and has missed nothing. After one gap, they
+    differ for good.
 
     Bad:
 
@@ -101,14 +101,14 @@ def count_compared(case: Case) -> Iterator[Found]:
     "last-number-out-of-date",
     explains=[Symptom.WRONG_LOG],
     says="{line} compares with {last}, which {why}",
-    do="Let it have the number of the message before, for every message, also after a gap.",
+    do="Update it with every message, even after a gap, so that it has the number of the message before.",
     example=in_run(Symptom.WRONG_LOG, fault=ALARM),
 )
 def out_of_date(case: Case) -> Iterator[Found]:
     """A number is compared with one from long ago.
 
-    The last number has to follow each message. If it is set only when all is well, or counts on by itself, it stays
-    behind after the first gap, and every later message looks like another one.
+    The last number has to follow each message. If it is set only when all is well, or merely counts up, it falls behind
+    at the first gap, and every later message looks like another gap.
 
     Bad:
 
@@ -151,7 +151,7 @@ def out_of_date(case: Case) -> Iterator[Found]:
 def early_update(case: Case) -> Iterator[Found]:
     """A value is replaced before it is compared.
 
-    After an assignment, both names have the same value, and no comparison finds a difference.
+    After the assignment, both names have the same value, and no comparison finds a difference.
 
     Bad:
 
@@ -187,12 +187,12 @@ def early_update(case: Case) -> Iterator[Found]:
 @CATALOGUE.mistake(
     "only-lower-numbers",
     explains=[Symptom.NOT_LOGGED],
-    says="{line} finds lower numbers only, and nothing looks for higher ones: {code}",
-    do="Find also a number that is higher than the next one should be.",
+    says="{line} finds lower numbers only, but nothing looks for higher ones: {code}",
+    do="Also look for a number that is higher than the next one should be.",
     example=in_run(Symptom.NOT_LOGGED, fault=UNNOTICED),
 )
 def lower_only(case: Case) -> Iterator[Found]:
-    """A comparison looks one way only.
+    """A comparison looks only one way.
 
     A number that is lower than the last means that the publisher has started again. Where messages are missing, it is
     higher than the next one should be.
@@ -229,14 +229,14 @@ def lower_only(case: Case) -> Iterator[Found]:
 @CATALOGUE.mistake(
     "0-tested-for-truth",
     explains=[Symptom.NOT_LOGGED],
-    says="{line}: {tested} is not true when it is 0, though 0 is a number like any other: {code}",
+    says="{line}: {tested} counts as false when it is 0, though 0 is a number like any other: {code}",
     do="Ask for `is None` or `is not None`.",
     example=in_run(Symptom.NOT_LOGGED, fault=ZERO),
 )
 def tested_for_truth(case: Case) -> Iterator[Found]:
-    """0 is taken for nothing.
+    """0 is taken for no value.
 
-    In a condition, 0 and None are both false. Whoever means "is there a value" has to ask whether it is None.
+    In a condition, 0 and None are both false. To ask whether there is a value, ask whether it is None.
 
     Bad:
 

@@ -20,14 +20,14 @@ _SPINS_ONCE = ("spin_once", "_spin_once", "spin_once_until_future_complete")
     "two-subscriptions",
     explains=_LOGS,
     evidence=Evidence.RUN,
-    says="{subscriptions} subscriptions on {topic} each call the callback, so that every message counts twice{where}",
+    says="{subscriptions} subscriptions on {topic} each call the callback, so every message counts repeatedly{where}",
     do="Keep one of them.",
     example=in_run(Symptom.WRONG_LOG, subscriptions=2, topic="/ring"),
 )
 def two_subscriptions(case: Case) -> Iterator[Found]:
     """A node subscribes twice.
 
-    Each subscription gets each message, and calls its callback. Two of them with the same callback do everything twice.
+    Each subscription gets every message, and calls its callback. Two with the same callback do everything twice.
 
     Bad:
 
@@ -54,14 +54,14 @@ def two_subscriptions(case: Case) -> Iterator[Found]:
     "own-messages",
     explains=_LOGS,
     evidence=Evidence.RUN,
-    says="{node} itself publishes on {topic}, and so counts its own messages, too",
+    says="{node} itself publishes on {topic}, so it counts its own messages, too",
     do="Take the publisher on {topic} out of this node.",
     example=in_run(Symptom.WRONG_LOG, own_publisher="/bell", topic="/ring"),
 )
 def own_messages(case: Case) -> Iterator[Found]:
     """A node hears itself.
 
-    A subscription gets what anybody publishes on its topic, also the node that it belongs to.
+    A subscription gets what any node publishes on its topic, including the one that it belongs to.
 
     Bad:
 
@@ -83,14 +83,14 @@ def own_messages(case: Case) -> Iterator[Found]:
     explains=_LOGS,
     evidence=Evidence.RUN,
     says="{late}, since {line} makes the loop that spins the node sleep: {code}",
-    do="Take the sleep out; spin_once waits by itself for the next message.",
+    do="Remove the sleep; spin_once already waits for the next message.",
     example=in_run(Symptom.WRONG_LOG, late="some messages never reach the callback"),
 )
 def nap(case: Case) -> Iterator[Found]:
     """The loop that spins the node sleeps.
 
-    spin_once() handles one message, or waits for one. With a sleep beside it, only so many are handled in a second;
-    the others wait in the queue until it is full, and are lost.
+    spin_once() handles one message, or waits for one. A sleep next to it limits how many are handled in a second; the
+    others wait in the queue, and once it is full, the oldest are lost.
 
     Bad:
 
@@ -116,13 +116,13 @@ def nap(case: Case) -> Iterator[Found]:
     explains=_LOGS,
     evidence=Evidence.RUN,
     says="{late}, since the callback sleeps at {line}: {code}",
-    do="Let the callback return at once: while it runs, no other message comes.",
+    do="Let the callback return at once: while it runs, no other message is handled.",
     example=in_run(Symptom.WRONG_LOG, late="a message is handled when 9 newer ones have come, or never"),
 )
 def slow_callback(case: Case) -> Iterator[Found]:
-    """A callback takes longer than the next message.
+    """A callback is still running when the next message comes.
 
-    An executor runs one callback after the other. Messages that come meanwhile wait in the queue of the subscription,
+    An executor runs one callback after another. Messages that come in the meantime wait in the subscription's queue,
     and the oldest are dropped when it is full.
 
     Bad:
@@ -155,15 +155,15 @@ def slow_callback(case: Case) -> Iterator[Found]:
 @CATALOGUE.mistake(
     "queue-too-short",
     explains=[Symptom.WRONG_LOG],
-    says="up to the last message that it quotes there were {counted}; {line} makes a queue for one only: {code}",
+    says="up to the last message that it quotes there were {counted}; {line} makes a queue for only one: {code}",
     do="Give the subscription a longer queue.",
     example=in_run(Symptom.WRONG_LOG, fault="cannot-keep-up", counted=57),
 )
 def short_queue(case: Case) -> Iterator[Found]:
-    """A subscription keeps one message only.
+    """A subscription keeps only one message.
 
-    The depth of the QoS says how many messages wait for the callback. With a depth of 1, one that comes before the last
-    was handled replaces it.
+    The QoS depth says how many messages may wait for the callback. With a depth of 1, each message that comes replaces
+    the one still waiting.
 
     Bad:
 
@@ -185,14 +185,14 @@ def short_queue(case: Case) -> Iterator[Found]:
 @shown(
     "cannot-keep-up",
     says="up to the last message that it quotes there were {counted}: the node drops some, or is too slow for them",
-    do="Find what takes long in the callback or beside it, or what leaves messages out before they are counted.",
+    do="Find what takes long, in the callback or outside it, or what skips messages before they are counted.",
     counted=57,
 )
 def cannot_keep_up(case: Case) -> Iterator[Found]:
     """Messages are lost when they come fast.
 
-    A queue holds some messages until their callback runs. If that takes longer than the messages are apart, the queue
-    fills up, and the oldest are dropped.
+    A queue holds a few messages until the callback runs. If the callback takes longer than the time between messages,
+    the queue fills up, and the oldest are dropped.
 
     Bad:
 
@@ -211,14 +211,14 @@ def cannot_keep_up(case: Case) -> Iterator[Found]:
 
 @shown(
     "a-subscription-for-each-message",
-    says="it subscribed anew {renewals} times: what is sent between two subscriptions is lost",
+    says="it has subscribed anew {renewals} times: what is sent between two subscriptions is lost",
     do="Make one subscription when the node starts, and let its callback handle each message.",
     renewals=17,
 )
 def renewed_subscription(case: Case) -> Iterator[Found]:
     """A node subscribes anew for each message.
 
-    wait_for_message() makes a subscription, waits for one message and gives the subscription up. What is sent before
+    wait_for_message() makes a subscription, waits for one message, and destroys the subscription. What is sent before
     the next one is matched is lost.
 
     Bad:

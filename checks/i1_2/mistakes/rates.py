@@ -15,12 +15,12 @@ from tutor.source import last_name
 @CATALOGUE.mistake(
     "worked-out-once",
     explains=[Symptom.WRONG_LOG],
-    says="{line} keeps {rate}, the first result, for ever: {code}",
+    says="{line} keeps {rate}, the first result, forever: {code}",
     do="Work it out anew for each summary.",
     example=in_run(Symptom.WRONG_LOG, fault="rate-never-updated", rate="7.85"),
 )
 def worked_out_once(case: Case) -> Iterator[Found]:
-    """A value is kept that ought to change.
+    """A value that should change is kept.
 
     functools.cache and cached_property remember the first result; so does an attribute that is set only while it is
     None. That is right for what never changes.
@@ -62,7 +62,7 @@ def _divides(value: ast.expr) -> bool:
 @shown(
     "rate-never-updated",
     says="it still says {rate} when the messages come at another rate",
-    do="Find where the rate is worked out, and see that this happens for each summary.",
+    do="Find where the rate is worked out, and make sure that this happens for each summary.",
     rate="7.85",
 )
 def never_updated(case: Case) -> Iterator[Found]:
@@ -87,8 +87,8 @@ def never_updated(case: Case) -> Iterator[Found]:
 
 @shown(
     "period-instead-of-a-rate",
-    says="{number} are the seconds from one message to the next",
-    do="Turn the quotient over: a rate is messages per second.",
+    says="{number} is the time from one message to the next, in seconds",
+    do="Turn the division round: a rate is messages per second.",
     number="0.20",
 )
 def period(case: Case) -> Iterator[Found]:
@@ -112,13 +112,13 @@ def period(case: Case) -> Iterator[Found]:
 @shown(
     "rate-per-minute",
     says="{number} is messages per minute",
-    do="See in which unit the time is that you divide by: it should be seconds.",
+    do="See which unit the time has that you divide by: it should be seconds.",
     number="297.00",
 )
 def per_minute(case: Case) -> Iterator[Found]:
-    """A rate is per minute, not per second.
+    """A rate is given per minute, not per second.
 
-    A rate has the unit of the time that it is divided by.
+    The unit of a rate depends on that of the time you divide by.
 
     Bad:
 
@@ -136,8 +136,8 @@ def per_minute(case: Case) -> Iterator[Found]:
 
 @shown(
     "rate-in-another-unit",
-    says="{number} is off by a thousand, or by a power of it",
-    do="See in which unit the clock counts, and convert its time to seconds before you divide.",
+    says="{number} is off by a factor of a thousand, or a power of it",
+    do="See which unit the clock counts in, and convert its time to seconds before you divide.",
     number="0.00495",
 )
 def other_unit(case: Case) -> Iterator[Found]:
@@ -163,14 +163,14 @@ def other_unit(case: Case) -> Iterator[Found]:
     "counted-from-the-nodes-start",
     name="counted from the node's start",
     says="{number} is right if the clock starts {lead_s:.1f} s before the first message",
-    do="Let the time begin with the first message, not with the node.",
+    do="Let the time start with the first message, not with the node.",
     number="2.91",
     lead_s=1.2,
 )
 def from_start(case: Case) -> Iterator[Found]:
     """A clock starts when the node does.
 
-    A subscriber may wait a while for its first message. If that time counts, the rate is too low at first.
+    A subscriber may wait a while for its first message. If that wait counts, the rate is too low at first.
 
     Bad:
 
@@ -191,7 +191,7 @@ def from_start(case: Case) -> Iterator[Found]:
 @shown(
     "seconds-cut-off",
     says="{number} is {covered} messages in {whole_s} s, but it took longer",
-    do="Keep the fractions of the seconds: no int(), no //, no field that holds whole seconds only.",
+    do="Keep the fractions of the seconds: no int(), no //, and no field that holds whole seconds only.",
     number="10.00",
     covered=10,
     whole_s=1,
@@ -199,8 +199,8 @@ def from_start(case: Case) -> Iterator[Found]:
 def cut_seconds(case: Case) -> Iterator[Found]:
     """The fractions of a time are cut off.
 
-    int() and // drop what comes after the point, and the field sec of a Time message has whole seconds only. Of 1.8 s,
-    1 s is left.
+    int() and // drop what comes after the decimal point, and the field sec of a Time message holds whole seconds only.
+    Of 1.8 s, 1 s is left.
 
     Bad:
 
@@ -217,7 +217,7 @@ def cut_seconds(case: Case) -> Iterator[Found]:
 
 @shown(
     "no-rate",
-    says="it contains no number beside the count",
+    says="it contains no number other than the count",
     do="Put the messages per second into the summary.",
 )
 def no_rate(case: Case) -> Iterator[Found]:
@@ -241,13 +241,13 @@ def no_rate(case: Case) -> Iterator[Found]:
 @shown(
     "wrong-rate",
     says="{what}",
-    do="Log the two numbers that you divide: the messages, and the seconds in which just these have come.",
+    do="Log the two numbers that you divide: the messages, and the seconds in which exactly these came.",
     what="none of 1.00 is the rate",
 )
 def wrong_rate(case: Case) -> Iterator[Found]:
     """A stated rate is not the rate of the messages.
 
-    The messages and the seconds of a rate belong together: all since the first, or those of the same window.
+    The messages and the seconds of a rate belong together: all since the first message, or those of the same window.
 
     Bad:
 

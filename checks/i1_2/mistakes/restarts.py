@@ -22,7 +22,7 @@ _FAULTS = (
 @CATALOGUE.mistake(
     "texts-compared",
     explains=[Symptom.WRONG_LOG],
-    says="{line} compares texts, and as a text, “10” is less than “9”: {code}",
+    says="{line} compares texts, and as texts, “10” is less than “9”: {code}",
     do="Take the numbers out of the texts, and compare those.",
     example=in_run(Symptom.WRONG_LOG, fault="starts-over-silently", restarted=10, messages=23),
 )
@@ -94,14 +94,14 @@ def _is_text(value: ast.expr, texts: set[str]) -> bool:
 
 @shown(
     "stopped-counting",
-    says="the node is there, but sums up nothing that the new publisher sends",
-    do="Follow a message whose number is lower than, or the same as, an earlier one: what keeps it from being counted?",
+    says="the node is still there, but logs no summary of what the new publisher sends",
+    do="Follow a message whose number is not higher than an earlier one: what keeps it from being counted?",
 )
 def stopped(case: Case) -> Iterator[Found]:
     """A subscriber takes no notice of a new publisher.
 
-    A publisher that starts again begins with its first number. Whoever leaves out what is lower, or what was there
-    before, hears nothing of it.
+    A publisher that starts again begins with its first number. A subscriber that skips lower numbers, or numbers that
+    it has seen, takes no notice of it.
 
     Bad:
 
@@ -121,14 +121,14 @@ def stopped(case: Case) -> Iterator[Found]:
 @shown(
     "starts-over-silently",
     says="it says {restarted} after {messages} messages, and no log message says that it started over",
-    do="Go on with the total, or log that the publisher has started again and that you count from zero.",
+    do="Keep the total going, or log that the publisher has started again and that you count from zero.",
     restarted=10,
     messages=23,
 )
 def silently(case: Case) -> Iterator[Found]:
-    """A count starts over, and nobody is told.
+    """A count starts over, but the log does not say so.
 
-    A total that falls is a riddle for whoever reads the log. Either it goes on, or the log says why.
+    A total that falls is a riddle to whoever reads the log. Either it goes on, or the log says why.
 
     Bad:
 
@@ -149,15 +149,15 @@ def silently(case: Case) -> Iterator[Found]:
 @shown(
     "wrong-count-after-a-restart",
     says="{messages} messages in all, {new} of them from the new publisher: it states neither",
-    do="Find what changes the count when the number falls: each message, also that one, counts once.",
+    do="Find what changes the count when the number falls: every message, including that one, counts once.",
     messages=20,
     new=7,
 )
 def wrong_after(case: Case) -> Iterator[Found]:
     """A count is wrong once the publisher has started again.
 
-    A count that is computed from the publisher's numbers falls with them; a reset that leaves the message out that
-    caused it is one short.
+    A count that is computed from the publisher's numbers falls with them; after a reset that skips the message that
+    caused it, the count is one short.
 
     Bad:
 

@@ -15,15 +15,15 @@ _EVERY = "Look at the condition for a summary: it should hold once for every ten
 
 @shown(
     "summary-for-every-message",
-    says="there are {summaries} summaries for {messages} messages",
+    says="there were {summaries} summaries for {messages} messages",
     do=_EVERY,
     summaries=20,
     messages=20,
 )
 def every_message(case: Case) -> Iterator[Found]:
-    """Something is done for every message that is meant for every so many.
+    """Something that is meant for every so many messages is done for each one.
 
-    A callback runs for each message. What is meant for each hundredth needs a condition on the count that holds once
+    A callback runs for each message. What is meant for every hundredth needs a condition on the count that holds once
     in a hundred.
 
     Bad:
@@ -43,7 +43,7 @@ def every_message(case: Case) -> Iterator[Found]:
 
 @shown(
     "too-many-summaries",
-    says="there are {summaries} summaries for {messages} messages",
+    says="there were {summaries} summaries for {messages} messages",
     do=_EVERY,
     summaries=4,
     messages=20,
@@ -51,8 +51,8 @@ def every_message(case: Case) -> Iterator[Found]:
 def too_many(case: Case) -> Iterator[Found]:
     """Something is done more often than asked for.
 
-    A timer knows nothing of the messages, and finds the same count several times. A condition that two places check is
-    met twice.
+    A timer knows nothing about the messages, and may find the same count several times. A condition that is checked in
+    two places is met twice.
 
     Bad:
 
@@ -72,7 +72,7 @@ def too_many(case: Case) -> Iterator[Found]:
 def missing(case: Case) -> Iterator[Found]:
     """A summary does not come when it is due.
 
-    A condition on a count that changes elsewhere, or that holds once only, is not met when it should be.
+    A condition that holds only once, or on a count that other code changes as well, is not met when it should be.
 
     Bad:
 
@@ -94,12 +94,12 @@ def missing(case: Case) -> Iterator[Found]:
     name="missing summary",
     symptom=Symptom.NOT_LOGGED,
     says="when messages come fast, most summaries are left out",
-    do="Let each tenth message bring its summary, however soon it comes after the one before.",
+    do="Log a summary at every tenth message, however soon it comes after the one before.",
 )
 def fewer(case: Case) -> Iterator[Found]:
     """Summaries are left out when messages come fast.
 
-    What a timer looks at once a second misses what happens in between; so does a log call that is throttled.
+    A timer that looks once a second misses what happens in between, and so does a throttled log call.
 
     Bad:
 
@@ -119,14 +119,13 @@ def fewer(case: Case) -> Iterator[Found]:
     "no-summary",
     symptom=Symptom.NOT_LOGGED,
     says="{seen_instead}",
-    do="Let the callback log a summary with the node's own logger, and see with one message by hand how far it gets.",
+    do="Let the callback log a summary with the node's own logger; publish a message by hand to see how far it gets.",
     logged=True,
 )
 def no_summary(case: Case) -> Iterator[Found]:
-    """Messages come, and nothing sums them up.
+    """Messages come, but nothing sums them up.
 
-    The callback of a subscription is the place where a node learns of a message, so that is where it counts, and
-    where it can log.
+    A subscription's callback is where a node learns of a message, so that is where it can count and log.
 
     Bad:
 
@@ -149,7 +148,7 @@ def no_summary(case: Case) -> Iterator[Found]:
 @CATALOGUE.mistake(
     "log-throttled",
     explains=[Symptom.NOT_LOGGED],
-    says="{line} lets one summary pass in throttle_duration_sec, and leaves out the others: {code}",
+    says="{line} lets through one summary in each throttle_duration_sec, and drops the others: {code}",
     do="Log the summary without throttle_duration_sec.",
     example=in_run(Symptom.NOT_LOGGED, fault="fewer-summaries"),
 )
@@ -157,7 +156,7 @@ def throttled(case: Case) -> Iterator[Found]:
     """A log call is throttled.
 
     With throttle_duration_sec, a log call makes at most one message in so many seconds. That is good against floods of
-    the same warning, and wrong for what everybody has to see.
+    the same warning, but wrong for what everybody has to see.
 
     Bad:
 

@@ -21,7 +21,7 @@ from tutor.mistakes.examples import in_run
 def cut_off(case: Case) -> Iterator[Found]:
     """A text is cut to its first characters.
 
-    text[:8] has eight characters at most. What comes after, such as a number at the end, is lost.
+    text[:8] has at most eight characters. What comes after them, such as a number at the end, is lost.
 
     Bad:
 
@@ -50,9 +50,9 @@ def cut_off(case: Case) -> Iterator[Found]:
     quoted="Hello World: 10",
 )
 def first_overwritten(case: Case) -> Iterator[Found]:
-    """The first of something is set again.
+    """What should keep the first value is set again.
 
-    What is to be kept has to be set under a condition that holds only once, and nothing may set it back.
+    What should be kept has to be set under a condition that holds only once, and nothing may reset it.
 
     Bad:
 
@@ -79,7 +79,7 @@ def first_overwritten(case: Case) -> Iterator[Found]:
 def first_missing(case: Case) -> Iterator[Found]:
     """The first message is not in the summary.
 
-    A callback gets one message at a time. What later ones need of the first has to be kept in an attribute.
+    A callback gets one message at a time. What is needed later from the first has to be kept in an attribute.
 
     Bad:
 
@@ -97,13 +97,13 @@ def first_missing(case: Case) -> Iterator[Found]:
 @shown(
     "last-message-missing",
     says="{what}",
-    do="See which message the summary takes for the last: it should be the one that has just come.",
+    do="See which message the summary takes as the last: it should be the one that has just come.",
     what="“Hello World: 9” is not in it",
 )
 def last_missing(case: Case) -> Iterator[Found]:
     """The latest message is not in the summary.
 
-    The last message is the one that the callback has just been given: not the one before it, and not the one with the
+    The last message is the one that the callback has just been given, not the one before it, nor the one with the
     highest number.
 
     Bad:
@@ -128,9 +128,9 @@ def last_missing(case: Case) -> Iterator[Found]:
     content="Hello World: 0",
 )
 def labels_swapped(case: Case) -> Iterator[Found]:
-    """First and last have changed places.
+    """First and last are swapped.
 
-    Nothing checks that a text says of a value what it is.
+    Nothing checks that the words around a value fit it.
 
     Bad:
 

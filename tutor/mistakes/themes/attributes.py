@@ -28,7 +28,7 @@ _TRUTHS = {"true", "1", "on", "false", "0", "off"}
     do="Give setattr the object that has the attribute, and the attribute's own name.",
 )
 def dotted_attribute(case: Case) -> Iterator[Found]:
-    """Setattr is given a name with a dot.
+    """A name with a dot is given to setattr().
 
     setattr(node, 'config.volume', 7) makes an attribute whose name contains a dot; it does not go into node.config.
 
@@ -62,14 +62,14 @@ def dotted_attribute(case: Case) -> Iterator[Found]:
 @mistake(
     "class-attribute-set",
     explains=_DECISIONS,
-    says="{line} sets the attribute of the class, and the node's own one of that name hides it: {code}",
-    do="Set the attribute of the node, self.",
+    says="{line} sets an attribute of the class, but the node's own attribute of that name hides it: {code}",
+    do="Set the attribute of the node itself, self.",
 )
 def class_attribute(case: Case) -> Iterator[Found]:
-    """The class gets the new value, and the node keeps the old one.
+    """The class gets the new value, but the node keeps the old one.
 
-    An attribute of an object hides the one of its class. Where __init__ has set self.volume, a later Bell.volume = 7
-    changes nothing that the object reads.
+    An object's attribute hides that of its class. Once __init__ has set self.volume, a later Bell.volume = 7 changes
+    nothing that the object reads.
 
     Bad:
 
@@ -103,13 +103,13 @@ def class_attribute(case: Case) -> Iterator[Found]:
 @mistake(
     "types-never-equal",
     explains=_DECISIONS,
-    says="{line} compares a Parameter.Type with a number of ParameterType, and they are never equal: {code}",
-    do="Compare with the Parameter.Type of that name, or compare its .value.",
+    says="{line} compares a Parameter.Type with a number from ParameterType, and the two are never equal: {code}",
+    do="Compare it with the Parameter.Type of that name, or compare its .value.",
 )
 def compared_types(case: Case) -> Iterator[Found]:
     """Two kinds of type constants are compared.
 
-    parameter.type_ is a Parameter.Type; the message ParameterType has plain numbers of the same meaning. One never
+    parameter.type_ is a Parameter.Type; the message ParameterType has plain numbers with the same meaning. One never
     equals the other.
 
     Bad:
@@ -135,13 +135,13 @@ def compared_types(case: Case) -> Iterator[Found]:
 @mistake(
     "compared-with-a-text",
     explains=_DECISIONS,
-    says="{line} compares a parameter that is true or false with the text {text}, which it never equals: {code}",
+    says="{line} compares a boolean parameter with the text {text}, which it never equals: {code}",
     do="Use the value itself as the condition.",
 )
 def bool_with_text(case: Case) -> Iterator[Found]:
     """A boolean is compared with a text.
 
-    A parameter declared with True or False has such a value, not the text "true". The comparison is always false.
+    A parameter declared with True or False has a boolean as its value, not the text "true". They are never equal.
 
     Bad:
 
@@ -181,7 +181,7 @@ def _is_value(expression: ast.expr) -> bool:
     "never-the-same-object",
     explains=_DECISIONS,
     slip=True,
-    says="{line} asks with `is` whether two values are one object, which equal ones need not be: {code}",
+    says="{line} asks with `is` whether two values are the same object, which equal values need not be: {code}",
     do="Compare them with == there (or != in place of `is not`).",
 )
 def identity(case: Case) -> Iterator[Found]:
@@ -199,7 +199,7 @@ def identity(case: Case) -> Iterator[Found]:
         if parameter.name == 'volume':
             self.volume = parameter.value
 
-    See it: Python warns of "is" with a literal.
+    See it: Python warns: "is" with a literal.
     """
     for file in case.files:
         for node in file.nodes:

@@ -17,13 +17,13 @@ from tutor.source.parameters import ON_SET, POST_SET, may_refuse, registered_cal
     explains=[Symptom.BAD_VALUE_ACCEPTED],
     evidence=Evidence.RUN,
     says="the refusal has an empty reason, so nobody learns what is wrong with the value",
-    do="Give the SetParametersResult a reason that names the parameter and what it takes.",
+    do="Give the SetParametersResult a reason that names the parameter and the values that it accepts.",
     example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", reason=""),
 )
 def no_reason(case: Case) -> Iterator[Found]:
     """A value is refused without a reason.
 
-    The reason of a SetParametersResult is what `ros2 param set` prints. Without it, a refusal looks like a fault.
+    The reason of a SetParametersResult is what `ros2 param set` prints. Without one, a refusal looks like a fault.
 
     Bad:
 
@@ -44,14 +44,14 @@ def no_reason(case: Case) -> Iterator[Found]:
     name="parameter not named",
     explains=[Symptom.BAD_VALUE_ACCEPTED],
     evidence=Evidence.RUN,
-    says="the message about the bad value does not name {name}, which is what was typed",
+    says="the message about the bad value does not name {name}, the parameter that was set",
     do="Put the parameter's name into the message.",
     example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", at_start=True, warning="too loud"),
 )
 def not_named(case: Case) -> Iterator[Found]:
-    """A message about a bad value does not say of what.
+    """A message about a bad value does not name the parameter.
 
-    Who has typed several parameters on a command line cannot tell from "must be positive" which one is meant.
+    Someone who has typed several parameters on a command line cannot tell from "must be positive" which one is meant.
 
     Bad:
 
@@ -72,7 +72,7 @@ def not_named(case: Case) -> Iterator[Found]:
     name="not checked at start-up",
     explains=[Symptom.BAD_VALUE_ACCEPTED],
     evidence=Evidence.RUN,
-    says="a bad {name} at start-up gives {what}, and nobody can tell from that which parameter is wrong",
+    says="a bad {name} at start-up gives {what}, which does not tell anyone which parameter is wrong",
     do="Check the value when the node is set up, and end with a message that names the parameter.",
     example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", at_start=True),
 )
@@ -80,7 +80,7 @@ def at_start(case: Case) -> Iterator[Found]:
     """A bad value at start-up is not explained.
 
     On-set callbacks that are registered after the declaration never see the value that was given at start-up. The node
-    takes it as it is, or ends with a traceback from deep inside.
+    takes it as it is, or ends with a traceback from deep inside rclpy.
 
     Bad:
 
@@ -113,8 +113,8 @@ def at_start(case: Case) -> Iterator[Found]:
 def taken_over(case: Case) -> Iterator[Found]:
     """A refused value has an effect.
 
-    An on-set callback may be asked about several parameters at once, and refuse because of the last. What it has done
-    with the first by then stays done. rclpy stores nothing of it, and the node works with other values than it
+    An on-set callback may be asked about several parameters at once, and refuse because of the last. What it has
+    already done with the first stays done. rclpy stores none of them, so the node works with values other than those it
     reports.
 
     Bad:
@@ -131,7 +131,8 @@ def taken_over(case: Case) -> Iterator[Found]:
             if parameter.name == 'volume' and parameter.value > 10:
                 return SetParametersResult(successful=False, reason='volume must be 10 at most')
 
-    See it: `ros2 param load` a file with one good and one bad value.
+    See it: `ros2 service call NODE/set_parameters_atomically rcl_interfaces/srv/SetParametersAtomically VALUES`, with a
+    good and a bad value.
 
     Lesson: i2.1, on checking before changing.
     """
@@ -150,8 +151,8 @@ def taken_over(case: Case) -> Iterator[Found]:
 def no_validation(case: Case) -> Iterator[Found]:
     """A bad value is accepted.
 
-    A parameter takes any value of its type unless a callback registered with add_on_set_parameters_callback refuses
-    it, or its descriptor has a range. Both decide before the value is stored.
+    A parameter accepts any value of its type unless a callback registered with add_on_set_parameters_callback, or a
+    range in its descriptor, refuses it. Both decide before the value is stored.
 
     Bad:
 
@@ -162,7 +163,7 @@ def no_validation(case: Case) -> Iterator[Found]:
         self.declare_parameter('volume', 7)
         self.add_on_set_parameters_callback(self.refuse_bad_volumes)
 
-    See it: `ros2 param set NODE NAME BAD_VALUE` should say why not.
+    See it: `ros2 param set NODE NAME BAD_VALUE` should say why the value is refused.
 
     Lesson: i2.1, on refusing a value.
     """

@@ -52,13 +52,13 @@ def _services(file: NodeFile) -> list[ast.Call]:
     "callback-group-set-too-late",
     explains=_STILL,
     says="{line} is made before line {later} sets its callback group, which is still None then: {code}",
-    do="Make the groups before super().__init__() runs what uses them, or set everything up after it.",
+    do="Make the groups before super().__init__() uses them, or set everything up after it.",
 )
 def set_too_late(case: Case) -> Iterator[Found]:
     """A callback group is set after it was used.
 
-    A base class whose constructor makes timers and services uses the groups that there are at that moment. None stands
-    for the node's default group, which is mutually exclusive: everything in it waits for everything else.
+    A base class whose constructor makes timers and services uses the groups that exist at that moment. None stands for
+    the node's default group, which is mutually exclusive: everything in it waits for everything else.
 
     Bad:
 
@@ -95,14 +95,14 @@ def set_too_late(case: Case) -> Iterator[Found]:
     "same-callback-group",
     explains=_STILL,
     says="{line} puts the timer into {group}, where it waits for the service: {code}",
-    do="Give timer and service different callback groups, or a reentrant one.",
+    do="Give the timer and the service different callback groups, or a reentrant one.",
     example=in_run(Symptom.STANDS_STILL),
 )
 def same_group(case: Case) -> Iterator[Found]:
     """Two callbacks are in one mutually exclusive group.
 
     Callbacks of one MutuallyExclusiveCallbackGroup never run at the same time, however many threads there are. Without
-    callback_group, everything is in the node's default group, which is of that kind.
+    callback_group, everything is in the node's default group, which is one of these.
 
     Bad:
 
@@ -137,8 +137,8 @@ def same_group(case: Case) -> Iterator[Found]:
 def one_call_at_a_time(case: Case) -> Iterator[Found]:
     """The calls of one service wait for each other.
 
-    A service's callback may run several times at once only in a ReentrantCallbackGroup. In the node's default group,
-    or in another mutually exclusive one, each call waits until the one before it has been answered.
+    A service's callback can run several times at once only in a ReentrantCallbackGroup. In the node's default group, or
+    in another mutually exclusive one, each call waits until the one before it has been answered.
 
     Bad:
 
@@ -162,15 +162,15 @@ def one_call_at_a_time(case: Case) -> Iterator[Found]:
 @mistake(
     "callback-group-not-used",
     explains=(Symptom.WRONG_RATE, Symptom.STANDS_STILL),
-    says="{line} makes a callback group, and no callback is in it: {code}",
+    says="{line} makes a callback group, but no callback is in it: {code}",
     do="Name the group where the timers and services are made.",
     example=in_run(Symptom.WRONG_RATE),
 )
 def unused_group(case: Case) -> Iterator[Found]:
-    """A callback group is made, and nothing is in it.
+    """A callback group is made, but nothing is in it.
 
-    A group matters for the callbacks that are made with callback_group=…; all others are in the node's default group,
-    where each waits for the others.
+    A group matters only for the callbacks that are made with callback_group=…; all others are in the node's default
+    group, where each waits for the others.
 
     Bad:
 
@@ -204,10 +204,10 @@ def unused_group(case: Case) -> Iterator[Found]:
     example=in_run(Symptom.STANDS_STILL, stuck_at=_in_pool),
 )
 def waits_in_worker(case: Case) -> Iterator[Found]:
-    """A timer waits for a service in spite of several threads.
+    """A timer waits for a service despite several threads.
 
-    Threads help only callbacks of different groups, or of a reentrant one. A lock that both take, or a computation that
-    keeps Python's own lock, also makes one wait for the other.
+    Threads help only callbacks in different groups, or in a reentrant one. A lock that both take also makes one wait
+    for the other, and so does a computation that keeps Python's own lock.
 
     Bad:
 

@@ -33,16 +33,16 @@ def _traceback(kind: str, message: str = "") -> Traceback:
     name="shutdown() after Ctrl+C",
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.PROCESS,
-    says="{place}rclpy has already shut its context down on Ctrl+C, so a second shutdown() raises RCLError",
-    do="Shut down with rclpy's function that does it only if it is still needed.",
+    says="{place}rclpy has already shut down on Ctrl+C, so a second shutdown() raises RCLError",
+    do="Shut down with the function of rclpy that does so only if it is still needed.",
     remark="{line} raises RCLError when Ctrl+C has already shut rclpy down; rclpy.try_shutdown() does not.",
     example=in_run(Symptom.ENDS_BADLY, raised=_traceback("rclpy._rclpy_pybind11.RCLError", _SHUT_DOWN_TWICE[0])),
 )
 def shut_down_twice(case: Case) -> Iterator[Found]:
-    """Rclpy is shut down a second time.
+    """After Ctrl+C, rclpy is shut down a second time.
 
     On Ctrl+C, rclpy's own signal handler shuts the context down, and spin() ends with an exception. A bare
-    rclpy.shutdown() after it finds nothing to shut down, and says so with an RCLError.
+    rclpy.shutdown() after that finds nothing to shut down, and raises an RCLError.
 
     Bad:
 
@@ -80,7 +80,7 @@ def shut_down_twice(case: Case) -> Iterator[Found]:
     "threads-waited-for-at-exit",
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.PROCESS,
-    says="main() has ended, and Python still waits for its threads, where nothing catches the KeyboardInterrupt",
+    says="main() has ended, but Python still waits for its threads, where nothing catches the KeyboardInterrupt",
     do="Join the threads in main(), and catch KeyboardInterrupt there.",
     example=in_run(
         Symptom.ENDS_BADLY,
@@ -90,8 +90,8 @@ def shut_down_twice(case: Case) -> Iterator[Found]:
 def threads_at_exit(case: Case) -> Iterator[Found]:
     """Python waits for threads when main() is over.
 
-    A program ends when all its threads have ended. Python waits for them after the last line, and a Ctrl+C there is
-    caught by nobody.
+    A program ends when all its threads have ended. Python waits for them after the last line, where nothing catches
+    what Ctrl+C raises.
 
     Bad:
 
@@ -120,14 +120,14 @@ def threads_at_exit(case: Case) -> Iterator[Found]:
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.PROCESS,
     says="{exception} reaches the end of the program{place}",
-    do="Catch around the spin what Ctrl+C raises there: KeyboardInterrupt and ExternalShutdownException.",
+    do="Around the spin, catch what Ctrl+C raises there: KeyboardInterrupt and ExternalShutdownException.",
     example=in_run(Symptom.ENDS_BADLY, raised=_traceback("KeyboardInterrupt")),
 )
 def uncaught_interrupt(case: Case) -> Iterator[Found]:
     """Ctrl+C ends the program with a traceback.
 
-    On Ctrl+C, spin() ends with KeyboardInterrupt or, where rclpy's signal handler was faster or a thread spins, with
-    ExternalShutdownException. What nothing catches is printed as a traceback, and the exit code is not 0.
+    On Ctrl+C, spin() ends with KeyboardInterrupt or, if rclpy's signal handler was faster or a thread spins, with
+    ExternalShutdownException. If nothing catches it, Python prints a traceback, and the exit code is not 0.
 
     Bad:
 
@@ -156,14 +156,14 @@ def uncaught_interrupt(case: Case) -> Iterator[Found]:
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.PROCESS,
     says="{exception}{place}: after Ctrl+C a node can neither publish nor log over ROS",
-    do="Stop what uses the node before it is shut down, or do without ROS there: print() still works.",
+    do="Stop what uses the node before the shutdown, or do without ROS there: print() still works.",
     example=in_run(Symptom.ENDS_BADLY, raised=_traceback("rclpy._rclpy_pybind11.RCLError", _INVALID_CONTEXT[1])),
 )
 def used_after_shutdown(case: Case) -> Iterator[Found]:
     """A node is used after the shutdown.
 
-    Ctrl+C shuts the context down first. From then on, publish(), the logger's way to /rosout and everything else that
-    needs DDS raises an exception.
+    Ctrl+C shuts the context down first. From then on, publish() and whatever else needs DDS raises an exception, and a
+    log message reaches only the terminal.
 
     Bad:
 
@@ -195,8 +195,8 @@ def used_after_shutdown(case: Case) -> Iterator[Found]:
 def exception_on_exit(case: Case) -> Iterator[Found]:
     """Something raises an exception while the program ends.
 
-    After Ctrl+C a program tidies up. An exception there, also one that is raised on purpose, makes a normal end look
-    like a crash, with a traceback and exit code 1.
+    After Ctrl+C, a program tidies up. An exception there, even one raised on purpose, makes a normal end look like a
+    crash, with a traceback and exit code 1.
 
     Bad:
 

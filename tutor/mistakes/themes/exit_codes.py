@@ -18,14 +18,14 @@ from tutor.source import calls_in
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.RUN,
     says="after Ctrl+C the process crashes with {exit}{place}",
-    do="End what uses the node, such as threads, before you destroy it.",
+    do="End whatever uses the node, such as threads, before you destroy it.",
     example=in_run(Symptom.ENDS_BADLY, ending=Ending(Exit(None, 11, 2.0), 0.2, 5.0)),
 )
 def crash_on_exit(case: Case) -> Iterator[Found]:
     """The program crashes while it ends.
 
-    rclpy's objects are C++ objects inside. One that is destroyed while a thread still uses it ends the process with a
-    signal instead of an exit code.
+    Inside, rclpy's objects are C++ objects. If one is destroyed while a thread still uses it, a signal ends the
+    process, and there is no exit code of its own.
 
     Bad:
 
@@ -51,14 +51,14 @@ def crash_on_exit(case: Case) -> Iterator[Found]:
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.SYMPTOM,
     says="the process ends with {exit}{what}",
-    do="Return normally from main() after Ctrl+C, and give exit() no other code than 0.",
+    do="Return normally from main() after Ctrl+C, and give exit() no code but 0.",
     example=in_run(Symptom.ENDS_BADLY, ending=Ending(Exit(3, None, 2.0), 0.2, 5.0)),
 )
 def nonzero_exit(case: Case) -> Iterator[Found]:
-    """A clean end has another exit code than 0.
+    """A program that was told to end has an exit code that says it failed.
 
-    Who started the program, a launch file or a script, sees its exit code. 0 says that all went well, and 130 that
-    Ctrl+C ended it; sys.exit(True) and exit(signum) say that something failed.
+    Whatever started the program, such as a launch file or a script, sees its exit code. 0 says that all went well, and
+    130 that Ctrl+C ended it; sys.exit(True) and exit(signum) say that something failed.
 
     Bad:
 
@@ -89,15 +89,14 @@ def nonzero_exit(case: Case) -> Iterator[Found]:
     explains=[Symptom.DOES_NOT_END],
     evidence=Evidence.SYMPTOM,
     says="the process goes on after Ctrl+C{what}",
-    do="Let KeyboardInterrupt end the program, and end or join every thread and loop of it.",
+    do="Let KeyboardInterrupt end the program, with every loop and thread that it has started.",
     example=in_run(Symptom.DOES_NOT_END),
 )
 def sigint_ignored(case: Case) -> Iterator[Found]:
     """Ctrl+C does not end the program.
 
-    Ctrl+C sends the signal SIGINT, and Python turns it into KeyboardInterrupt. A bare except around the spin, a loop
-    that does not ask rclpy.ok(), a thread that runs on, or a signal handler that does nothing keeps the program
-    alive.
+    Ctrl+C sends the signal SIGINT, which Python turns into KeyboardInterrupt. A bare except around the spin, a loop
+    that does not ask rclpy.ok(), a thread that runs on, or a signal handler that does nothing keeps the program alive.
 
     Bad:
 

@@ -98,7 +98,7 @@ def printed(case: Case) -> Iterator[Found]:
     "output-held-back-by-buffering",
     explains=_LOGS,
     evidence=Evidence.RUN,
-    says="{what} is printed, and appears only when the program ends: into a pipe, print() waits for a full buffer",
+    says="{what} is printed, but appears only when the program ends: in a pipe, print() waits for a full buffer",
     do="Log it with the node's own logger: a log message goes out at once.",
     example=in_run(
         Symptom.NOT_LOGGED, what="the owner", value="Ada", at_end=(OutputLine("stdout", "owner: Ada", 1.0),)
@@ -107,8 +107,8 @@ def printed(case: Case) -> Iterator[Found]:
 def held_back(case: Case) -> Iterator[Found]:
     """Printed output is held back in a buffer.
 
-    In a terminal, print() shows each line at once. Into a pipe or a file, Python collects some thousand characters
-    first; what is left comes out when the program ends, or never if it is killed.
+    In a terminal, print() shows each line at once. For a pipe or a file, Python first collects some thousand
+    characters; what is left comes out when the program ends, or never if it is killed.
 
     Bad:
 
@@ -155,7 +155,7 @@ def _is_own(case: Case, logger: str) -> bool:
 def rosout_off(case: Case) -> Iterator[Found]:
     """A node keeps its log to itself.
 
-    With enable_rosout=False, a node makes no publisher for /rosout: its log is only on its own terminal.
+    With enable_rosout=False, a node makes no publisher for /rosout: its log appears only in its own terminal.
 
     Bad:
 
@@ -165,7 +165,7 @@ def rosout_off(case: Case) -> Iterator[Found]:
 
         super().__init__('bell')
 
-    See it: `ros2 topic echo /rosout` shows nothing of the node.
+    See it: `ros2 topic echo /rosout` shows nothing from the node.
     """
     for each in _logged_elsewhere(case):
         if not case.trace.logs and _is_own(case, each["logger"]):
@@ -184,10 +184,10 @@ def rosout_off(case: Case) -> Iterator[Found]:
     ),
 )
 def other_logger(case: Case) -> Iterator[Found]:
-    """A logger that belongs to no node.
+    """A message goes to a logger that belongs to no node.
 
-    rclpy.logging.get_logger(name) gives a logger by name. Only the log of a node's own logger, and of its children, is
-    sent to /rosout; any other is written to the terminal alone.
+    rclpy.logging.get_logger(name) returns a logger by its name. Only what a node's own logger and its children log is
+    sent to /rosout; everything else is written to the terminal alone.
 
     Bad:
 
@@ -197,7 +197,7 @@ def other_logger(case: Case) -> Iterator[Found]:
 
         self.get_logger().info('ding')
 
-    See it: the message is in the terminal, and not in `ros2 topic echo /rosout`.
+    See it: the message is in the terminal, but not in `ros2 topic echo /rosout`.
     """
     for each in _logged_elsewhere(case) if case.trace.graph.nodes else ():
         if case.trace.logs or not _is_own(case, each["logger"]):
@@ -209,13 +209,13 @@ def other_logger(case: Case) -> Iterator[Found]:
     name="node's logger replaced",
     explains=_LOGS,
     says="{line} replaces the logger that rclpy's Node keeps under this name, and get_logger() returns yours: {code}",
-    do="Give your own logger another name.",
+    do="Keep your own logger under another name.",
 )
 def logger_replaced(case: Case) -> Iterator[Found]:
     """A node overwrites its own logger.
 
-    rclpy's Node keeps its logger in self._logger. Assigning one of Python's own loggers to it makes get_logger() return
-    that, and nothing is sent to /rosout any more.
+    rclpy's Node keeps its logger in self._logger. If one of Python's own loggers is assigned to it, get_logger()
+    returns that, and nothing is sent to /rosout any more.
 
     Bad:
 
@@ -225,7 +225,7 @@ def logger_replaced(case: Case) -> Iterator[Found]:
 
         self._python_logger = logging.getLogger('bell')
 
-    See it: `ros2 topic echo /rosout` shows nothing of the node.
+    See it: `ros2 topic echo /rosout` shows nothing from the node.
     """
     for file in case.files:
         for node in file.nodes:
@@ -240,13 +240,12 @@ def logger_replaced(case: Case) -> Iterator[Found]:
     "log-level-raised",
     explains=_LOGS,
     says="{line} leaves out what is logged below that level: {code}",
-    do="Leave the level alone, or log at a higher one.",
+    do="Leave the level alone, or log the message at a higher one.",
 )
 def level_raised(case: Case) -> Iterator[Found]:
     """A logger's level is raised.
 
-    Messages below the level of a logger are not made at all, neither on the terminal nor on /rosout. The default is
-    INFO.
+    Messages below a logger's level are not made at all, neither in the terminal nor on /rosout. The default is INFO.
 
     Bad:
 
@@ -279,7 +278,7 @@ def level_raised(case: Case) -> Iterator[Found]:
 def at_debug(case: Case) -> Iterator[Found]:
     """A message is logged at DEBUG.
 
-    Loggers begin at the level INFO: debug() makes no message at all unless somebody lowers the level.
+    Loggers start at the level INFO: debug() makes no message at all unless somebody lowers the level.
 
     Bad:
 

@@ -16,8 +16,8 @@ from tutor.mistakes.themes.symptoms import in_words, symptom
 def wrong_log(case: Case) -> Iterator[Found]:
     """The log says something that is not so.
 
-    What a node logs about its work is computed like anything else: counted too often or too rarely, kept from another
-    time, formatted from the wrong variable.
+    What a node logs about its work is computed like anything else, and can be counted too often or too rarely, out of
+    date, or taken from the wrong variable.
 
     Bad:
 
@@ -42,8 +42,8 @@ def wrong_log(case: Case) -> Iterator[Found]:
 def service_missing(case: Case) -> Iterator[Found]:
     """A node offers no such service.
 
-    A service is there once create_service() has been called with its type and name. A name without a slash in front
-    is relative to the node's namespace.
+    A service is there once create_service() has been called with its type and name. A name without a leading slash is
+    relative to the node's namespace.
 
     Bad:
 
@@ -67,8 +67,8 @@ def service_missing(case: Case) -> Iterator[Found]:
 def wrong_answer(case: Case) -> Iterator[Found]:
     """A service answers, but wrongly.
 
-    The callback gets the request and an empty response. What it puts into the response's fields, and returns, is the
-    answer; fields that it leaves alone are 0, false or empty.
+    The callback gets the request and an empty response. The answer is the response that it returns, with what it has
+    put into its fields; fields that it leaves alone are 0, false or empty.
 
     Bad:
 
@@ -95,8 +95,8 @@ def wrong_answer(case: Case) -> Iterator[Found]:
 def calls_missing(case: Case) -> Iterator[Found]:
     """A client does not make all its calls.
 
-    A client waits for its service, sends a request and waits for the answer, for each service that it uses. What
-    comes after a wait that never ends, or after an exception, is never reached.
+    A client waits for its service, sends a request and waits for the answer, for each service that it uses. What comes
+    after a wait that never ends, or after an exception, is never reached.
 
     Bad:
 
@@ -107,7 +107,7 @@ def calls_missing(case: Case) -> Iterator[Found]:
         self.open_door.wait_for_service(timeout_sec=5.0)
         self.answer = self.open_door.call_async(Trigger.Request())
 
-    See it: `ros2 service echo`, or a log message before each call.
+    See it: log a message before and after each call.
     """
     missing = case.about("missing", "every service")
     return in_words(
@@ -121,7 +121,7 @@ def calls_missing(case: Case) -> Iterator[Found]:
 def callbacks_wait_for_each_other(case: Case) -> Iterator[Found]:
     """One callback keeps others from running.
 
-    An executor runs callbacks one after the other. They run side by side only in a MultiThreadedExecutor with enough
+    An executor runs callbacks one after another. They run side by side only in a MultiThreadedExecutor with enough
     threads, and only in different callback groups or in a reentrant one.
 
     Bad:
@@ -147,8 +147,8 @@ def callbacks_wait_for_each_other(case: Case) -> Iterator[Found]:
 def does_not_end(case: Case) -> Iterator[Found]:
     """Ctrl+C does not end the program.
 
-    Ctrl+C sends SIGINT. rclpy then shuts down and spin() returns or raises; the program ends if nothing else keeps
-    it: a loop, a thread that nobody ends, a handler that swallows the signal.
+    Ctrl+C sends SIGINT. rclpy then shuts down, and spin() returns or raises; the program ends unless something keeps it
+    alive: a loop, a thread that nothing ends, a handler that swallows the signal.
 
     Bad:
 
@@ -173,8 +173,8 @@ def does_not_end(case: Case) -> Iterator[Found]:
 def ends_badly(case: Case) -> Iterator[Found]:
     """The program ends on Ctrl+C, but not cleanly.
 
-    After Ctrl+C the context is already shut down: spin() raises KeyboardInterrupt or ExternalShutdownException, and a
-    second shutdown() raises as well. A clean program expects the two, and calls rclpy.try_shutdown().
+    After Ctrl+C, the context is already shut down: spin() raises KeyboardInterrupt or ExternalShutdownException, and so
+    a second shutdown() raises an RCLError. A clean program catches the first two, and calls rclpy.try_shutdown().
 
     Bad:
 
@@ -203,8 +203,8 @@ def ends_badly(case: Case) -> Iterator[Found]:
 def not_launched(case: Case) -> Iterator[Found]:
     """A launch does not start what it should.
 
-    A launch file starts the nodes that its LaunchDescription holds, as they are described. A node that is not in the
-    list, has a condition that is false, or a name that no package has, is not started.
+    A launch file starts the nodes that its LaunchDescription holds. A node that is not in the list, whose condition is
+    false, or whose executable no package has, is not started.
 
     Bad:
 

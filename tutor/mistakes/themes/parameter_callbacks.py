@@ -17,14 +17,14 @@ _UNSEEN = (Symptom.BAD_VALUE_ACCEPTED, Symptom.WRONG_RATE, Symptom.CHANGE_IGNORE
 @mistake(
     "refused-too-late",
     explains=_UNSEEN,
-    says="{line} registers {function} to be called after the value is set, when it can no longer refuse: {code}",
-    do="Register it as an on-set callback, which is asked before.",
+    says="{line} registers {function} to be called once the value is set, when it can no longer refuse it: {code}",
+    do="Register it as an on-set callback, which is asked beforehand.",
 )
 def refused_too_late(case: Case) -> Iterator[Found]:
     """A post-set callback tries to refuse a value.
 
-    Post-set callbacks are told of values that are already stored, and what they return is ignored. On-set callbacks are
-    asked before, and can refuse.
+    Post-set callbacks are told about values that are already stored, and what they return is ignored. On-set callbacks
+    are asked beforehand, and can refuse.
 
     Bad:
 
@@ -58,7 +58,7 @@ def refused_too_late(case: Case) -> Iterator[Found]:
     do="Only check in on-set callbacks, and apply the values in a post-set callback.",
 )
 def callback_order(case: Case) -> Iterator[Found]:
-    """One on-set callback applies what another one refuses.
+    """One on-set callback applies what another refuses.
 
     rclpy asks the on-set callbacks in turn, the one added last first, until one refuses. A callback that also applies
     the values has done so by then, and the node works with values that its parameters do not have.
@@ -107,8 +107,8 @@ def callback_order(case: Case) -> Iterator[Found]:
 def not_registered(case: Case) -> Iterator[Found]:
     """A parameter callback is never called.
 
-    A function becomes a parameter callback when it is given to add_on_set_parameters_callback (or add_post_set_…), by
-    its name: with parentheses it is called at once, and what it returns is registered.
+    A function becomes a parameter callback when its name is given to add_on_set_parameters_callback (or
+    add_post_set_…). With parentheses, it is called at once, and what it returns is registered instead.
 
     Bad:
 
@@ -163,12 +163,12 @@ def _is_reached(file: NodeFile, function: Function) -> bool:
     "callback-defined-twice",
     explains=_UNSEEN,
     says="{name} is defined in line {first} and again in {line}: the second replaces the first, which is never called",
-    do="Give one of them another name, or make one of the two.",
+    do="Rename one of the two, or merge them.",
 )
 def defined_twice(case: Case) -> Iterator[Found]:
     """A callback is defined twice.
 
-    In a class, a second method with the same name replaces the first, without a word.
+    In a class, a second method of the same name silently replaces the first.
 
     Bad:
 
@@ -202,15 +202,15 @@ def defined_twice(case: Case) -> Iterator[Found]:
 @mistake(
     "old-value-used",
     explains=(Symptom.WRONG_RATE, Symptom.CHANGE_IGNORED),
-    says="{line} still reads the old value, since an on-set callback is called before the new one is stored: {code}",
-    do="Take the new value from the callback's argument, or follow it in a post-set callback.",
+    says="{line} still reads the old value, since on-set callbacks are called before the new one is stored: {code}",
+    do="Take the new value from the callback's argument, or read it in a post-set callback.",
     example=in_run(Symptom.CHANGE_IGNORED, parameter="volume"),
 )
 def old_value_used(case: Case) -> Iterator[Found]:
     """An on-set callback reads the old value.
 
     An on-set callback is asked whether a change is fine; until it has agreed, the node has the old value. The new one
-    is in the list that the callback gets.
+    is in the list that the callback is given.
 
     Bad:
 
@@ -229,7 +229,7 @@ def old_value_used(case: Case) -> Iterator[Found]:
         def follow(self, parameters):
             self.volume = self.get_parameter('volume').value
 
-    See it: set a parameter twice: the node is always one value behind.
+    See it: set the parameter twice: the node is always one value behind.
     """
     name = case.about("parameter", "")
     for file in case.files:

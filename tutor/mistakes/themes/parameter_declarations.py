@@ -34,7 +34,7 @@ def _placed(case: Case, name: object, **words: object) -> Found:
     "integer-parameter",
     explains=(Symptom.NOT_DECLARED, Symptom.REFUSED),
     evidence=Evidence.RUN,
-    says="{name} is an integer, as its default is a whole number{where}: it takes no value with decimals",
+    says="{name} is an integer, since its default is a whole number{where}, and takes no value with decimals",
     do="Give it a default with a decimal point.",
     example=in_run(
         Symptom.NOT_DECLARED, parameter="volume", type="double", found=Parameter("/node", "volume", "integer", 7)
@@ -43,8 +43,8 @@ def _placed(case: Case, name: object, **words: object) -> Found:
 def integer_parameter(case: Case) -> Iterator[Found]:
     """A parameter is an integer where decimals are needed.
 
-    The type of a parameter is the type of its default, and it never changes: 1 makes an integer, 1.0 a double. Neither
-    takes a value of the other, so 0.5 is refused, or ends the node when it is given at start-up.
+    The type of a parameter is the type of its default, and never changes: 1 makes an integer, 1.0 a double. Neither
+    takes a value of the other type, so 0.5 is refused, or ends the node when it is given at start-up.
 
     Bad:
 
@@ -77,10 +77,10 @@ def integer_parameter(case: Case) -> Iterator[Found]:
     ),
 )
 def wrong_parameter_type(case: Case) -> Iterator[Found]:
-    """A parameter has another type than it should.
+    """A parameter has the wrong type.
 
-    A parameter gets its type from its default: 'true' in quotation marks is a string, True a boolean; 1 is an
-    integer, 1.0 a double. Values of another type are refused.
+    A parameter gets its type from its default: 'true' in quotation marks is a string, True a boolean; 1 is an integer,
+    1.0 a double. Values of another type are refused.
 
     Bad:
 
@@ -112,10 +112,10 @@ def wrong_parameter_type(case: Case) -> Iterator[Found]:
     ),
 )
 def wrong_default(case: Case) -> Iterator[Found]:
-    """A parameter has another default than it should.
+    """A parameter has the wrong default.
 
-    The default is what a parameter has when nobody has set it. It is the second argument of declare_parameter; a value
-    that the node sets itself afterwards counts as well.
+    The default is the value of a parameter that nobody has set. It is the second argument of declare_parameter; a value
+    that the node itself sets afterwards counts as well.
 
     Bad:
 
@@ -140,15 +140,15 @@ def _shown(value: object) -> str:
 @mistake(
     "parameter-declared-under-another-name",
     explains=(Symptom.NOT_DECLARED,),
-    says="{line} declares {given}, and {wanted} is asked for: {code}",
+    says="{line} declares {given}, but the name asked for is {wanted}: {code}",
     do="Use exactly the name {wanted}, here and where it is read.",
     example=in_run(Symptom.NOT_DECLARED, parameter="volume", type="integer"),
 )
 def declared_under_another_name(case: Case) -> Iterator[Found]:
     """A parameter is declared under another name.
 
-    Names of parameters are compared letter by letter, underscores and capitals included. A value for a name that was
-    not declared is refused, or ignored at start-up.
+    Parameter names are compared letter by letter, underscores and capitals included. A value for a name that was not
+    declared is refused, or, at start-up, ignored.
 
     Bad:
 
@@ -178,14 +178,14 @@ def declared_under_another_name(case: Case) -> Iterator[Found]:
 @mistake(
     "arguments-left-out",
     explains=(*_START, Symptom.WRONG_NAMES),
-    says="{line} keeps the command line's arguments from the node, and the parameters given there with them: {code}",
+    says="{line} keeps the command line's arguments, and with them the parameters given there, from the node: {code}",
     do="Let rclpy take the command line's arguments itself.",
 )
 def dropped_arguments(case: Case) -> Iterator[Found]:
-    """A node does not get the arguments of its command line.
+    """A node does not get the arguments from its command line.
 
-    rclpy.init() reads sys.argv by itself. With an empty list, with a part of sys.argv, or with
-    use_global_arguments=False, what stands behind --ros-args is lost: parameters, remappings, the node's name.
+    rclpy.init() reads sys.argv itself. With an empty list, only a part of sys.argv, or use_global_arguments=False, what
+    follows --ros-args is lost: parameters, remappings, the node's name.
 
     Bad:
 

@@ -37,8 +37,8 @@ def _reason(case: Case) -> str:
 def returns_none(case: Case) -> Iterator[Found]:
     """A parameter callback returns no SetParametersResult.
 
-    rclpy asks the on-set callbacks whether a change is fine, and takes nothing but a SetParametersResult for an
-    answer. A function that ends without return gives None; True is not a result either, and a coroutine is not
+    rclpy asks the on-set callbacks whether a change is fine, and accepts nothing but a SetParametersResult as an
+    answer. A function that ends without a return gives None; True is no such result either, and a coroutine is not
     awaited.
 
     Bad:
@@ -84,8 +84,8 @@ def _returned(callback: Function) -> str:
 def narrow_range(case: Case) -> Iterator[Found]:
     """A declared range refuses good values.
 
-    A FloatingPointRange or IntegerRange in the descriptor lets rclpy refuse values outside it. With a step other than
-    0, only values that are a whole number of steps from the lower end are taken.
+    A FloatingPointRange or IntegerRange in the descriptor makes rclpy refuse values outside it. With a step other than
+    0, only the two ends, and values a whole number of steps above the lower end, are accepted.
 
     Bad:
 
@@ -108,15 +108,15 @@ def narrow_range(case: Case) -> Iterator[Found]:
     "value-dropped-before-it-is-set",
     explains=(Symptom.REFUSED, Symptom.BAD_VALUE_ACCEPTED),
     evidence=Evidence.RUN,
-    says="a pre-set callback takes the value out of the list, and rclpy can only say that nothing is left",
-    do="Refuse in an on-set callback, which can give a reason.",
+    says="a pre-set callback removes the value from the list, so rclpy can only say that nothing is left",
+    do="Refuse the value in an on-set callback instead, which can give a reason.",
     example=in_run(Symptom.REFUSED, answer=_refused("parameter list cannot be empty, this might be due to ...")),
 )
 def value_dropped(case: Case) -> Iterator[Found]:
     """A pre-set callback drops the value.
 
-    A callback registered with add_pre_set_parameters_callback may change the list of new values before anybody checks
-    it. It cannot refuse: who sets the value gets a message about an empty list.
+    A callback registered with add_pre_set_parameters_callback may change the list of new values before it is checked,
+    but it cannot refuse: whoever sets the value gets a message about an empty list.
 
     Bad:
 

@@ -24,15 +24,15 @@ def _name(case: Case) -> str:
 @mistake(
     "value-overwritten-by-the-node",
     explains=_IGNORED,
-    says="{line} {what}, so the value of {name} that was given does not last: {code}",
-    do="Take this out, and let the declared default be the only value in the code.",
+    says="{line} {what}, so a value given for {name} does not last: {code}",
+    do="Remove this, and let the declared default be the only value in the code.",
     example=in_run(Symptom.CHANGE_IGNORED, parameter="volume"),
 )
 def overwritten(case: Case) -> Iterator[Found]:
     """A node overwrites the value of its own parameter.
 
-    What is given at start-up comes in with the declaration. A set_parameters() or an assignment after it, or
-    parameter_overrides in the constructor, replaces it, and the one who started the node wonders.
+    A value given at start-up arrives with the declaration. A set_parameters() or an assignment after it, or
+    parameter_overrides in the constructor, replaces it, to the surprise of whoever started the node.
 
     Bad:
 
@@ -120,8 +120,8 @@ def _reassignment(file: NodeFile, name: str) -> ast.Assign | None:
 def value_message(case: Case) -> Iterator[Found]:
     """get_parameter_value() is taken for the value.
 
-    It gives a message of type ParameterValue, with a field for each possible type: double_value, string_value and so
-    on. The value itself is in the attribute `value` of the parameter.
+    It returns a message of type ParameterValue, with a field for each possible type: double_value, string_value and so
+    on. The value itself is in the parameter's attribute `value`.
 
     Bad:
 
@@ -148,14 +148,14 @@ def value_message(case: Case) -> Iterator[Found]:
     "parameter-object",
     explains=_IGNORED,
     slip=True,
-    says="{line} gives a Parameter object, not its value: {code}",
+    says="{line} uses a Parameter object, not its value: {code}",
     do="Add .value to that call.",
     example=in_run(Symptom.NOT_LOGGED, parameter="owner"),
 )
 def parameter_object(case: Case) -> Iterator[Found]:
     """The Parameter itself is used where its value is meant.
 
-    get_parameter() and declare_parameter() give a Parameter: an object with a name, a type and a value. In a text it
+    get_parameter() and declare_parameter() return a Parameter: an object with a name, a type and a value. In a text, it
     looks like <rclpy.parameter.Parameter object at 0x7f…>.
 
     Bad:
@@ -183,7 +183,7 @@ def parameter_object(case: Case) -> Iterator[Found]:
     "read-only-parameter",
     explains=(Symptom.REFUSED, Symptom.CHANGE_IGNORED),
     says="{line} makes a parameter read-only, so it keeps its first value: {code}",
-    do="Leave read_only out where the value is to change at run time.",
+    do="Leave out read_only if the value should change at run time.",
 )
 def read_only(case: Case) -> Iterator[Found]:
     """A parameter is declared read-only.

@@ -28,16 +28,16 @@ _Closure = ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef
 
 @mistake(
     "caret-is-no-power",
-    name="^ is no power",
+    name="^ is not a power",
     explains=_VALUES,
     slip=True,
     says="{line}: {wrong} is {value}, since ^ is a bitwise XOR: {code}",
     do="Write {right}.",
 )
 def caret(case: Case) -> Iterator[Found]:
-    """^ is taken for a power.
+    """^ is used as a power.
 
-    In Python, ^ combines bits; a power is written with **. 10^9 is 3.
+    In Python, ^ combines bits, so 10^9 is 3; a power is written with **.
 
     Bad:
 
@@ -64,14 +64,14 @@ def caret(case: Case) -> Iterator[Found]:
     "never-none",
     name="never None",
     explains=_VALUES,
-    says="{line} waits for {name} to be None, but it begins as {value}: {code}",
-    do="Let {name} begin as None.",
+    says="{line} tests whether {name} is None, but it starts as {value}: {code}",
+    do="Let {name} start as None.",
 )
 def never_none(case: Case) -> Iterator[Found]:
-    """An attribute is compared with None, and never is None.
+    """An attribute is compared with None, but never is None.
 
-    0 and an empty text are values. A test for "is None" asks whether there is no value at all, and that is so only if
-    the attribute began as None.
+    0 and an empty text are values. "is None" asks whether there is no value at all, which is true only if the attribute
+    started as None.
 
     Bad:
 
@@ -118,7 +118,7 @@ def never_none(case: Case) -> Iterator[Found]:
     example=in_run(Symptom.NOT_LOGGED, logs=["owner: {self.owner}"]),
 )
 def missing_f(case: Case) -> Iterator[Found]:
-    """A text has placeholders, and no f in front.
+    """A text has placeholders, but no f in front.
 
     Python fills in {…} only in texts that begin with f. Without it, the braces and the name are shown as they are.
 
@@ -150,13 +150,13 @@ def missing_f(case: Case) -> Iterator[Found]:
     "one-object-two-names",
     name="one object, two names",
     explains=_VALUES,
-    says="{line}: {names} are one object, so a change of one changes the other: {code}",
-    do="Make an object for each of them.",
+    says="{line}: {names} are one object, so changing one changes the other: {code}",
+    do="Make a separate object for each of them.",
 )
 def shared_object(case: Case) -> Iterator[Found]:
     """Two names are given one object.
 
-    a = b = {} makes one dict with two names. What is put into one is in the other as well; numbers and texts are safe,
+    a = b = {} makes one dict with two names: what is put into one is in the other as well. Numbers and texts are safe,
     since they cannot be changed.
 
     Bad:
@@ -186,8 +186,8 @@ def shared_object(case: Case) -> Iterator[Found]:
 def late_binding(case: Case) -> Iterator[Found]:
     """A function made in a loop sees the loop's last value.
 
-    A lambda or an inner function looks its variables up when it is called. By then the loop has ended, and its variable
-    has the last value, for all functions that were made.
+    A lambda or an inner function looks up its variables when it is called. By then the loop has ended, and its variable
+    has the last value, for all the functions that were made.
 
     Bad:
 
@@ -199,7 +199,7 @@ def late_binding(case: Case) -> Iterator[Found]:
         for room in self.rooms:
             self.create_service(Trigger, room, lambda request, response, room=room: self.ring(room, response))
 
-    See it: call each of them: all do the same.
+    See it: call each of them: they all do the same.
     """
     for file in case.files:
         for loop in file.nodes:

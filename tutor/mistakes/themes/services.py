@@ -50,7 +50,7 @@ def _found(case: Case, name: str, **words: object) -> Found:
     ),
 )
 def wrong_type(case: Case) -> Iterator[Found]:
-    """The right service, with another type.
+    """The service is right, but its type is not.
 
     A client reaches a service only if name and type are the same. The type decides which fields a request and a
     response have.
@@ -77,7 +77,7 @@ def wrong_type(case: Case) -> Iterator[Found]:
     explains=(*_UNREACHED, Symptom.WRONG_ANSWER),
     evidence=Evidence.RUN,
     says="{service} has the {policy} {own}, and the other side {default}, the default of services: they never meet",
-    do="Leave the QoS profile out: the default of services is right.",
+    do="Leave out the QoS profile: the default is right for services.",
     example=in_run(
         Symptom.SERVICE_MISSING, graph=offering("/open_door", reliability="best_effort"), service="/open_door"
     ),
@@ -85,8 +85,8 @@ def wrong_type(case: Case) -> Iterator[Found]:
 def service_qos(case: Case) -> Iterator[Found]:
     """A service has a QoS that clients do not match.
 
-    Services are reliable and volatile by default, and so are the clients of tools and other nodes. With best effort or
-    transient local on one side, DDS does not connect the two.
+    Services are reliable and volatile by default, and so are the clients of tools and other nodes. With best effort, or
+    transient local, on one side only, DDS may not connect the two.
 
     Bad:
 
@@ -96,7 +96,7 @@ def service_qos(case: Case) -> Iterator[Found]:
 
         self.create_service(Trigger, 'open_door', self.open_the_door)
 
-    See it: `ros2 service call` waits in vain.
+    See it: `ros2 service call` waits forever.
     """
     graph = case.trace.graph
     for endpoint in (*graph.servers, *graph.clients):
@@ -120,8 +120,8 @@ def service_qos(case: Case) -> Iterator[Found]:
 def wrong_name(case: Case) -> Iterator[Found]:
     """A service has another name.
 
-    Names are compared letter by letter. A name without a slash in front is relative to the node's namespace, and with
-    a ~ in front, the node's name comes before it.
+    Names are compared letter by letter. A name without a leading slash is relative to the node's namespace; with a
+    leading ~, the node's name comes before it as well.
 
     Bad:
 
@@ -148,8 +148,8 @@ def wrong_name(case: Case) -> Iterator[Found]:
 @mistake(
     "answered-too-early",
     explains=[Symptom.WRONG_ANSWER],
-    says="{line} does the work beside the callback, which answers at once, with nothing filled in yet: {code}",
-    do="Let the callback itself do the work, and return the response when it is done.",
+    says="{line} does the work outside the callback, which answers at once, with nothing filled in yet: {code}",
+    do="Let the callback itself do the work, and return the response when the work is done.",
 )
 def answered_early(case: Case) -> Iterator[Found]:
     """A service answers before its work is done.
@@ -188,8 +188,8 @@ def answered_early(case: Case) -> Iterator[Found]:
     "response-field-not-set",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.SYMPTOM,
-    says="{service} answers with 0 and not with {wanted}: a field that nothing is put into is 0",
-    do="Put the result into the field of the response that the type has for it.",
+    says="{service} answers 0 instead of {wanted}: a field that is never set is 0",
+    do="Put the result into the response's field that the type has for it.",
     example=in_run(
         Symptom.WRONG_ANSWER,
         service="/count",
@@ -198,10 +198,10 @@ def answered_early(case: Case) -> Iterator[Found]:
     ),
 )
 def field_not_set(case: Case) -> Iterator[Found]:
-    """A response is returned as it came.
+    """A response is returned unchanged.
 
-    The callback gets a response whose fields are 0, false or empty. What it computes counts only if it is put into
-    one of these fields.
+    The callback is given a response whose fields are 0, false or empty. What it computes reaches the caller only if it
+    is put into one of these fields.
 
     Bad:
 
@@ -227,15 +227,15 @@ def field_not_set(case: Case) -> Iterator[Found]:
     "shared-state",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
-    says="one call was answered with the result of another one that was made at the same time",
+    says="one call was answered with the result of another that was made at the same time",
     do="Keep what belongs to one call in local variables of the callback.",
     example=in_run(Symptom.WRONG_ANSWER, shared=True),
 )
 def shared_state(case: Case) -> Iterator[Found]:
     """Calls that run at the same time share a variable.
 
-    With several threads, a callback runs several times at once. An attribute of the node is the same one for all of
-    them: the second call overwrites what the first has put there.
+    With several threads, a callback can run several times at once. All of these runs share the node's attributes: the
+    second call overwrites what the first has put there.
 
     Bad:
 

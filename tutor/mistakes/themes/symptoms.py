@@ -21,10 +21,10 @@ def in_words(case: Case, says: str, do: str) -> Iterator[Found]:
 
 @symptom("ended", explains=[Symptom.ENDED])
 def ended(case: Case) -> Iterator[Found]:
-    """A program ends by itself, or makes no node.
+    """A program ends on its own, or makes no node.
 
-    A node lives as long as something runs it: rclpy.spin() returns only on Ctrl+C. A program that gets past it, or
-    never gets to it, ends, and its node is gone with it.
+    A node lives as long as something runs it, and rclpy.spin() does not return before Ctrl+C. A program that gets past
+    it, or never gets to it, ends, and its node with it.
 
     Bad:
 
@@ -50,10 +50,10 @@ def ended(case: Case) -> Iterator[Found]:
 
 @symptom("no-answer", explains=[Symptom.NO_ANSWER])
 def no_answer(case: Case) -> Iterator[Found]:
-    """A node is up and answers nothing.
+    """A node is up, but answers nothing.
 
-    Requests, also those for parameters, are answered by callbacks, which run only while an executor spins and no
-    other callback holds it up. A node that is in the graph and does not answer is not spinning, or is busy.
+    Requests, even those for parameters, are answered by callbacks, which run only while an executor spins and no other
+    callback holds it up. A node that is in the graph but does not answer is not spinning, or is busy.
 
     Bad:
 
@@ -68,7 +68,7 @@ def no_answer(case: Case) -> Iterator[Found]:
             if self.left:
                 self.left -= 1
 
-    See it: `ros2 param list NODE` waits in vain, though `ros2 node list` shows the node.
+    See it: `ros2 param list NODE` gets no answer, though `ros2 node list` shows the node.
     """
     return in_words(
         case,
@@ -81,8 +81,8 @@ def no_answer(case: Case) -> Iterator[Found]:
 def no_messages(case: Case) -> Iterator[Found]:
     """Nothing arrives on a topic.
 
-    A message is on its way only while publish() is called, and a node calls it from a callback: most often a timer's.
-    A publisher that exists is not enough, and neither is a method that nothing calls.
+    A message is sent only when publish() is called, and a node calls it from a callback, most often a timer's. A
+    publisher on its own is not enough, and neither is a method that nothing calls.
 
     Bad:
 
@@ -105,10 +105,10 @@ def no_messages(case: Case) -> Iterator[Found]:
 
 @symptom("nothing-received", explains=[Symptom.NOTHING_RECEIVED])
 def nothing_received(case: Case) -> Iterator[Found]:
-    """Messages are sent, and the node does nothing with them.
+    """Messages are sent, but the node does nothing with them.
 
-    A subscription calls its callback for each message that reaches it: same name, same type, compatible QoS, and an
-    executor that spins. What the callback then does is up to the node.
+    A subscription calls its callback for each message that reaches it, which takes the same name, the same type,
+    compatible QoS, and an executor that spins. What the callback then does is up to the node.
 
     Bad:
 
@@ -130,10 +130,10 @@ def nothing_received(case: Case) -> Iterator[Found]:
 
 @symptom("wrong-values", explains=[Symptom.WRONG_VALUES])
 def wrong_values(case: Case) -> Iterator[Found]:
-    """The right messages, with the wrong content.
+    """The messages are right, but their content is not.
 
-    Name, type and rate are right; the numbers or texts in the fields are not what was asked for. ROS checks a field's
-    type, never its sense.
+    Name, type and rate are right, but the numbers or texts in the fields are not what was asked for. ROS knows a
+    field's type, but not what makes sense in it.
 
     Bad:
 
@@ -156,8 +156,8 @@ def wrong_values(case: Case) -> Iterator[Found]:
 def wrong_rate(case: Case) -> Iterator[Found]:
     """Messages come faster or slower than they should.
 
-    A timer takes its period in seconds when it is made, and keeps it. A rate in hertz is one divided by the period; a
-    value that is read later changes nothing by itself.
+    A timer takes its period, in seconds, when it is made, and keeps it. A rate in hertz is one divided by the period; a
+    value that is read later does not change the timer.
 
     Bad:
 
@@ -178,7 +178,7 @@ def wrong_rate(case: Case) -> Iterator[Found]:
 
 @symptom("parameter-ignored", explains=[Symptom.CHANGE_IGNORED])
 def parameter_ignored(case: Case) -> Iterator[Found]:
-    """A parameter is set, and nothing changes.
+    """A parameter is set, but nothing changes.
 
     Setting a parameter changes the value that get_parameter() returns from then on. A copy made earlier, or a timer
     made from it, keeps the old one unless a callback brings it up to date.
@@ -210,8 +210,8 @@ def parameter_ignored(case: Case) -> Iterator[Found]:
 def parameter_not_declared(case: Case) -> Iterator[Found]:
     """A node has no such parameter.
 
-    A node has the parameters that it declares, with the type of the default that it gives. What is not declared
-    cannot be set, neither at start-up nor later.
+    A node has the parameters that it declares, with the types of their defaults. What is not declared cannot be set,
+    neither at start-up nor later.
 
     Bad:
 
@@ -235,8 +235,8 @@ def parameter_not_declared(case: Case) -> Iterator[Found]:
 def good_value_refused(case: Case) -> Iterator[Found]:
     """A node refuses a good value.
 
-    A set is refused by a callback that returns successful=False, by a range in the descriptor, by read_only, or
-    because the value has another type than the parameter.
+    A value is refused by a callback that returns successful=False, by a range in the descriptor, by read_only, or
+    because its type is not that of the parameter.
 
     Bad:
 
@@ -262,8 +262,8 @@ def good_value_refused(case: Case) -> Iterator[Found]:
 def not_logged(case: Case) -> Iterator[Found]:
     """Something is not in the log.
 
-    The node's logger sends its messages to the terminal and to /rosout, where other programs see them, if their level
-    is high enough. What is printed goes to the terminal only.
+    If their level is high enough, the node's logger sends messages to the terminal and to /rosout, where other programs
+    see them. What is printed goes to the terminal only.
 
     Bad:
 

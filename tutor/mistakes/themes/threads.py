@@ -26,15 +26,15 @@ def _in_spin(source: str) -> Sequence[Frame]:
     "one-thread-for-all-callbacks",
     explains=_STILL,
     evidence=Evidence.RUN,
-    says="one thread runs all callbacks, so while the service works{where}, everything else waits",
+    says="one thread runs all callbacks, so everything else waits while the service works{where}",
     do="Let a MultiThreadedExecutor with several threads spin the node.",
     example=in_run(Symptom.STANDS_STILL, stuck_at=_in_spin),
 )
 def one_thread(case: Case) -> Iterator[Found]:
     """One thread runs all callbacks.
 
-    rclpy.spin() and a SingleThreadedExecutor run one callback after the other. While one takes three seconds, timers,
-    subscriptions and other services of the node wait for it, whatever their callback groups are.
+    rclpy.spin() and a SingleThreadedExecutor run one callback after another. While one takes three seconds, the node's
+    timers, subscriptions and other services wait for it, whatever their callback groups are.
 
     Bad:
 
@@ -70,8 +70,8 @@ def one_thread(case: Case) -> Iterator[Found]:
 def too_few_threads(case: Case) -> Iterator[Found]:
     """A MultiThreadedExecutor has too few threads.
 
-    Each callback that is busy takes a thread. Without num_threads, the executor has as many as the machine has cores;
-    two cores serve two calls at once, and the third waits.
+    Each busy callback takes up a thread. Without num_threads, the executor has as many threads as the machine has
+    cores: two cores serve two calls at once, and a third call waits.
 
     Bad:
 

@@ -22,10 +22,10 @@ _STOPPED = "where Python could not go on"
     example=from_example(Example("KeyError: 'doorbell'", "self.bell.play(self.tunes['doorbell'])")),
 )
 def unhandled_exception(case: Case) -> Iterator[Found]:
-    """An exception that nothing catches.
+    """Nothing catches an exception.
 
-    Python stops the callback, and with it the spin and the program, at the line that raised it. The last line of the
-    traceback says what Python could not do; the line of yours above it is where to look.
+    An exception stops the callback, and with it the spin and the program, at the line that raised it. The last line of
+    the traceback says what Python could not do; the last line of your own above it is where to look.
 
     Bad:
 
