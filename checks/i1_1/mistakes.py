@@ -226,7 +226,7 @@ def cycle(case: Case) -> Iterator[Found]:
 
 
 @CATALOGUE.mistake(
-    "two-types-on-one-topic",
+    "another-type-on-the-topic",
     name="wrong type",
     explains=[Symptom.NO_MESSAGES],
     evidence=Evidence.RUN,

@@ -172,7 +172,10 @@ def find_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: Trial
         return {"fault": "seconds-cut-off", "number": number.text, "covered": covered, "whole_s": whole_s}
     if not found:
         return {"fault": "no-rate"}
-    return {"fault": "wrong-rate", "what": f"none of {', '.join(number.text for number in found)} is the rate"}
+    return {
+        "fault": "wrong-rate-in-the-summary",
+        "what": f"none of {', '.join(number.text for number in found)} is the rate",
+    }
 
 
 def _find_whole_seconds(summary: Summary, trial: Trial) -> list[tuple[Number, int]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 
 import pytest
 
@@ -24,6 +25,12 @@ def test_its_page_has_a_title_a_bad_and_a_good_example_and_a_way_to_see_it(entry
     assert entry.examples, "there are blocks Bad: and Good:, indented by four spaces"
     assert "\nSee it: " in entry.page
     assert re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", entry.id)
+
+
+def test_no_two_mistakes_have_one_id() -> None:
+    """Also in different catalogues: `ros-tutor explain` shows one page for an id."""
+    ids = Counter(entry.id for _, catalogue in all_catalogues() for entry in catalogue.entries.values())
+    assert not [id for id, count in ids.items() if count > 1]
 
 
 def test_it_is_found_in_its_bad_example_and_says_so(entry: Mistake) -> None:

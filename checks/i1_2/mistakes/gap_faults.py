@@ -40,7 +40,7 @@ def zero(case: Case) -> Iterator[Found]:
     ALARM,
     says="{what}",
     do="Follow such a message, before which none is missing, through your condition: which two values differ there?",
-    what="it also says so where N rises by one: gap at 10",
+    what="it also reports one where N rises by one: gap at 10",
 )
 def false_alarm(case: Case) -> Iterator[Found]:
     """A loss is reported where nothing is lost.

@@ -239,7 +239,8 @@ def no_rate(case: Case) -> Iterator[Found]:
 
 
 @shown(
-    "wrong-rate",
+    "wrong-rate-in-the-summary",
+    name="wrong rate",
     says="{what}",
     do="Log the two numbers that you divide: the messages, and the seconds in which exactly these came.",
     what="none of 1.00 is the rate",
@@ -259,4 +260,4 @@ def wrong_rate(case: Case) -> Iterator[Found]:
 
     See it: the log, beside `ros2 topic hz TOPIC`.
     """
-    return told(case, "wrong-rate")
+    return told(case, "wrong-rate-in-the-summary")

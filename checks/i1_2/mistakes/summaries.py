@@ -141,8 +141,8 @@ def no_summary(case: Case) -> Iterator[Found]:
     See it: `ros2 topic echo /rosout`.
     """
     if case.about("fault") == "no-summary":
-        logs = "none of its log messages sums up the messages"
-        yield Found({"seen_instead": logs if case.about("logged") else "no log message follows from a message"})
+        logs = "none of its log messages is a summary"
+        yield Found({"seen_instead": logs if case.about("logged") else "no log message follows a message"})
 
 
 @CATALOGUE.mistake(

@@ -108,7 +108,7 @@ def at_start(case: Case) -> Iterator[Found]:
     evidence=Evidence.SYMPTOM,
     says="the value is refused, but {what} all the same",
     do="Look at all values before you apply any, and apply them in a post-set callback.",
-    example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", taken_over="the timer is another one"),
+    example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", taken_over="the timer has changed"),
 )
 def taken_over(case: Case) -> Iterator[Found]:
     """A refused value has an effect.
@@ -176,9 +176,9 @@ def no_validation(case: Case) -> Iterator[Found]:
             why = f"{where} can refuse a value, but does not refuse {value}" if refuses else f"{where} refuses nothing"
             yield found(file, checker, name=name, why=why)
         elif later is not None:
-            why = f"{later.name} (line {later.lineno}) is called when the value is already stored, and can refuse none"
+            why = f"{later.name} (line {later.lineno}) is called when the value is already stored, and cannot refuse it"
             yield found(file, later, name=name, why=why)
-    yield Found({"name": name, "why": f"nothing is asked before {name} gets a new value"})
+    yield Found({"name": name, "why": f"nothing checks a new value of {name} before it is stored"})
 
 
 def _mentions_failure(file: NodeFile, function: str) -> bool:

@@ -170,7 +170,7 @@ def waits_for_a_lock(case: Case) -> Iterator[Found]:
         and tracebacks.called_by_executor(thread, folder)
         and not _LOCK.search(frame.code)
     ]
-    why = f"which another callback holds at line {holders[0].line}" if holders else "and nothing is going to release it"
+    why = f"which another callback holds at line {holders[0].line}" if holders else "and nothing will release it"
     yield found_at(blocked[0], lock=matched["lock"] or matched["with"], why=why)
 
 

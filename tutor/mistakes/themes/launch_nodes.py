@@ -54,7 +54,7 @@ def not_started(case: Case) -> Iterator[Found]:
                 case, node, what=f"{node.kept} (line {node.line}) is made, but is not in the launch description"
             )
     for call in file.calls(*_LATER):
-        yield at_call(case, call, what=f"what {call.name} in line {call.line} holds is started {_LATER[call.name]}")
+        yield at_call(case, call, what=f"what {call.name} in line {call.line} holds starts {_LATER[call.name]}")
 
 
 @mistake(
@@ -89,11 +89,11 @@ def one_side(case: Case) -> Iterator[Found]:
     if not graph.nodes:
         return
     if senders and not receivers:
-        yield Found({"what": f"{', '.join(senders)} publishes, and nothing subscribes"})
+        yield Found({"what": f"{', '.join(senders)} publishes, but nothing subscribes"})
     elif receivers and not senders:
-        yield Found({"what": f"{', '.join(receivers)} subscribes, and nothing publishes"})
+        yield Found({"what": f"{', '.join(receivers)} subscribes, but nothing publishes"})
     elif senders:
-        yield Found({"what": f"{', '.join(senders)} does both by itself"})
+        yield Found({"what": f"{', '.join(senders)} does both on its own"})
     else:
         yield Found({"what": f"{', '.join(graph.nodes)}: neither publishes nor subscribes"})
 

@@ -110,7 +110,7 @@ def not_declared(case: Case) -> Iterator[Found]:
             left_out = f"line {call.line} makes the argument {name}, but it is not in the launch description"
             yield at_call(case, call, what=left_out if call.kept and not file.uses(call.kept) else late)
     others = [call.argument(0, "name") for call in file.calls("DeclareLaunchArgument")]
-    more = f"; declared are {', '.join(others)}" if others else ""
+    more = f"; those declared are {', '.join(others)}" if others else ""
     yield Found({"what": f"the value of {name} is read, but no argument {name} is declared{more}"})
 
 

@@ -73,7 +73,7 @@ def only_logged(case: Case) -> Iterator[Found]:
 def _told(seen: RaisedException, frame: Frame) -> Found:
     known = recognise_any(seen)
     what = f": {known.words['says']}" if known is not None else ""
-    step = known.words["do"] if known is not None else f"Correct line {frame.line}, and catch what you expect only."
+    step = known.words["do"] if known is not None else f"Correct line {frame.line}, and catch only what you expect."
     raised = f"{seen.raised} ({frame.name}, line {frame.line}: {frame.code})"
     return Found({"raised": raised, "what": what, "step": step}, frame.name, frame.line, frame.code)
 

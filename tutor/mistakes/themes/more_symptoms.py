@@ -86,7 +86,7 @@ def wrong_answer(case: Case) -> Iterator[Found]:
     service = case.about("service", "the service")
     return in_words(
         case,
-        f"{service} answers something else than it should",
+        f"{service} does not give the answer that it should",
         "Compute one answer by hand, and compare it with what the callback puts into the response.",
     )
 
@@ -113,7 +113,7 @@ def calls_missing(case: Case) -> Iterator[Found]:
     return in_words(
         case,
         f"the client does not call {missing}",
-        "Follow the client from its first line to the call that is missing, and see where it stays or ends.",
+        "Follow the client from its first line to the missing call, and see where it waits or ends.",
     )
 
 
@@ -165,7 +165,7 @@ def does_not_end(case: Case) -> Iterator[Found]:
     return in_words(
         case,
         "the program still runs after Ctrl+C",
-        "Look for what goes on after spin() has ended: a loop, a thread, a handler of signals.",
+        "Look for what goes on after spin() has ended: a loop, a thread, a signal handler.",
     )
 
 
@@ -195,7 +195,7 @@ def ends_badly(case: Case) -> Iterator[Found]:
     return in_words(
         case,
         "it ends on Ctrl+C, but not cleanly",
-        "See what the last lines of the output complain of, and what main() does after spin().",
+        "See what the last lines of the output complain about, and what main() does after spin().",
     )
 
 
@@ -221,7 +221,7 @@ def not_launched(case: Case) -> Iterator[Found]:
     return in_words(
         case,
         "the launch does not start what it should",
-        "Compare the nodes that the launch starts with those that you expect, one by one.",
+        "Compare the nodes that the launch starts with those that you expect.",
     )
 
 
@@ -270,6 +270,6 @@ def not_connected(case: Case) -> Iterator[Found]:
     """
     return in_words(
         case,
-        "the subscriber gets nothing of what the publisher sends",
+        "the subscriber receives nothing that the publisher sends",
         "Compare the topic, type and QoS on both sides.",
     )

@@ -73,4 +73,4 @@ def no_node(case: Case) -> Iterator[Found]:
     See it: `ros2 node list`.
     """
     if case.trace.exit is None and not case.trace.graph.nodes:
-        yield Found({"output": ", and prints without end" if case.trace.dropped_lines else ""})
+        yield Found({"output": ", and prints endlessly" if case.trace.dropped_lines else ""})

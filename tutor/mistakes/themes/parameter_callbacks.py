@@ -147,7 +147,7 @@ def _unregistered(file: NodeFile) -> Iterator[Found]:
     used |= {node.id for node in file.nodes if isinstance(node, ast.Name)}
     for function in file.functions:
         if function.name not in used and "SetParametersResult" in ast.unparse(function):
-            yield found(file, function, what=f"there is {function.name} (line {function.lineno}), which nothing calls")
+            yield found(file, function, what=f"nothing calls {function.name} (line {function.lineno})")
 
 
 def _is_reached(file: NodeFile, function: Function) -> bool:

@@ -31,7 +31,7 @@ def _reason(case: Case) -> str:
     explains=(Symptom.REFUSED, Symptom.BAD_VALUE_ACCEPTED),
     evidence=Evidence.RUN,
     says="the parameter callback does not return a SetParametersResult{what}",
-    do="Let every way through the callback return a SetParametersResult.",
+    do="Let every path through the callback return a SetParametersResult.",
     example=in_run(Symptom.REFUSED, answer=_refused("Callback returned an invalid type, it should return ...")),
 )
 def returns_none(case: Case) -> Iterator[Found]:
@@ -70,7 +70,7 @@ def _returned(callback: Function) -> str:
     for value in returns:
         if isinstance(value, ast.Constant):
             return f"it returns {value.value!r}"
-    return "not every way through it ends with one" if returns else "it returns nothing"
+    return "not every path through it ends with one" if returns else "it returns nothing"
 
 
 @mistake(

@@ -77,12 +77,12 @@ def _overrides(file: NodeFile, name: str) -> Iterator[tuple[ast.AST, str]]:
     for call in file.calls("create_node", "Node", "__init__", *file.node_classes):
         for keyword in call.keywords:
             if keyword.arg in _OVERRIDES and _may_name(file, keyword.value, name):
-                yield call, f"passes {keyword.arg}, which come before what is given at start-up"
+                yield call, f"passes {keyword.arg}, which take precedence over what is given at start-up"
     for options in file.nodes:
         if isinstance(options, ast.Dict):
             for key, value in zip(options.keys, options.values, strict=True):
                 if isinstance(key, ast.Constant) and key.value in _OVERRIDES and _may_name(file, value, name):
-                    yield options, f"passes {key.value}, which come before what is given at start-up"
+                    yield options, f"passes {key.value}, which take precedence over what is given at start-up"
 
 
 def _may_name(file: NodeFile, given: ast.expr, name: str) -> bool:

@@ -193,7 +193,7 @@ def arguments_refused(case: Case) -> Iterator[Found]:
                     isinstance(call, ast.Call) and called_name(call) in _EXITS for call in ast.walk(last)
                 )
                 if ends:
-                    what = f"line {node.lineno} counts its arguments, and ROS passes some of its own"
+                    what = f"line {node.lineno} counts its arguments, but ROS passes some of its own"
                     yield found(file, node, ended=_words(ended), what=what)
 
 
@@ -284,13 +284,13 @@ def _without_spin(case: Case, ended: str) -> Iterator[Found]:
         loops = [node for node in file.nodes if isinstance(node, ast.While | ast.For)]
         once = [call for call in file.calls(*SPINS_ONCE) if not any(call in ast.walk(loop) for loop in loops)]
         for call in once:
-            what = f"line {call.lineno} handles one callback at most, and then the program is done"
+            what = f"line {call.lineno} handles at most one callback, and then the program is done"
             yield found(file, call, ended=ended, what=what)
     if not case.program.calls(*SPINS):
         for file in case.files:
             for call in file.calls(*file.node_classes, "Node", "create_node"):
                 if _is_made_by_program(file, call):
-                    what = f"it makes a node in line {call.lineno}, and never spins it"
+                    what = f"it makes a node in line {call.lineno}, but never spins it"
                     yield found(file, call, ended=ended, what=what)
 
 

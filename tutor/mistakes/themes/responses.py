@@ -60,7 +60,7 @@ def response_not_returned(case: Case) -> Iterator[Found]:
                     yield replace(told, words={**told.words, "raised": "the node ends with a TypeError"})
         yield found_in(
             seen,
-            what="a service callback returned something else than its response",
+            what="a service callback returned something other than its response",
             step="Return the response on every path through the callback.",
         )
 
@@ -96,8 +96,8 @@ def _without_response(file: NodeFile, function: Function) -> Iterator[Found]:
         kept = values_of(node.value.id, function) if isinstance(node.value, ast.Name) else []
         classes = [value for value in kept if ast.unparse(value).endswith(".Response")]
         if classes:
-            what = f"line {classes[0].lineno} keeps the class of the response, not an object of it"
-            yield found(file, classes[0], what=what, step="Add the parentheses behind Response.")
+            what = f"line {classes[0].lineno} keeps the class of the response, not an object"
+            yield found(file, classes[0], what=what, step="Add the parentheses after Response.")
         elif not all(_may_be_response(value, response) for value in kept or [node.value]):
             what = f"line {node.lineno} of {function.name} returns {ast.unparse(node.value)}"
             yield found(file, node, what=what, step=f"Put that into a field of {name}, and return {name}.")

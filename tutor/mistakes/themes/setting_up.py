@@ -68,7 +68,7 @@ def not_activated(case: Case) -> Iterator[Found]:
     if lacks_super:
         yield Found({"node": nodes[0], "what": ": its on_activate does not call that of the base class"})
     elif not case.program.mentions("trigger_activate"):
-        yield Found({"node": nodes[0], "what": ", and nothing does that here"})
+        yield Found({"node": nodes[0], "what": ", but nothing does that here"})
 
 
 @mistake(

@@ -43,7 +43,7 @@ def ended(case: Case) -> Iterator[Found]:
     """
     return in_words(
         case,
-        f"{case.nodes} is gone, or never was there",
+        f"{case.nodes} is gone, or was never there",
         "Read the last lines of the output, then follow main() from its first line to see where it ends.",
     )
 
@@ -72,8 +72,8 @@ def no_answer(case: Case) -> Iterator[Found]:
     """
     return in_words(
         case,
-        f"{case.nodes} is up and answers no request",
-        "Find out where the program stays: it should be in spin(), and each callback should return soon.",
+        f"{case.nodes} is up, but answers no request",
+        "Find out where the program is stuck: it should be in spin(), and each callback should return soon.",
     )
 
 
@@ -123,8 +123,8 @@ def nothing_received(case: Case) -> Iterator[Found]:
     topic = case.about("topic", "the topic")
     return in_words(
         case,
-        f"messages on {topic} reach the node, and have no effect that could be seen",
-        "Check the callback that create_subscription gets, and what it does with the message.",
+        f"messages on {topic} reach the node, but have no visible effect",
+        "Check which callback create_subscription is given, and what it does with the message.",
     )
 
 
@@ -201,8 +201,8 @@ def parameter_ignored(case: Case) -> Iterator[Found]:
     name = case.about("parameter", "the parameter")
     return in_words(
         case,
-        f"{name} is set, and has no effect",
-        "Find the line that uses its value, and see when that value was read.",
+        f"{name} is set, but has no effect",
+        "Find the line that uses its value, and see when that value is read.",
     )
 
 
@@ -226,7 +226,7 @@ def parameter_not_declared(case: Case) -> Iterator[Found]:
     name = case.about("parameter", "the parameter")
     return in_words(
         case,
-        f"the node does not have {name} as it should be",
+        f"the node does not have the parameter {name} as it should be",
         "Declare it where the node is set up, with a default of the right type.",
     )
 
@@ -254,7 +254,7 @@ def good_value_refused(case: Case) -> Iterator[Found]:
     return in_words(
         case,
         f"{name} cannot be set to a good value",
-        "Read the reason of the refusal, and let the value through where it comes from.",
+        "Read the reason for the refusal, find where it comes from, and let the value through there.",
     )
 
 
@@ -278,6 +278,6 @@ def not_logged(case: Case) -> Iterator[Found]:
     what = case.about("what", "what was asked for")
     return in_words(
         case,
-        f"{what} is in no log message",
+        f"no log message contains {what}",
         "Log it with the node's own logger, at a level that is shown, when it happens.",
     )

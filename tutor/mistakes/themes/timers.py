@@ -63,12 +63,12 @@ def old_timer_kept(case: Case) -> Iterator[Found]:
                 continue
             for call in file.timers:
                 if file.function_around(call) in inside:
-                    what = f"line {call.lineno} makes a new timer, and nothing cancels the one before it"
+                    what = f"line {call.lineno} makes a new timer, but nothing cancels the one before it"
                     yield found(file, call, what=what)
     rate, wanted_hz = case.about("rate"), case.about("wanted_hz")
     faster = rate is not None and not case.about("unchanged") and rate.hz > wanted_hz
     if faster and case.about("at_start") is False:
-        yield Found({"what": f"{rate.hz:.1f} Hz is more than {wanted_hz:g} Hz: an older timer publishes, too"})
+        yield Found({"what": f"{rate.hz:.1f} Hz is more than {wanted_hz:g} Hz: an older timer also publishes"})
 
 
 @mistake(

@@ -110,7 +110,7 @@ def wrong_topic(case: Case) -> Iterator[Found]:
 def name_difference(given: str, wanted: str) -> str:
     """How the name of a topic or service differs from the one that is wanted, in words."""
     if given.endswith(wanted):
-        return "a namespace or the node's name is in front, as of a name that begins with ~ or without a slash"
+        return "a namespace or the node's name is in front, as for a name that begins with ~ or without a slash"
     if given.replace("/", "").replace("_", "") == wanted.replace("/", "").replace("_", ""):
         return "the slash between its parts is missing, or there is one too many"
     if wanted.endswith(given):
