@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from tutor.mistakes.entry import CATALOGUE, Catalogue, Mistake
@@ -42,9 +43,28 @@ def text_of(entry: Mistake) -> str:
     return f"{entry.id}: {entry.summary}\n\n" + "\n\n".join(joined) + "\n"
 
 
+_CODE = re.compile(
+    r"<[^<>]+>|[\w.@]+\([^()]*\)(?:\.\w+(?:\([^()]*\))?)*|\w+=[\w.]*\w|[\w.@/]*_(?:[\w.]*\w)?…?|\w*[*]+\w*|\d+\^\d+"
+)
+"""What is code in the prose of a page: calls, names with an underscore, keywords, objects as Python shows them."""
+
+
+def in_markdown(text: str) -> str:
+    """A page's prose as Markdown: what is code in it, and not in backticks yet, is put into them."""
+    parts = text.split("`")
+    parts[::2] = [_CODE.sub(r"`\g<0>`", part) for part in parts[::2]]
+    return "`".join(parts)
+
+
+def explanation_of(entry: Mistake) -> str:
+    """What a page says between its first line and its examples, as one paragraph."""
+    between = entry.page.partition("\n")[2].partition("\nBad:\n")[0]
+    return " ".join(between.split())
+
+
 def markdown_of(entry: Mistake) -> str:
     """The page as Markdown, with its name as a heading of level 2."""
-    lines = [f"## {entry.id}", "", f"**{entry.summary}**", ""]
+    lines = [f"## {entry.id}", "", f"**{in_markdown(entry.summary)}**", ""]
     block: list[str] = []
     for line in [*entry.page.splitlines()[2:], ""]:
         if line.startswith("    ") or (block and not line.strip()):
@@ -55,5 +75,5 @@ def markdown_of(entry: Mistake) -> str:
                 block.pop()
             lines += ["```python", *block, "```", ""]
             block = []
-        lines.append(line)
+        lines.append(in_markdown(line))
     return "\n".join(lines).rstrip("\n") + "\n"
