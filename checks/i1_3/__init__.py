@@ -18,5 +18,6 @@ CHECK = Check(
         Criterion("shutdown", judges.judge_shutdown, (scenarios.call_each_service,), bonus=True),
     ),
     expected_s=1.1,
+    mistakes="checks.i1_3.mistakes",
     expected_reason="a division by zero: 0.6 s until the log is quiet, 0.5 s in which a node may exit",
 )

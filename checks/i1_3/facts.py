@@ -6,7 +6,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tutor.judge import causes
 from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, OutputLine, ServedRequest, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.wording import shape
@@ -157,7 +156,10 @@ class ClientRun:
 
         A client with incompatible QoS would not have found them on an idle machine either.
         """
-        if self.served or causes.diagnose_incompatible_service(self.clients) is not None:
+        never_met = any(
+            each.reliability == "best_effort" or each.durability == "transient_local" for each in self.clients
+        )
+        if self.served or never_met:
             return False
         return self.cpu_wait_s >= (MIN_CPU_WAIT_S if self.exit is not None else MIN_CPU_WAIT_AT_LIMIT_S)
 

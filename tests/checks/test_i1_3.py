@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i1_3 import judges
+from checks.i1_3 import CHECK, judges
 from checks.i1_3.client import judge_client
 from checks.i1_3.division import judge_division
 from checks.i1_3.facts import (
@@ -25,17 +26,18 @@ from checks.i1_3.facts import (
 )
 from checks.i1_3.judges import judge_services, judge_shutdown
 from checks.i1_3.scenarios import random_operands
+from tests.checks import builders
 from tests.checks.builders import (
     CRASH,
     CRASHED,
     NO_NODE,
     NODE_UP,
-    assert_failed,
     assert_passed,
     assert_skipped,
     called,
     ending,
     exited,
+    explained,
     frame,
     graph,
     log,
@@ -45,6 +47,8 @@ from tutor.judge.trace import CallAnswer, LogRecord, ServedRequest, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import Graph, ServiceEndpoint
+
+assert_failed = partial(builders.assert_failed, check=CHECK)
 
 ALL = graph(services=dict.fromkeys(OPERATOR_SIGNS, TYPE))
 SERVING = trace(graph=ALL)
@@ -111,7 +115,7 @@ def test_services_pass() -> None:
             "blocked executor",
             "line 12",
         ),
-        (ServiceCalls(SERVING, (*ANSWERS[:3], called("/divide", 6, 3, None))), "blocked executor", "/divide"),
+        (ServiceCalls(SERVING, (*ANSWERS[:3], called("/divide", 6, 3, None))), "no answer", "/divide"),
         (
             ServiceCalls(trace(graph=ALL, err=CRASH, exit=exited(1)), (called("/add", 6, 3, None),), ready=False),
             "unhandled exception",
@@ -136,41 +140,6 @@ def test_a_server_that_a_call_ends_is_told_by_operations_whether_the_answer_got_
     good = called("/divide", 84, 7, last)
     assert_skipped(judge_division(Division(dead, good)), "`operations` shows why")
     assert_skipped(judge_division(Division(dead, good, (good, called("/divide", 84, 7, None)))), "`operations`")
-
-
-@pytest.mark.parametrize(
-    ("text", "offered", "step"),
-    [
-        (
-            "\nNAMES = ['add', 'multiply' 'divide']",
-            "multiplydivide",
-            "line 2 becomes: NAMES = ['add', 'multiply', 'divide']",
-        ),
-        (
-            "self.create_service(AddTwoInts, 'div', self.divide)",
-            "div",
-            "line 1 becomes: self.create_service(AddTwoInts, 'divide', self.divide)",
-        ),
-        (
-            "self.create_service(AddTwoInts, NAMES[3], self.divide)",
-            "Divide",
-            "self.create_service(AddTwoInts, 'divide', self.divide",
-        ),
-        (
-            "self.create_service(AddTwoInts, NAMES[3], self.divide)",
-            "calc__divide",
-            "becomes: self.create_service(AddTwoInts, '/' + NAMES[3].rpartition('/')[2], self.divide)",
-        ),
-    ],
-)
-def test_the_step_for_a_wrong_service_name_gives_the_line(text: str, offered: str, step: str) -> None:
-    run = trace(graph=without("/divide", services(**{offered: TYPE})), sources={"node.py": text})
-    assert_failed(
-        judge_services(ServiceCalls(run, ANSWERS[:3])),
-        "wrong service name",
-        f"/{offered.replace('__', '/')} instead of",
-        step,
-    )
 
 
 def test_a_service_of_the_wrong_type_is_missing() -> None:
@@ -198,27 +167,77 @@ def test_any_wrong_result_fails(asked: tuple[str, int, int], result: int, before
         verdict = judge_operations(ServiceCalls(SERVING, (*ANSWERS, *before, called(service, a, b, result))))
         assert verdict.status is Status.FAILED
         assert verdict.observed == str(result)
-        assert verdict.cause.startswith(("wrong result", "float in an int field"))
+        told = explained(verdict, CHECK)
+        assert told.cause
+        assert told.step
 
 
 @pytest.mark.parametrize(
-    ("wrong", "cause", "word"),
+    ("service", "results", "cause", "word"),
     [
-        (called("/add", 20, 3, 17), "wrong result", "what /subtract would answer"),
-        (called("/multiply", 20, 3, 23), "wrong result", "what /add would answer"),
-        (called("/subtract", 20, 3, -17), "wrong result", "wrong way round"),
-        (called("/divide", 60, 3, -1), "float in an int field", "a // b"),
-        (called("/divide", -60, 3, 20), "wrong result", "abs()"),
-        (called("/multiply", 20, 3, 0), "wrong result", "resp.sum"),
-        (called("/add", 20, 3, 99), "wrong result", "99 instead of 23"),
-        (called("/add", 5 * 10**9, 3, 705032707), "wrong result", "32 bits"),
-        (called("/add", -5 * 10**9, 3, -705032701), "wrong result", "32 bits"),
-        (called("/subtract", 0, 3, 0), "wrong result", "resp.sum"),
-        (called("/add", 20, 3, None), "no answer", "no answer in 5 s"),
+        ("/add", [(20, 3, 17), (9, 4, 5)], "another operation", "/add answers what /subtract should"),
+        ("/multiply", [(20, 3, 23), (-4, 2, -2)], "another operation", "/add should"),
+        ("/add", [(20, 3, 17), (9, 4, 6)], "wrong answer", "17 instead of 23"),
+        ("/subtract", [(20, 3, -17), (3, 10, 7)], "operands the wrong way round", "order of a and b"),
+        ("/divide", [(60, 3, 0), (-60, 3, -1)], "operands the wrong way round", "/divide"),
+        ("/divide", [(-60, 3, 20), (60, 3, 20)], "sign lost", "abs()"),
+        ("/add", [(-40, 4, 44), (-8, -9, 17)], "sign lost", "abs()"),
+        ("/add", [(5 * 10**9, 3, 705032707), (6, 3, 9)], "cut to 32 bits", "64 bits"),
+        ("/add", [(-5 * 10**9, 3, -705032701), (6, 3, 9)], "cut to 32 bits", "64 bits"),
+        ("/multiply", [(20, 3, 0), (6, 4, 0)], "response field not set", "into the field"),
+        ("/multiply", [(20, 3, 0), (6, 4, 24)], "wrong answer", "0 instead of 60"),
+        ("/add", [(20, 3, 99)], "wrong answer", "99 instead of 23"),
+        ("/add", [(20, 3, None)], "no answer", "no answer in 5 s"),
+        ("/add", [(6, 3, 9), (-40, 4, 0), (50, -5, 0), (7, 7, 14)], "negative operands refused", "/add answers 0"),
+        ("/divide", [(6, 3, 2), (-1, -1, 1), (0, -1, 1)], "wrong answer", "1 instead of 0"),
+        ("/add", [(-40, 4, -36), (7, 0, 0)], "zero refused", "/add computes with every other number"),
+        ("/add", [(-40, 4, 0), (7, 0, 0)], "response field not set", "/add answers with 0"),
     ],
 )
-def test_causes_of_a_wrong_result(wrong: CallAnswer, cause: str, word: str) -> None:
-    assert_failed(judge_operations(ServiceCalls(SERVING, (*ANSWERS, wrong))), cause, word)
+def test_causes_of_a_wrong_result(
+    service: str, results: list[tuple[int, int, int | None]], cause: str, word: str
+) -> None:
+    others = [each for each in ANSWERS if each.service != service]
+    seen = ServiceCalls(SERVING, (*others, *(called(service, *each) for each in results)))
+    assert_failed(judge_operations(seen), cause, word)
+
+
+def test_an_unknown_field_of_the_response_is_named_with_the_fields_that_there_are() -> None:
+    text = """
+from example_interfaces.srv import AddTwoInts
+def add(self, request, response):
+    return AddTwoInts.Response(result=request.a + request.b)
+"""
+    run = trace(graph=ALL, sources={"node.py": text})
+    seen = ServiceCalls(run, (called("/add", 20, 3, 0), called("/add", -4, 9, 0)))
+    assert_failed(
+        judge_operations(seen), "unknown field in a constructor", "line 4", "no field result", "Use the field sum"
+    )
+
+
+LAMBDA = """
+for name, function in OPERATIONS.items():
+    self.create_service(AddTwoInts, name, lambda request, response: self.compute(name, function, request, response))
+"""
+BOUND = LAMBDA.replace("response: self", "response, name=name, function=function: self")
+
+
+@pytest.mark.parametrize(
+    ("text", "computes", "cause"),
+    [
+        (LAMBDA, ("/multiply",) * 4, "late binding"),
+        (BOUND, ("/multiply",) * 4, "another operation"),
+        (LAMBDA, ("/multiply", "/subtract", "/multiply", "/divide"), "another operation"),
+    ],
+)
+def test_services_that_all_compute_the_same(text: str, computes: tuple[str, ...], cause: str) -> None:
+    answers = [
+        called(name, a, b, correct_result(other, a, b))
+        for name, other in zip(OPERATOR_SIGNS, computes, strict=True)
+        for a, b in ((20, 4), (-21, 7))
+    ]
+    run = trace(graph=ALL, sources={"node.py": text})
+    assert_failed(judge_operations(ServiceCalls(run, tuple(answers))), cause)
 
 
 def test_an_exception_in_a_callback_is_named() -> None:
@@ -410,7 +429,7 @@ def test_a_warning_needs_no_particular_words(level: int) -> None:
 
 @pytest.mark.parametrize("text", NO_ERRORS)
 def test_an_ordinary_message_is_not_an_error(text: str) -> None:
-    assert_failed(judge_division(division(log(text))), "no error message")
+    assert_failed(judge_division(division(log(text))), "not logged")
 
 
 @given(st.sampled_from(ERRORS), st.sampled_from([10, 20, 30, 40]), st.integers(), st.integers())
@@ -431,9 +450,9 @@ def test_an_error_is_found_among_other_messages(text: str, around: list[LogRecor
         (division(before=None), "no answer", "84"),
         (division(by_zero=None), "no answer", "when b is 0"),
         (division(by_zero=None, seen=trace(err=CRASH, exit=exited(1))), "unhandled exception", "line 12"),
-        (division(), "no error message", "nothing that the node logs"),
-        (division(before=588), "no error message", "84 ÷ 7 is answered 588"),
-        (division(seen=trace(graph=ALL, out="error: division by zero")), "printed, not logged", "error: division"),
+        (division(), "not logged", "nothing that the node logs"),
+        (division(before=588), "not logged", "84 ÷ 7 is answered 588"),
+        (division(seen=trace(graph=ALL, out="error: division by zero")), "printed, not logged", "print()"),
         (
             division(log("division by zero", 40), after=after_zero(None)),
             "no answer",
@@ -444,12 +463,12 @@ def test_an_error_is_found_among_other_messages(text: str, around: list[LogRecor
         (division(log("division by zero", 40), after=after_zero(6, 0, 0, None)), "no answer", "35 ÷ 5"),
         (
             division(log("division by zero", 40), after=after_zero(0, 0, 0, 7)),
-            "wrong result",
+            "wrong answer",
             "18 ÷ 3 was answered 0",
         ),
         (
             division(log("division by zero", 40), after=after_zero(6, 0, 0, 0)),
-            "wrong result",
+            "wrong answer",
             "35 ÷ 5 was answered 0",
         ),
         (
@@ -458,7 +477,7 @@ def test_an_error_is_found_among_other_messages(text: str, around: list[LogRecor
             "18 ÷ 3",
         ),
         (division(after=after_zero(None), seen=trace(exit=exited(0, after_s=9.0))), "exit at once", "18 ÷ 3"),
-        (division(seen=trace(exit=exited(0, after_s=9.0))), "no error message", ""),
+        (division(seen=trace(exit=exited(0, after_s=9.0))), "exit at once", ""),
     ],
 )
 def test_division_fails(seen: Division, cause: str, word: str) -> None:
@@ -525,21 +544,15 @@ def test_a_client_that_can_never_connect_is_not_retried() -> None:
 
 
 @pytest.mark.parametrize(
-    ("test", "step"),
-    [
-        ("if answer.sum:", "line 3 becomes: if answer.sum is not None:"),
-        ("while not result:", "line 3 becomes: while result is None:"),
-        ("if answer.ok:", ""),
-    ],
+    ("test", "cause"),
+    [("if answer.sum:", "zero is false"), ("while not result:", "zero is false"), ("if answer.ok:", "calls missing")],
 )
-def test_a_client_that_takes_zero_for_no_result(test: str, step: str) -> None:
+def test_a_client_that_takes_zero_for_no_result(test: str, cause: str) -> None:
     source = f"def ask(self, answer):\n    result = answer.sum\n    {test}\n        self.next()\n"
     zero = replace(SERVED[1], request={"a": 5, "b": 5}, response={"sum": 0})
     hanging = demonstration((SERVED[0], zero, zero), None)
     assert hanging.trace is not None
-    verdict = judge_client(replace(hanging, trace=replace(hanging.trace, sources={"calculator_client.py": source})))
-    assert ("zero is false" in verdict.cause) is bool(step)
-    assert step in verdict.step
+    assert_failed(judge_client(replace(hanging, trace=replace(hanging.trace, sources={"node.py": source}))), cause)
 
 
 def test_a_client_that_waits_in_vain_is_reported_with_the_time_that_it_was_watched() -> None:
@@ -555,13 +568,13 @@ def test_a_client_that_waits_in_vain_is_reported_with_the_time_that_it_was_watch
     ("seen", "cause", "word"),
     [
         (ClientRun(None), "file missing", "calculator_client.py"),
-        (demonstration(SERVED[:3]), "not called", "/divide"),
-        (demonstration(()), "not called", "/add, /subtract, /multiply, /divide"),
-        (demonstration((), uncalled_main=True), "no main call", "__main__"),
+        (demonstration(SERVED[:3]), "calls missing", "/divide"),
+        (demonstration(()), "calls missing", "/add, /subtract, /multiply, /divide"),
+        (demonstration((), sources={"node.py": "def main():\n    ask()\n"}), "no main call", "nothing calls it"),
         (demonstration(code=1), "non-zero exit", "exit code 1"),
         (demonstration((), code=1, err=CRASH), "unhandled exception", "called nothing"),
         (demonstration(SERVED[:1], code=None, stuck=IN_CALL), "deadlock by call()", "called /add"),
-        (demonstration(SERVED, code=None, stuck=(frame("spin"),)), "did not end", "line 12"),
+        (demonstration(SERVED, code=None, stuck=(frame("ask"),)), "did not end", "line 12"),
         (demonstration(SERVED, code=None), "did not end", "by itself"),
     ],
 )
@@ -597,15 +610,13 @@ def asking(text: str, served: tuple[ServedRequest, ...] = (), code: int | None =
     ],
 )
 def test_a_client_that_does_not_wait_for_its_service(seen: ClientRun) -> None:
-    assert_failed(
-        judge_client(seen), "service not waited for", "write above line 4", "client.wait_for_service(timeout_sec="
-    )
+    assert_failed(judge_client(seen), "service not waited for", "line 4", "Wait for the service before")
 
 
 @pytest.mark.parametrize("text", ["client.wait_for_service()", "self.cli.service_is_ready()"])
 def test_a_client_that_waits_for_its_service_is_not_told_to_wait(text: str) -> None:
     for seen in (asking(ASKS + text, SERVED[:1]), asking(ASKS + text, SERVED[:1], None, stuck=SPINNING)):
-        assert "not waited" not in judge_client(seen).cause
+        assert "not waited" not in explained(judge_client(seen), CHECK).cause
 
 
 NAMED = """
@@ -625,63 +636,30 @@ def test_a_wrong_service_name_in_the_client_is_reported_with_the_right_one(code:
     seen = wrongly_named(NAMED, ServiceEndpoint("/div", TYPE, "/client"), code=code)
     assert_failed(
         judge_client(seen),
-        "wrong service name",
-        "asks for /div,",
-        "line 3 becomes: for name in ('add', 'subtract', 'multiply', 'divide'):",
+        "service not offered",
+        "asks for /div, which nobody offers; there is /divide",
     )
 
 
 @pytest.mark.parametrize(
-    ("text", "name", "step"),
-    [
-        (
-            "c = node.create_client(AddTwoInts, '~/divide')",
-            "/client/divide",
-            "c = node.create_client(AddTwoInts, 'divide')",
-        ),
-        (
-            "c = node.create_client(AddTwoInts, 'divide')",
-            "/calc/divide",
-            "c = node.create_client(AddTwoInts, '/divide')",
-        ),
-        (
-            "c = node.create_client(AddTwoInts, NAMES[3])",
-            "/div",
-            "for name in ('add', 'subtract', 'multiply', 'divide'):",
-        ),
-        (
-            """
-NAMES = [
-    "add",
-    "multiply"
-    "divide",
-]""",
-            "/multiplydivide",
-            "lines 4 to 5 become: 'multiply', 'divide',",
-        ),
-        (
-            "for each in 'divide', 'modulo': node.create_client(T, each)",
-            "/modulo",
-            "for name in ('add', 'subtract', 'multiply', 'divide'):",
-        ),
-    ],
+    ("name", "difference"),
+    [("/client/divide", "the node's name is in front"), ("/Divide", "upper and lower case"), ("/modulo", "spelled")],
 )
-def test_the_step_names_the_line_with_the_wrong_service(text: str, name: str, step: str) -> None:
-    assert_failed(judge_client(wrongly_named(text, ServiceEndpoint(name, TYPE, "/client"))), "wrong service name", step)
+def test_a_wrong_service_name_in_the_client_is_told_by_how_it_differs(name: str, difference: str) -> None:
+    seen = wrongly_named("", ServiceEndpoint(name, TYPE, "/client"))
+    assert_failed(judge_client(seen), "service not offered", f"asks for {name},", difference)
 
 
 def test_a_client_of_a_parameter_service_is_not_a_wrong_name() -> None:
     more = ServiceEndpoint("/server/get_parameters", "rcl_interfaces/srv/GetParameters", "/client")
-    assert_failed(judge_client(wrongly_named(NAMED, more)), "did not end")
+    assert_failed(judge_client(wrongly_named(NAMED, more)), "client overwritten in a loop")
     assert_passed(judge_client(replace(demonstration(), clients=(*MADE, ServiceEndpoint("/power", TYPE, "/client")))))
 
 
 def test_a_wrong_service_type_in_the_client_is_reported_with_the_right_one() -> None:
     text = "\nclient = node.create_client(Trigger, 'divide')\nclient.call_async(Trigger.Request())"
     seen = wrongly_named(text, ServiceEndpoint("/divide", "std_srvs/srv/Trigger", "/client"))
-    assert_failed(
-        judge_client(seen), "wrong type", "std_srvs/srv/Trigger", TYPE, "node.create_client(AddTwoInts, 'divide')"
-    )
+    assert_failed(judge_client(seen), "service not offered", "with the type std_srvs/srv/Trigger", TYPE)
 
 
 LOOP = """
@@ -692,6 +670,8 @@ def run(self):
         future = client.call_async(AddTwoInts.Request())
         rclpy.spin_until_future_complete(self, future)
         return future.result().sum
+
+run()
 """
 
 
@@ -707,65 +687,89 @@ def test_a_return_within_the_loop() -> None:
         "return in the loop",
         "line 8",
         "loop of line 3",
-        "write below line 8, with the indentation of line 3",
     )
-    assert_failed(judge_client(asking(LOOP.replace("return", "print"), SERVED[:1])), "not called")
-    assert_failed(judge_client(asking(LOOP, SERVED[:3])), "not called")
+    assert_failed(judge_client(asking(LOOP.replace("return", "print"), SERVED[:1])), "calls missing")
+    assert_failed(judge_client(asking(LOOP, SERVED[:3])), "calls missing")
 
 
-def test_a_spin_after_the_last_call_is_to_be_removed() -> None:
+def test_a_spin_after_the_last_call() -> None:
     spins = (frame("spin", "/venv/rclpy/__init__.py"), frame("main", line=7, code="rclpy.spin(node)"))
     text = WAITS + "rclpy.spin_until_future_complete(node, future)\nrclpy.spin(node)\n"
-    assert_failed(
-        judge_client(asking(text, SERVED, None, stuck=spins)), "did not end", "remove line 7: rclpy.spin(node)"
-    )
+    assert_failed(judge_client(asking(text, SERVED, None, stuck=spins)), "spin never returns", "line 7")
 
 
-DIVIDES = """
+THREADING = "/usr/lib/python3.12/threading.py"
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "stuck", "cause"),
+    [
+        ("while not future.done():\n    time.sleep(0.1)", None, (), "no spin for the answer"),
+        ("while not future.done():\n    time.sleep(0.1)", 1, (), "no spin for the answer"),
+        ("while not future.done():\n    rclpy.spin_once(node)", None, (), "calls missing"),
+        ("Thread(target=rclpy.spin, args=(node,)).start()\nwhile not future.done(): pass", None, (), "calls missing"),
+        ("while client.wait_for_service(1.0):\n    pass", None, SPINNING, "wait turned around"),
+        (
+            "done = threading.Event()\nrclpy.spin",
+            None,
+            (frame("wait", THREADING), frame("main", line=6, code="done.wait()")),
+            "event never set",
+        ),
+        (
+            "done = threading.Event()\nrclpy.spin\ndone.set()",
+            None,
+            (frame("wait", THREADING), frame("main", line=6, code="done.wait()")),
+            "calls missing",
+        ),
+        (
+            "answered = asyncio.Event()\nfuture.add_done_callback(lambda done: answered.set())",
+            None,
+            (),
+            "event loop not woken",
+        ),
+        ("rclpy.spin\nfor n in nodes:\n    rclpy.spin_once(n)", None, (), "spin_once waits"),
+        ("rclpy.spin\nnode.create_timer(500, ask)", None, (), "wrong timer period"),
+    ],
+)
+def test_a_client_that_gets_no_answer(text: str, code: int | None, stuck: tuple[Frame, ...], cause: str) -> None:
+    assert_failed(judge_client(asking(WAITS + text, SERVED[:1], code, stuck=stuck)), cause)
+
+
+@pytest.mark.parametrize("function", ["join", "_shutdown"])
+def test_a_thread_that_keeps_the_client_from_ending(function: str) -> None:
+    stuck = (frame(function, THREADING), frame("main", line=9, code="thread.join()"))
+    assert_failed(judge_client(asking(WAITS, SERVED, None, stuck=stuck)), "thread never ends", "line 9")
+
+
+POLLING = """
 class Calculator(Node):
     def __init__(self):
-        super().__init__('calculator')
-        self.create_service(AddTwoInts, 'divide', self.divide)
+        self.client = self.create_client(AddTwoInts, 'add')
+        self.create_service(AddTwoInts, 'subtract', self.subtract)
 
-    def divide(self, req, resp):
-        # // keeps it whole
-
-
-
-
-        resp.sum = req.a // req.b
-        return resp
+    def subtract(self, request, response):
+        future = self.client.call_async(request)
+        while rclpy.ok():
+            if future.done():
+                break
+            time.sleep(0.1)
+        return response
 """
-BY_ZERO = CRASH.replace("AttributeError: 'Sensor' object has no attribute 'nothing'", "ZeroDivisionError: by zero")
 
 
-def test_the_step_for_an_unguarded_division_is_a_guard() -> None:
-    crashed = trace(graph=ALL, err=BY_ZERO, exit=exited(1), sources={"node.py": DIVIDES})
-    seen = Division(crashed, right_answer("/divide", 84, 7), by_zero=called("/divide", 10, 0, None))
-    guard = "write above line 13, with the same indentation:\n    if req.b == 0:\n        self.get_logger().error("
-    assert_failed(judge_division(seen), "unhandled exception", guard, "resp.sum = 0\n        return resp")
+def test_a_future_polled_in_a_callback_of_the_clients_own_group() -> None:
+    run = trace(graph=ALL, sources={"node.py": POLLING})
+    polling = (frame("subtract", line=12, code="time.sleep(0.1)"), EXECUTING)
+    pool = frame("run", "/usr/lib/python3.12/concurrent/futures/thread.py")
+    silent = (called("/subtract", 6, 3, None),)
+    for stuck, busy in ((polling, "the executor"), ((*polling, pool), "its callback group"), ((), "the executor")):
+        verdict = judge_services(ServiceCalls(run, silent, stuck=stuck))
+        assert_failed(verdict, "polls a future", "waits for future", f"keeps {busy} busy")
 
 
-def test_a_server_that_refuses_negative_operands() -> None:
-    def refuse(service: str, a: int, b: int) -> CallAnswer:
-        return called(service, a, b, 0) if min(a, b) < 0 else right_answer(service, a, b)
-
-    asked = [("/add", 6, 3), ("/add", -40, 4), ("/add", 50, -5), ("/add", 7, 7)]
-    seen = ServiceCalls(SERVING, tuple(refuse(*each) for each in asked))
-    assert_failed(judge_operations(seen), "negative operands refused", "/add answers 0")
-
-
-def test_a_server_that_refuses_zero_in_other_operations() -> None:
-    asked = [right_answer("/add", -40, 4), called("/add", 7, 0, 0), right_answer("/subtract", 9, 3)]
-    seen = ServiceCalls(SERVING, tuple(asked))
-    assert_failed(judge_operations(seen), "zero refused", "/add computes with every other number")
-    asked[0] = called("/add", -40, 4, 0)
-    assert "zero refused" not in judge_operations(replace(seen, answers=tuple(asked))).cause
-
-
-def test_one_wrong_result_is_not_a_refusal_of_negative_operands() -> None:
-    asked = (right_answer("/divide", 6, 3), right_answer("/divide", -1, -1), called("/divide", 0, -1, 1))
-    assert_failed(judge_operations(ServiceCalls(SERVING, (*ANSWERS, *asked))), "wrong result", "1 instead of 0")
+def test_an_error_that_good_divisions_log_as_well_is_none() -> None:
+    seen = replace(division(log("error", 40)), ordinary=(log("error", 40),))
+    assert_failed(judge_division(seen), "the same message for every call", "in the same words", ": error")
 
 
 def test_an_unrelated_crash_is_reported_as_such() -> None:
@@ -773,11 +777,11 @@ def test_an_unrelated_crash_is_reported_as_such() -> None:
 
 
 def test_a_client_that_gives_up_before_the_server_is_up() -> None:
-    assert_failed(judge_client(asking(WAITS, code=1)), "waits too short a time", "timeout_sec=10.0")
+    assert_failed(judge_client(asking(WAITS, code=1)), "waits too short a time", "Wait longer")
     assert_failed(judge_client(asking(WAITS, code=1, err=NO_ANSWER)), "waits too short a time")
     assert_failed(judge_client(asking(WAITS, code=1, err=CRASH)), "unhandled exception")
-    usage = replace(asking(WAITS + "sys.argv[1]", code=2), clients=())
-    assert_failed(judge_client(usage), "non-zero exit")
+    usage = replace(asking(WAITS + "if len(sys.argv) < 2:\n    sys.exit(2)", code=2), clients=())
+    assert_failed(judge_client(usage), "needs arguments", "line 6")
 
 
 def test_shutdown() -> None:
@@ -788,31 +792,9 @@ def test_shutdown() -> None:
     assert_skipped(judge_shutdown(ServiceCalls(trace(graph=ALL, exit=exited(1)), ANSWERS)), "`operations` shows why")
 
 
-DONE = """\
-future = client.call_async(request)
-future.add_done_callback(self.done)
-rclpy.spin(node)
-"""
-
-
-@pytest.mark.parametrize(
-    ("text", "step"),
-    [
-        (DONE, "line 3 becomes:\n    for future in node.futures:\n        rclpy.spin_until_future_complete("),
-        (DONE.replace("future.add", "self.create_timer(1.0, self.ask);future.add"), "client.wait_for_service("),
-        ("import rclpy\n\nrclpy.spin(node)", "remove line 3: rclpy.spin(node)"),
-    ],
-)
-def test_a_spin_that_delivers_the_answers_is_not_simply_removed(text: str, step: str) -> None:
-    own = frame("main", line=3, code="rclpy.spin(node)")
-    verdict = judge_client(demonstration(SERVED, code=None, stuck=(own,), sources={"node.py": text}))
-    assert_failed(verdict, "did not end")
-    assert step in verdict.step
-
-
 def test_a_server_that_sleeps_instead_of_spinning_is_told_to_spin() -> None:
     text = "import time\nimport rclpy\nrclpy.init()\nnode = rclpy.create_node('c')\nwhile True:\n    time.sleep(0.2)\n"
     run = trace(graph=ALL, sources={"node.py": text})
     sleeping = (frame("<module>", line=6, code="time.sleep(0.2)"),)
     verdict = judge_services(ServiceCalls(run, (called("/add", 6, 3, None),), spins=False, stuck=sleeping))
-    assert_failed(verdict, "no spin", "rclpy.spin(node)")
+    assert_failed(verdict, "no spin", "line 6")

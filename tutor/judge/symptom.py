@@ -29,6 +29,8 @@ class Symptom(Enum):
     SERVICE_MISSING = "a service is missing"
     WRONG_ANSWER = "a service's answer is wrong"
     CALLS_MISSING = "a client does not make its calls, or not all"
+    RUNS_ON = "a program that should end by itself goes on"
+    WRONG_EXIT_CODE = "a program that should end with 0 ends with another exit code"
     STANDS_STILL = "a callback keeps others from running"
     DOES_NOT_END = "the program does not end on Ctrl+C"
     ENDS_BADLY = "the program ends on Ctrl+C, but not cleanly"

@@ -4,10 +4,13 @@ Among entries with the same kind of evidence, the earlier one is asked first.
 """
 
 # ruff: noqa: I001
+from tutor.mistakes.themes import clients as clients
+from tutor.mistakes.themes import answers as answers
 from tutor.mistakes.themes import missing_attributes as missing_attributes
 from tutor.mistakes.themes import responses as responses
 from tutor.mistakes.themes import known_exceptions as known_exceptions
 from tutor.mistakes.themes import process as process
+from tutor.mistakes.themes import early_ends as early_ends
 from tutor.mistakes.themes import no_node as no_node
 from tutor.mistakes.themes import setting_up as setting_up
 from tutor.mistakes.themes import logged_exceptions as logged_exceptions
@@ -33,6 +36,7 @@ from tutor.mistakes.themes import parameter_refusals as parameter_refusals
 from tutor.mistakes.themes import parameter_callbacks as parameter_callbacks
 from tutor.mistakes.themes import bad_values as bad_values
 from tutor.mistakes.themes import services as services
+from tutor.mistakes.themes import wrong_answers as wrong_answers
 from tutor.mistakes.themes import callback_groups as callback_groups
 from tutor.mistakes.themes import threads as threads
 from tutor.mistakes.themes import attributes as attributes

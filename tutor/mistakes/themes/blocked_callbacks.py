@@ -11,6 +11,8 @@ from tutor.judge.symptom import Symptom
 from tutor.judge.tracebacks import Frame
 from tutor.mistakes.entry import Case, Evidence, Found, found, found_at, mistake
 from tutor.mistakes.examples import in_run
+from tutor.mistakes.themes.callback_groups import in_worker
+from tutor.source import NodeFile, calls_in
 
 _SILENT = (
     Symptom.NO_ANSWER,
@@ -23,7 +25,6 @@ _SILENT = (
 _LOCK = re.compile(
     r"(?P<lock>[\w.]+)\.acquire\(|with (?P<with>[\w.]*(?:lock|mutex|semaphore|condition)\w*)", re.IGNORECASE
 )
-_POLLING_LOOP = re.compile(r"while not (?P<future>[\w.]+)\.done\(\)")
 
 
 def _stuck_in(*inner: tuple[str, str]) -> Callable[[str], Sequence[Frame]]:
@@ -61,7 +62,7 @@ def _blocked(case: Case) -> tuple[Frame, tuple[Frame, ...]] | None:
     name="deadlock by call()",
     explains=_SILENT,
     evidence=Evidence.RUN,
-    says="{line} waits for a service's answer, which cannot arrive while this callback keeps the executor busy: {code}",
+    says="{line} waits for a service's answer, which cannot arrive meanwhile{why}: {code}",
     do="Await call_async() in an async callback, and put it and the client into groups that may run together.",
     example=in_run(Symptom.NO_ANSWER, stuck_at=_stuck_in(("/lib/rclpy/client.py", "call"))),
 )
@@ -88,9 +89,9 @@ def deadlock_by_call(case: Case) -> Iterator[Found]:
     """
     blocked = _blocked(case)
     if blocked is not None and in_blocking_call(blocked[1]):
-        yield found_at(blocked[0])
+        yield found_at(blocked[0], why=f", since this callback keeps {_kept_busy(case)} busy")
     elif blocked is None and in_blocking_call(case.stuck):
-        yield found_at(tracebacks.own_frame(case.stuck, case.trace.folder))
+        yield found_at(tracebacks.own_frame(case.stuck, case.trace.folder), why="")
 
 
 @mistake(
@@ -126,8 +127,9 @@ def spin_inside_callback(case: Case) -> Iterator[Found]:
             yield found_at(blocked[0])
     elif case.answers:
         for file in case.files:
+            callbacks = file.callbacks("create_timer", "create_subscription", "create_service")
             for call in file.calls("spin", "spin_once", "spin_until_future_complete"):
-                if call.args and ast.unparse(call.args[0]) == "self" and file.node_method(call) is not None:
+                if call.args and ast.unparse(call.args[0]) == "self" and file.function_around(call) in callbacks:
                     yield found(file, call)
 
 
@@ -178,8 +180,8 @@ def waits_for_a_lock(case: Case) -> Iterator[Found]:
     "polls-a-future",
     explains=_SILENT,
     evidence=Evidence.RUN,
-    says="{line} waits in a loop for an answer that cannot arrive while this callback keeps the executor busy: {code}",
-    do="Await {future} in an async callback, or continue in its done callback.",
+    says="{line} waits for {future}, which cannot be done while this callback keeps {busy} busy: {code}",
+    do="Await {future} in an async callback with the client in a group of its own, or continue in its done callback.",
     example=in_run(Symptom.NO_ANSWER, stuck_at=_stuck_in()),
 )
 def polls_a_future(case: Case) -> Iterator[Found]:
@@ -202,14 +204,31 @@ def polls_a_future(case: Case) -> Iterator[Found]:
     See it: one core is busy, and nothing happens.
     """
     blocked = _blocked(case)
-    if blocked is None:
-        return
-    at = blocked[0]
-    lines = case.trace.sources.get(at.name, "").splitlines()[: at.line]
-    for line in [at.code, *reversed(lines[-6:])]:
-        if matched := _POLLING_LOOP.search(line):
-            yield found_at(at, future=matched["future"])
-            return
+    for file in case.files:
+        callbacks = file.callbacks("create_timer", "create_subscription", "create_service")
+        for call in file.calls("done"):
+            future = ast.unparse(call.func).removesuffix(".done")
+            loop = next((node for node in file.ancestors(call) if isinstance(node, ast.While | ast.For)), None)
+            if loop is None or not (isinstance(loop, ast.While) or calls_in(loop, "sleep")):
+                continue
+            words = {"future": future, "busy": _kept_busy(case)}
+            if blocked is None and case.answers and file.function_around(loop) in callbacks and not _has_groups(file):
+                yield found(file, loop, **words)
+            elif blocked is not None and blocked[0].name == file.name and _spans(loop, blocked[0].line):
+                yield found_at(blocked[0], **words)
+
+
+def _spans(loop: ast.While | ast.For, line: int) -> bool:
+    return loop.lineno <= line <= (loop.end_lineno or 0)
+
+
+def _kept_busy(case: Case) -> str:
+    """What a callback that waits keeps others from: the only thread, or its group among several threads."""
+    return "its callback group" if in_worker(case.stuck) else "the executor"
+
+
+def _has_groups(file: NodeFile) -> bool:
+    return any(keyword.arg == "callback_group" for call in file.calls("create_client") for keyword in call.keywords)
 
 
 @mistake(
@@ -244,45 +263,3 @@ def blocked_executor(case: Case) -> Iterator[Found]:
         at, inner = blocked
         waits = any(frame.path.endswith("/threading.py") for frame in inner) or ".wait(" in at.code
         yield found_at(at, why=": it waits for what only another callback could provide" if waits else "")
-
-
-@mistake(
-    "deadlock-by-await",
-    explains=(Symptom.NO_ANSWER, Symptom.WRONG_ANSWER, Symptom.CALLS_MISSING),
-    says="{line} awaits something that arrives in its own callback group, which this callback keeps busy: {code}",
-    do="Put the client into a callback group of its own, or a reentrant one.",
-)
-def deadlock_by_await(case: Case) -> Iterator[Found]:
-    """A callback awaits an answer in its own callback group.
-
-    await frees the executor, but not the callback's group: in a mutually exclusive group (the default), nothing else in
-    that group runs before this callback has ended, and a client's answer is handled in the client's group.
-
-    Bad:
-
-        def __init__(self):
-            self.door = self.create_client(Trigger, 'open_door')
-            self.create_service(Trigger, 'ring', self.on_bell)
-
-        async def on_bell(self, request, response):
-            await self.door.call_async(Trigger.Request())
-            return response
-
-    Good:
-
-        def __init__(self):
-            self.door = self.create_client(Trigger, 'open_door', callback_group=ReentrantCallbackGroup())
-            self.create_service(Trigger, 'ring', self.on_bell)
-
-        async def on_bell(self, request, response):
-            await self.door.call_async(Trigger.Request())
-            return response
-
-    See it: the service that is called logs the call, and the caller never goes on.
-    """
-    for file in case.files:
-        if file.calls("ReentrantCallbackGroup"):
-            continue
-        for node in file.nodes:
-            if isinstance(node, ast.Await):
-                yield found(file, node)

@@ -228,3 +228,45 @@ def waits_in_worker(case: Case) -> Iterator[Found]:
         own = tracebacks.own_frame(case.stuck, case.trace.folder)
         where = f" (line {own.line} of {own.name})" if own is not None else ""
         yield Found({"where": where}, own.name if own else "", own.line if own else 0, own.code if own else "")
+
+
+@mistake(
+    "deadlock-by-await",
+    explains=(Symptom.NO_ANSWER, Symptom.WRONG_ANSWER, Symptom.CALLS_MISSING),
+    says="{line} awaits something that arrives in its own callback group, which this callback keeps busy: {code}",
+    do="Put the client into a callback group of its own, or a reentrant one.",
+)
+def deadlock_by_await(case: Case) -> Iterator[Found]:
+    """A callback awaits an answer in its own callback group.
+
+    await frees the executor, but not the callback's group: in a mutually exclusive group (the default), nothing else in
+    that group runs before this callback has ended, and a client's answer is handled in the client's group.
+
+    Bad:
+
+        def __init__(self):
+            self.door = self.create_client(Trigger, 'open_door')
+            self.create_service(Trigger, 'ring', self.on_bell)
+
+        async def on_bell(self, request, response):
+            await self.door.call_async(Trigger.Request())
+            return response
+
+    Good:
+
+        def __init__(self):
+            self.door = self.create_client(Trigger, 'open_door', callback_group=ReentrantCallbackGroup())
+            self.create_service(Trigger, 'ring', self.on_bell)
+
+        async def on_bell(self, request, response):
+            await self.door.call_async(Trigger.Request())
+            return response
+
+    See it: the service that is called logs the call, and the caller never goes on.
+    """
+    for file in case.files:
+        if file.calls("ReentrantCallbackGroup"):
+            continue
+        for node in file.nodes:
+            if isinstance(node, ast.Await):
+                yield found(file, node)

@@ -48,10 +48,11 @@ def crash_on_exit(case: Case) -> Iterator[Found]:
 
 @mistake(
     "non-zero-exit",
-    explains=[Symptom.ENDS_BADLY],
+    name="non-zero exit",
+    explains=[Symptom.ENDS_BADLY, Symptom.WRONG_EXIT_CODE],
     evidence=Evidence.SYMPTOM,
     says="the process ends with {exit}{what}",
-    do="Return normally from main() after Ctrl+C, and give exit() no code but 0.",
+    do="Return normally from main(), and give exit() no code but 0.",
     example=in_run(Symptom.ENDS_BADLY, ending=Ending(Exit(3, None, 2.0), 0.2, 5.0)),
 )
 def nonzero_exit(case: Case) -> Iterator[Found]:
@@ -71,16 +72,17 @@ def nonzero_exit(case: Case) -> Iterator[Found]:
     See it: Ctrl+C in a terminal, then `echo $?`.
     """
     ending = case.about("ending")
-    if ending is None or ending.exit is None:
+    ended = ending.exit if ending is not None else case.trace.exit
+    if ended is None:
         return
-    for file in case.files:
+    for file in case.files if case.symptom is Symptom.ENDS_BADLY else ():
         for registered in file.calls("signal"):
             handler = registered.args[1] if len(registered.args) == 2 else None
             function = file.function(handler)
             for call in calls_in(function, "exit", "_exit", "SystemExit"):
                 if len(call.args) == 1 and ast.unparse(call.args[0]) not in ("0", "None"):
-                    yield found(file, call, exit=ending.exit, what=f": line {call.lineno} gives it that code")
-    yield Found({"exit": ending.exit, "what": ""})
+                    yield found(file, call, exit=ended, what=f": line {call.lineno} gives it that code")
+    yield Found({"exit": ended, "what": ""})
 
 
 @mistake(

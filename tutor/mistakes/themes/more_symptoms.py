@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tutor.judge.symptom import Symptom
+from tutor.judge.tracebacks import own_frame
 from tutor.mistakes.entry import Case, Found
 from tutor.mistakes.themes.symptoms import in_words, symptom
 
@@ -109,10 +110,11 @@ def calls_missing(case: Case) -> Iterator[Found]:
 
     See it: log a message before and after each call.
     """
-    missing = case.about("missing", "every service")
+    missing, at = case.about("missing", "every service"), own_frame(case.stuck, case.trace.folder)
+    where = f", and stays at line {at.line} of {at.name}: {at.code}" if at is not None else ""
     return in_words(
         case,
-        f"the client does not call {missing}",
+        f"the client does not call {missing}{where}",
         "Follow the client from its first line to the missing call, and see where it waits or ends.",
     )
 

@@ -11,28 +11,31 @@ from tutor.judge.trace import Exit
 from tutor.judge.tracebacks import last_traceback
 from tutor.mistakes.entry import EVERY_SYMPTOM, Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.spinning import SPINS, SPINS_ONCE
 from tutor.ros_model import Graph
-from tutor.source import NodeFile, called_name
+from tutor.source import called_name
 
-_EXITS = ("exit", "_exit", "quit")
-_SHUTDOWNS = ("shutdown", "try_shutdown")
+EXITS = ("exit", "_exit", "quit")
 _AFTER_CTRL_C = (Symptom.DOES_NOT_END, Symptom.ENDS_BADLY)
 _OF_A_LAUNCH = (Symptom.NOT_LAUNCHED, Symptom.WRONG_NAMES, Symptom.NOT_CONNECTED)
 """A launch that ends by itself is explained by what launch has said."""
 
 _WHILE_RUNNING = tuple(symptom for symptom in EVERY_SYMPTOM if symptom not in (*_AFTER_CTRL_C, *_OF_A_LAUNCH))
+_OF_A_CLIENT = (Symptom.CALLS_MISSING, Symptom.RUNS_ON, Symptom.WRONG_EXIT_CODE)
+WHILE_A_NODE_RUNS = tuple(symptom for symptom in _WHILE_RUNNING if symptom not in _OF_A_CLIENT)
+"""A client ends by itself, and gets no arguments from ROS."""
+
 _TORN_THREAD = ("terminate called without an active exception", "FATAL: exception not rethrown")
 """Messages of C++ and glibc when Python, at interpreter exit, stops a thread that is inside rclpy."""
 
 
-def _ended(case: Case) -> Exit | None:
+def ended_by_itself(case: Case) -> Exit | None:
     """How the process ended by itself; None if it still runs, or if a traceback says more."""
     says_more = bool(case.exceptions) or last_traceback(case.trace) is not None
     return case.trace.exit if not says_more else None
 
 
-def _words(ended: Exit) -> str:
+def how_it_ended(ended: Exit) -> str:
+    """When and how a process ended, in words."""
     return f"the program ends by itself after {ended.after_s:.1f} s with {ended}"
 
 
@@ -45,10 +48,11 @@ def _signal_name(number: int) -> str:
 
 @mistake(
     "no-main-call",
+    slip=True,
     explains=_WHILE_RUNNING,
     evidence=Evidence.PROCESS,
     says="{ended}: {what}",
-    do="End the file with the usual two lines that call main() when the file is run as a program.",
+    do="{do}",
     example=in_run(Symptom.ENDED, exit=Exit(0, None, 0.2), graph=Graph()),
 )
 def no_main_call(case: Case) -> Iterator[Found]:
@@ -72,18 +76,25 @@ def no_main_call(case: Case) -> Iterator[Found]:
 
     See it: the program ends at once, without a word.
     """
-    if (ended := _ended(case)) is None:
+    if (ended := ended_by_itself(case)) is None:
         return
-    file = case.file
+    do = "Call it from the usual two lines at the end of the file."
+    file, words = case.file, {"ended": how_it_ended(ended), "do": do}
     for node in file.nodes:
         match node:
             case ast.If(
                 test=ast.Compare(left=ast.Name("__name__"), comparators=[ast.Constant(value=str() as text)])
             ) if text != "__main__":
-                yield found(file, node, ended=_words(ended), what=f"__name__ is never {text!r} (line {node.lineno})")
+                fix = {"do": "Compare it with '__main__' there."}
+                yield found(file, node, what=f"__name__ is never {text!r} (line {node.lineno})", **words | fix)
     defined = [node for node in file.tree.body if isinstance(node, ast.FunctionDef) and node.name == "main"]
-    if defined and not any(isinstance(node, ast.Name) and node.id == "main" for node in file.nodes):
-        yield found(file, defined[0], ended=_words(ended), what="main() is defined, but nothing calls it")
+    named = [node for node in file.nodes if isinstance(node, ast.Name) and node.id == "main"]
+    bare = [node for node in named if isinstance(next(file.ancestors(node)), ast.Expr)]
+    if defined and bare and len(bare) == len(named):
+        fix = {"do": "Add the parentheses: main()."}
+        yield found(file, bare[0], what=f"line {bare[0].lineno} names main, but does not call it", **words | fix)
+    elif defined and not named:
+        yield found(file, defined[0], what="main() is defined, but nothing calls it", **words)
 
 
 @mistake(
@@ -146,14 +157,14 @@ def killed(case: Case) -> Iterator[Found]:
 
     See it: `echo $?` after the program: 128 plus the signal's number.
     """
-    ended = _ended(case)
+    ended = ended_by_itself(case)
     if ended is not None and ended.signal is not None:
-        yield Found({"ended": _words(ended), "signal": _signal_name(ended.signal)})
+        yield Found({"ended": how_it_ended(ended), "signal": _signal_name(ended.signal)})
 
 
 @mistake(
     "arguments-refused",
-    explains=_WHILE_RUNNING,
+    explains=WHILE_A_NODE_RUNS,
     evidence=Evidence.PROCESS,
     says="{ended}: {what}",
     do="Leave --ros-args and what follows it to rclpy: parse only the arguments before it, or none.",
@@ -177,11 +188,11 @@ def arguments_refused(case: Case) -> Iterator[Found]:
 
     See it: start it with `--ros-args -p volume:=7`.
     """
-    if (ended := _ended(case)) is None:
+    if (ended := ended_by_itself(case)) is None:
         return
     errors = [line.text for line in case.trace.output if line.stream == "stderr" and " error: " in line.text]
     if ended.code == 2 and errors:
-        yield Found({"ended": _words(ended), "what": errors[-1].rpartition(" error: ")[2]})
+        yield Found({"ended": how_it_ended(ended), "what": errors[-1].rpartition(" error: ")[2]})
     for file in case.files:
         used = [ast.unparse(node) for node in file.nodes if isinstance(node, ast.Subscript)]
         if any(code.startswith("sys.argv[") and code != "sys.argv[0]" for code in used):
@@ -190,109 +201,8 @@ def arguments_refused(case: Case) -> Iterator[Found]:
             if isinstance(node, ast.If) and not node.orelse and "len(sys.argv)" in ast.unparse(node.test):
                 last = node.body[-1]
                 ends = isinstance(last, ast.Raise | ast.Return) or any(
-                    isinstance(call, ast.Call) and called_name(call) in _EXITS for call in ast.walk(last)
+                    isinstance(call, ast.Call) and called_name(call) in EXITS for call in ast.walk(last)
                 )
                 if ends:
                     what = f"line {node.lineno} counts its arguments, but ROS passes some of its own"
-                    yield found(file, node, ended=_words(ended), what=what)
-
-
-@mistake(
-    "ended-by-a-callback",
-    explains=_WHILE_RUNNING,
-    evidence=Evidence.PROCESS,
-    says="{ended}: {line}, in {function}, ends the program: {code}",
-    do="Let the callback return, and let the program run until Ctrl+C.",
-    example=in_run(Symptom.ENDED, exit=Exit(0, None, 1.2)),
-)
-def exit_in_callback(case: Case) -> Iterator[Found]:
-    """A callback ends the program.
-
-    A callback that calls sys.exit() or rclpy.shutdown() ends the node at the first message or tick.
-
-    Bad:
-
-        def __init__(self):
-            self.create_timer(1.0, self.ring)
-
-        def ring(self):
-            sys.exit()
-
-    Good:
-
-        def __init__(self):
-            self.create_timer(1.0, self.ring)
-
-        def ring(self):
-            self.get_logger().info('ding')
-
-    See it: the node is gone after its first callback.
-    """
-    if (ended := _ended(case)) is None:
-        return
-    for file in case.files:
-        for function in file.callbacks("create_timer", "create_subscription", "create_service"):
-            for node in ast.walk(function):
-                match node:
-                    case ast.Raise(exc=ast.expr() as raised) if "SystemExit" in ast.unparse(raised):
-                        yield found(file, node, ended=_words(ended), function=function.name)
-                    case ast.Expr(value=ast.Call() as call) if called_name(call) in (*_EXITS, *_SHUTDOWNS):
-                        yield found(file, node, ended=_words(ended), function=function.name)
-
-
-@mistake(
-    "exit-at-once",
-    explains=_WHILE_RUNNING,
-    evidence=Evidence.PROCESS,
-    says="{ended}: {what}",
-    do="Spin the node until Ctrl+C, once everything is set up.",
-    example=in_run(Symptom.ENDED, exit=Exit(0, None, 0.4)),
-)
-def exit_at_once(case: Case) -> Iterator[Found]:
-    """The program runs to its end.
-
-    A node lives as long as its program. rclpy.spin(node) keeps it running until Ctrl+C; spin_once() handles one
-    callback and returns; without either, main() is done in a moment.
-
-    Bad:
-
-        def main():
-            rclpy.init()
-            node = Doorbell()
-            rclpy.spin_once(node)
-
-    Good:
-
-        def main():
-            rclpy.init()
-            node = Doorbell()
-            rclpy.spin(node)
-
-    See it: `ros2 node list` a second after the start.
-    """
-    if (ended := _ended(case)) is None or ended.code is None:
-        return
-    yield from _without_spin(case, _words(ended))
-    yield Found({"ended": _words(ended), "what": "nothing keeps it running"})
-
-
-def _without_spin(case: Case, ended: str) -> Iterator[Found]:
-    """Where the source shows that the program spins only once, or not at all."""
-    if case.trace.exit is None or case.trace.exit.code != 0 or case.program.calls("spin"):
-        return
-    for file in case.files:
-        loops = [node for node in file.nodes if isinstance(node, ast.While | ast.For)]
-        once = [call for call in file.calls(*SPINS_ONCE) if not any(call in ast.walk(loop) for loop in loops)]
-        for call in once:
-            what = f"line {call.lineno} handles at most one callback, and then the program is done"
-            yield found(file, call, ended=ended, what=what)
-    if not case.program.calls(*SPINS):
-        for file in case.files:
-            for call in file.calls(*file.node_classes, "Node", "create_node"):
-                if _is_made_by_program(file, call):
-                    what = f"it makes a node in line {call.lineno}, but never spins it"
-                    yield found(file, call, ended=ended, what=what)
-
-
-def _is_made_by_program(file: NodeFile, call: ast.Call) -> bool:
-    return file.class_of(call) is None
+                    yield found(file, node, ended=how_it_ended(ended), what=what)

@@ -7,12 +7,11 @@ import difflib
 from collections.abc import Iterator
 
 from tutor.judge.symptom import Symptom
-from tutor.judge.trace import CallAnswer
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.themes.topics import name_difference
 from tutor.ros_model import Graph, ServiceEndpoint
-from tutor.source import NodeFile, argument, calls_in
+from tutor.source import NodeFile
 
 _UNREACHED = (Symptom.SERVICE_MISSING, Symptom.NO_ANSWER, Symptom.CALLS_MISSING)
 
@@ -26,15 +25,16 @@ def _offered(case: Case) -> list[ServiceEndpoint]:
     return [server for server in case.trace.graph.servers if not server.is_standard]
 
 
-def _place(case: Case, name: str) -> tuple[NodeFile, ast.Call] | None:
+def place_of(case: Case, name: str) -> tuple[NodeFile, ast.Call] | None:
     """The call that makes the service with this name, or the only one."""
     calls = [(file, call) for file in case.files for call in file.calls("create_service", "create_client")]
     named = [(file, call) for file, call in calls if name.rpartition("/")[2] in file.line(call.lineno)]
     return next(iter(named or (calls if len(calls) == 1 else [])), None)
 
 
-def _found(case: Case, name: str, **words: object) -> Found:
-    place = _place(case, name)
+def found_service(case: Case, name: str, **words: object) -> Found:
+    """A mistake at the call that makes this service or its client, if it is clear which one does."""
+    place = place_of(case, name)
     return found(*place, **words) if place is not None else Found(dict(words))
 
 
@@ -68,7 +68,7 @@ def wrong_type(case: Case) -> Iterator[Found]:
     service, wanted = case.about("service"), case.about("type")
     for server in _offered(case):
         if server.name == service and wanted is not None and server.type != wanted:
-            yield _found(case, service, service=service, given=server.type, wanted=wanted)
+            yield found_service(case, service, service=service, given=server.type, wanted=wanted)
 
 
 @mistake(
@@ -103,10 +103,12 @@ def service_qos(case: Case) -> Iterator[Found]:
         if not endpoint.is_standard:
             words = {"service": endpoint.name}
             if endpoint.reliability == "best_effort":
-                yield _found(case, endpoint.name, policy="reliability", own="best effort", default="reliable", **words)
+                yield found_service(
+                    case, endpoint.name, policy="reliability", own="best effort", default="reliable", **words
+                )
             if endpoint.durability == "transient_local":
                 own = "transient local"
-                yield _found(case, endpoint.name, policy="durability", own=own, default="volatile", **words)
+                yield found_service(case, endpoint.name, policy="durability", own=own, default="volatile", **words)
 
 
 @mistake(
@@ -140,119 +142,46 @@ def wrong_name(case: Case) -> Iterator[Found]:
     offered = [server for server in _offered(case) if server.name not in taken]
     same = [server for server in offered if wanted_type is None or server.type == wanted_type]
     names = sorted({server.name for server in same or offered})
+    if len(taken) > 1:  # one of several services: another one of a name that has nothing to do with it is not meant
+        names = [name for name in names if _is_similar(name, service)]
     if names:
         given = max(names, key=lambda name: difflib.SequenceMatcher(None, name, service).ratio())
-        yield _found(case, given, given=given, wanted=service, difference=name_difference(given, service))
+        yield found_service(case, given, given=given, wanted=service, difference=name_difference(given, service))
+
+
+def _is_similar(given: str, wanted: str) -> bool:
+    given, wanted = given.casefold(), wanted.casefold()
+    return given.endswith(wanted) or wanted.endswith(given) or wanted[1:4] in given
 
 
 @mistake(
-    "answered-too-early",
-    explains=[Symptom.WRONG_ANSWER],
-    says="{line} does the work outside the callback, which answers at once, with nothing filled in yet: {code}",
-    do="Let the callback itself do the work, and return the response when the work is done.",
+    "service-destroyed",
+    explains=_UNREACHED,
+    says="{line} is in __del__, which Python calls as soon as nothing refers to the object any more: {code}",
+    do="Leave the service alone there: the node destroys it when it goes.",
 )
-def answered_early(case: Case) -> Iterator[Found]:
-    """A service answers before its work is done.
+def destroyed(case: Case) -> Iterator[Found]:
+    """A service is destroyed along with the object that made it.
 
-    The response goes out when the callback returns it. A thread or task that fills it in later fills in an object that
-    nobody sends any more.
+    Python calls __del__ when an object is no longer referred to, as when its variable gets another value. A service
+    destroyed there is gone, although the node lives.
 
     Bad:
 
-        def __init__(self):
-            self.create_service(Trigger, 'open_door', self.open_the_door)
-
-        def open_the_door(self, request, response):
-            Thread(target=self.turn_the_key, args=(response,)).start()
-            return response
+        class Door:
+            def __del__(self):
+                self.node.destroy_service(self.service)
 
     Good:
 
-        def __init__(self):
-            self.create_service(Trigger, 'open_door', self.open_the_door)
+        class Door:
+            def close(self):
+                self.node.destroy_service(self.service)
 
-        def open_the_door(self, request, response):
-            self.turn_the_key(response)
-            return response
-
-    See it: `ros2 service call` answers at once.
+    See it: `ros2 service list` shows some of the services only.
     """
-    for file in case.files if case.about("early", True) else ():
-        for service in file.calls("create_service"):
-            callback = file.function(argument(service, "callback"))
-            for call in calls_in(callback, "Thread", "Timer", "submit", "create_task"):
+    for file in case.files:
+        for call in file.calls("destroy_service"):
+            function = file.function_around(call)
+            if function is not None and function.name == "__del__":
                 yield found(file, call)
-
-
-@mistake(
-    "response-field-not-set",
-    explains=[Symptom.WRONG_ANSWER],
-    evidence=Evidence.SYMPTOM,
-    says="{service} answers 0 instead of {wanted}: a field that is never set is 0",
-    do="Put the result into the response's field that the type has for it.",
-    example=in_run(
-        Symptom.WRONG_ANSWER,
-        service="/count",
-        wanted=7,
-        answer=CallAnswer("/count", {}, {"sum": 0}, 0.0, 0.1),
-    ),
-)
-def field_not_set(case: Case) -> Iterator[Found]:
-    """A response is returned unchanged.
-
-    The callback is given a response whose fields are 0, false or empty. What it computes reaches the caller only if it
-    is put into one of these fields.
-
-    Bad:
-
-        def count(self, request, response):
-            total = request.a + request.b
-            return response
-
-    Good:
-
-        def count(self, request, response):
-            response.sum = request.a + request.b
-            return response
-
-    See it: `ros2 interface show TYPE` lists the fields.
-    """
-    answer, wanted = case.about("answer"), case.about("wanted")
-    response = answer.response if answer is not None else None
-    if response and wanted not in (None, 0) and all(value == 0 for value in response.values()):
-        yield Found({"service": case.about("service", "the service"), "wanted": wanted})
-
-
-@mistake(
-    "shared-state",
-    explains=[Symptom.WRONG_ANSWER],
-    evidence=Evidence.RUN,
-    says="one call was answered with the result of another that was made at the same time",
-    do="Keep what belongs to one call in local variables of the callback.",
-    example=in_run(Symptom.WRONG_ANSWER, shared=True),
-)
-def shared_state(case: Case) -> Iterator[Found]:
-    """Calls that run at the same time share a variable.
-
-    With several threads, a callback can run several times at once. All of these runs share the node's attributes: the
-    second call overwrites what the first has put there.
-
-    Bad:
-
-        def open_the_door(self, request, response):
-            self.who = request.data
-            time.sleep(3.0)
-            response.message = f'hello {self.who}'
-            return response
-
-    Good:
-
-        def open_the_door(self, request, response):
-            time.sleep(3.0)
-            response.message = f'hello {request.data}'
-            return response
-
-    See it: call the service twice at once, with different values.
-    """
-    if case.about("shared"):
-        yield Found()

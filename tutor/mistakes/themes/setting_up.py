@@ -153,7 +153,7 @@ def waits_for_service(case: Case) -> Iterator[Found]:
 
     See it: `ros2 service list`.
     """
-    offered = {server.name for server in case.trace.graph.servers}
+    offered = {*(server.name for server in case.trace.graph.servers), *case.about("services", ())}
     awaited = sorted({client.name for client in case.trace.graph.clients if client.name not in offered})
     for file in case.files if awaited else ():
         for loop in (node for node in file.nodes if isinstance(node, ast.While)):

@@ -175,7 +175,7 @@ def nap_between_spins(case: Case) -> Iterator[Found]:
 @mistake(
     "spin-once-waits",
     name="spin_once waits",
-    explains=_SLOW,
+    explains=(*_SLOW, Symptom.CALLS_MISSING),
     says="{line} waits until a callback runs, {why}: {code}",
     do="Give spin_once a timeout_sec, or let a timer do the loop's work.",
 )

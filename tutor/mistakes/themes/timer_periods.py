@@ -112,7 +112,7 @@ def whole_number_period(case: Case) -> Iterator[Found]:
 
 @mistake(
     "wrong-timer-period",
-    explains=_RATES,
+    explains=(*_RATES, Symptom.CALLS_MISSING),
     says="{line}: create_timer takes seconds, and this is {what}",
     do="Give the period in seconds there.",
 )
