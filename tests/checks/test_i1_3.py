@@ -184,14 +184,14 @@ def test_any_wrong_result_fails(asked: tuple[str, int, int], result: int, before
         ("/add", [(-40, 4, 44), (-8, -9, 17)], "sign lost", "abs()"),
         ("/add", [(5 * 10**9, 3, 705032707), (6, 3, 9)], "cut to 32 bits", "64 bits"),
         ("/add", [(-5 * 10**9, 3, -705032701), (6, 3, 9)], "cut to 32 bits", "64 bits"),
-        ("/multiply", [(20, 3, 0), (6, 4, 0)], "response field not set", "into the field"),
+        ("/multiply", [(20, 3, 0), (6, 4, 0)], "response field not set", "response's field"),
         ("/multiply", [(20, 3, 0), (6, 4, 24)], "wrong answer", "0 instead of 60"),
         ("/add", [(20, 3, 99)], "wrong answer", "99 instead of 23"),
         ("/add", [(20, 3, None)], "no answer", "no answer in 5 s"),
         ("/add", [(6, 3, 9), (-40, 4, 0), (50, -5, 0), (7, 7, 14)], "negative operands refused", "/add answers 0"),
         ("/divide", [(6, 3, 2), (-1, -1, 1), (0, -1, 1)], "wrong answer", "1 instead of 0"),
         ("/add", [(-40, 4, -36), (7, 0, 0)], "zero refused", "/add computes with every other number"),
-        ("/add", [(-40, 4, 0), (7, 0, 0)], "response field not set", "/add answers with 0"),
+        ("/add", [(-40, 4, 0), (7, 0, 0)], "response field not set", "/add answers 0"),
     ],
 )
 def test_causes_of_a_wrong_result(
