@@ -38,6 +38,7 @@ TITLES = {
 """The pages by the names of their files, in the order of the contents; those of the exercises follow."""
 
 PAGE_OF = {
+    "early_ends": "nodes",
     "missing_attributes": "nodes",
     "no_node": "nodes",
     "nodes": "nodes",
@@ -50,9 +51,11 @@ PAGE_OF = {
     "topics": "topics",
     "bad_values": "parameters",
     "parameter": "parameters",
+    "answers": "services",
     "client": "services",
     "responses": "services",
     "services": "services",
+    "wrong_answers": "services",
     "asynchronous": "callbacks",
     "blocked_callbacks": "callbacks",
     "callback": "callbacks",
