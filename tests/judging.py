@@ -7,7 +7,7 @@ import os
 import sys
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from tutor.content.submissions import EXPECT, Case, Expected, read_case
@@ -137,7 +137,11 @@ def compare(case: Case, result: ExerciseResult) -> Outcome:
     expected = case.expected
     outcome = Outcome(case, verdict=" ".join(f"{c.id}:{c.verdict.status.value}" for c in result.criteria))
     some_failed = any(c.verdict.status is Status.FAILED for c in result.criteria)
+    told = {criterion.id: criterion.verdict.cause for criterion in result.criteria}
     for criterion in result.criteria:
+        root = told.get(criterion.verdict.same_as)  # a cause is told once
+        if root is not None:
+            criterion = replace(criterion, verdict=replace(criterion.verdict, cause=root))
         _compare_criterion(criterion, expected, some_failed, outcome)
     any_of = expected.fails_any
     if any_of and not any(c.id in any_of and c.verdict.status is Status.FAILED for c in result.criteria):

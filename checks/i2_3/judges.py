@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
+from checks.i2_3 import symptoms
 from checks.i2_3.facts import (
     CALLS,
     EXCUSED_S,
@@ -16,7 +16,6 @@ from checks.i2_3.facts import (
     SHORTEST_S,
     TYPE,
     WORK_S,
-    CallBatch,
     ConcurrentCalls,
     IdleRun,
     Interrupted,
@@ -31,16 +30,10 @@ from checks.i2_3.pace import Fault, TimerPace
 from checks.i2_3.ticks import HZ, Series, best_series
 from tutor.judge import ending
 from tutor.judge.rates import TOLERANCE
-from tutor.judge.symptom import Observation, Symptom
+from tutor.judge.symptom import Symptom
 from tutor.judge.trace import CallAnswer, Trace
 from tutor.judge.verdict import Undecided, Verdict, failed, passed, skipped, undecided
-from tutor.judge.wording import counted, describe_no_answer, output_tail, shape
-
-BLOCKED_SHARE = 0.75
-"""A timer that pauses for less than this share of a call is not blocked by the whole call."""
-
-MIN_REPEATS = 4
-"""At least this many lines of the same shape are taken for a timer's."""
+from tutor.judge.wording import counted, describe_no_answer, output_tail
 
 
 def judge_blocks(seen: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
@@ -81,44 +74,22 @@ def _judge_answer(seen: SingleCalls) -> Verdict:
     best = seen.quickest
     if best is None:
         observed = describe_no_answer(seen.trace, max(call.answer.took_s for call in seen.calls))
-        return failed(expected, observed, _no_answer(seen), output_tail(seen.trace))
+        return failed(expected, observed, symptoms.no_answer(seen), output_tail(seen.trace))
     for call in seen.calls:
         answer = call.answer
         if answer.response is not None and answer.response["sum"] != right_sum(answer):
-            return failed(expected, _describe_answer(answer), _wrong_sum(answer, seen.trace))
+            return failed(expected, _describe_answer(answer), symptoms.wrong_sum(answer, seen.trace))
     if best.answer.took_s < SHORTEST_S:
         return _fail_too_quick(best.answer, seen.trace, expected)
     if not best.in_time:
         if best.nearly_in_time and all(call.busy for call in seen.calls):
             return undecided("to time the service")
-        return failed(expected, _describe_answer(best.answer), _wrong_time(best.answer, seen.trace))
+        return failed(expected, _describe_answer(best.answer), symptoms.wrong_duration(best.answer, seen.trace))
     return passed(expected, _describe_answer(best.answer))
 
 
-def _no_answer(seen: SingleCalls) -> Observation:
-    return Symptom.NO_ANSWER.seen(seen.trace, stuck=seen.stuck, answers=seen.spins, service=SERVICE, type=TYPE)
-
-
-def _wrong_sum(answer: CallAnswer, trace: Trace) -> Observation:
-    assert answer.response is not None
-    return Symptom.WRONG_ANSWER.seen(
-        trace,
-        service=SERVICE,
-        answer=answer,
-        wanted=right_sum(answer),
-        early=answer.took_s < SHORTEST_S,
-        says=f"the sum is {answer.response['sum']} instead of {right_sum(answer)}",
-        do="Look at what the callback adds, and where it puts the result.",
-    )
-
-
-def _wrong_time(answer: CallAnswer, trace: Trace) -> Observation:
-    early = answer.took_s < SHORTEST_S
-    return Symptom.WRONG_ANSWER.seen(trace, service=SERVICE, early=early, took_s=answer.took_s, wanted_s=WORK_S)
-
-
 def _fail_too_quick(answer: CallAnswer, trace: Trace, expected: str) -> Verdict:
-    return failed(expected, _describe_answer(answer), _wrong_time(answer, trace))
+    return failed(expected, _describe_answer(answer), symptoms.wrong_duration(answer, trace))
 
 
 def _describe_answer(answer: CallAnswer) -> str:
@@ -152,11 +123,7 @@ def _is_blocked(idle: IdleRun, seen: SingleCalls) -> bool:
     """Whether the timer stops for most of a call, so that a stack dump will show why."""
     right = [series for series in idle.series if series.is_10_hz]
     paces = [timer_during_call(series, seen.trace.logs, call) for call in seen.calls for series in right]
-    return bool(paces) and seen.trace.exit is None and all(map(_stops, paces))
-
-
-def _stops(pace: TimerPace) -> bool:
-    return pace.fault is Fault.GAP and not (pace.count > 1 and pace.longest_s < BLOCKED_SHARE * pace.for_s)
+    return bool(paces) and seen.trace.exit is None and all(map(symptoms.stops, paces))
 
 
 def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
@@ -171,7 +138,8 @@ def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
         observed = f"outside a call: {likely}" if likely else "outside a call, the node logs nothing repeatedly"
         evidence = [tick.text for tick in likely.ticks[:4]] if likely else output_tail(idle.trace)
         silent = likely is None and bool(seen.calls) and not seen.spins
-        return failed(expected, observed, _no_answer(seen) if silent else _other_pace(idle, likely), evidence)
+        why = symptoms.no_answer(seen) if silent else symptoms.other_pace(idle, likely)
+        return failed(expected, observed, why, evidence)
     if not seen.calls:
         return skipped("not judged, because there was no call to listen during: `blocks` did not pass")
     right = [series for series in idle.series if series.is_10_hz]
@@ -185,12 +153,12 @@ def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
     observed = f"outside: {series}; {_describe_pace(pace, series)}"
     if seen.trace.exit is not None:
         observed = f"{observed}; then the process ended by itself with {seen.trace.exit}"
-        return failed(expected, observed, _disturbed(seen, pace), output_tail(seen.trace))
+        return failed(expected, observed, symptoms.disturbed_timer(seen, pace), output_tail(seen.trace))
     if pace.fault is None:
         return passed(expected, observed, texts[:6])
     if is_excused(seen.trace.logs, calls[-1], right):
         return undecided("to listen to the timer")
-    return failed(expected, observed, _disturbed(seen, pace), texts[-6:])
+    return failed(expected, observed, symptoms.disturbed_timer(seen, pace), texts[-6:])
 
 
 def _describe_pace(pace: TimerPace, series: Series) -> str:
@@ -198,42 +166,6 @@ def _describe_pace(pace: TimerPace, series: Series) -> str:
     return (
         f"during the call of {pace.for_s:.1f} s: {counted(pace.count, 'message')}{rate}, "
         f"the longest pause {pace.longest_s:.2f} s (outside {series.longest_s:.2f} s)"
-    )
-
-
-def _other_pace(idle: IdleRun, likely: Series | None) -> Observation:
-    """No 10 Hz timer was seen while nobody called."""
-    if likely is None:
-        at_end = idle.ending.output if idle.ending else ()
-        repeated = Counter(shape(line.text) for line in (*idle.trace.output, *at_end))
-        return Symptom.NOT_LOGGED.seen(
-            idle.trace,
-            what="the timer's message",
-            recognise=lambda text: repeated[shape(text)] >= MIN_REPEATS,
-            at_end=at_end,
-            says="no log message comes again and again while nobody calls",
-            do="Let a timer of 10 Hz log at INFO, every tenth tick with its number at least.",
-        )
-    unnumbered = "" if likely.numbered or likely.hz > HZ else ", and no number in them counts the ticks"
-    return Symptom.WRONG_RATE.seen(
-        idle.trace,
-        wanted_hz=HZ,
-        found_hz=likely.hz,
-        says=f"the timer's messages come {likely.hz:.1f} times a second, not {HZ:g} times{unnumbered}",
-        do="Look at the period that the timer gets, and at which ticks it logs.",
-    )
-
-
-def _disturbed(seen: SingleCalls, pace: TimerPace) -> Observation:
-    """The timer does not keep its pace during a call."""
-    paces = {Fault.FAST: "fast", Fault.SLOW: "slow", Fault.GAP: "pauses"}
-    return Symptom.STANDS_STILL.seen(
-        seen.trace,
-        stuck=seen.stuck,
-        service=SERVICE,
-        stops=_stops(pace),
-        pace="" if pace.fault is None or _stops(pace) else paces[pace.fault],
-        pause_s=pace.longest_s,
     )
 
 
@@ -248,33 +180,9 @@ def judge_concurrent(seen: ConcurrentCalls, single: SingleCalls | None = None) -
     answered = [answer for answer in batch.answers if answer.response is not None]
     observed = f"{batch.correct_count} of {CALLS} right, {CALLS - len(answered)} not answered"
     never_answers = single is not None and bool(single.calls) and single.quickest is None and not answered
-    why = _no_answer(single) if single and never_answers and seen.trace.exit is None else _lost_calls(seen.trace, batch)
+    is_known = single is not None and never_answers and seen.trace.exit is None
+    why = symptoms.no_answer(single) if single and is_known else symptoms.lost_calls(seen.trace, batch)
     return failed(expected, observed, why, answers)
-
-
-def _lost_calls(trace: Trace, batch: CallBatch) -> Observation:
-    """Some of three calls at once did not get their own sum."""
-    answered = [answer for answer in batch.answers if answer.response is not None]
-    lost = len(batch.answers) - len(answered)
-    if lost:
-        return Symptom.NO_ANSWER.seen(
-            trace,
-            service=SERVICE,
-            says=f"{lost} of {len(batch.answers)} calls made at once got no answer",
-            do="Let every call wait its turn or work beside the others, and return its response; refuse none.",
-        )
-    sums = [answer.response["sum"] for answer in answered if answer.response is not None]
-    wrong = next(answer for answer in answered if answer.response and answer.response["sum"] != right_sum(answer))
-    return Symptom.WRONG_ANSWER.seen(
-        trace,
-        service=SERVICE,
-        answer=wrong,
-        wanted=right_sum(wrong),
-        early=any(answer.took_s < SHORTEST_S for answer in answered),
-        shared=any(sums.count(right_sum(answer)) > 1 for answer in answered),
-        says=f"the sums of three calls at once are {', '.join(map(str, sums))}",
-        do="Answer every call with its own a and b, also while another one is being worked on.",
-    )
 
 
 def judge_concurrent_so_far(seen: ConcurrentCalls) -> Verdict | None:
@@ -294,8 +202,7 @@ def judge_parallel(single: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
         return passed(expected, observed)
     if not concurrent.is_conclusive(one_s):
         return undecided("to time three calls at once")
-    waiting = Symptom.STANDS_STILL.seen(concurrent.trace, service=SERVICE, ratio=best.took_s / one_s)
-    return failed(expected, observed, waiting)
+    return failed(expected, observed, symptoms.waiting_calls(concurrent.trace, best.took_s / one_s))
 
 
 def judge_shutdown(seen: IdleRun) -> Verdict:

@@ -32,6 +32,7 @@ class Symptom(Enum):
     RUNS_ON = "a program that should end by itself goes on"
     WRONG_EXIT_CODE = "a program that should end with 0 ends with another exit code"
     STANDS_STILL = "a callback keeps others from running"
+    CALLS_WAIT = "calls of a service made at once wait for each other"
     DOES_NOT_END = "the program does not end on Ctrl+C"
     ENDS_BADLY = "the program ends on Ctrl+C, but not cleanly"
     NOT_LAUNCHED = "a launch does not start what it should"

@@ -53,13 +53,15 @@ def _asked(case: Case, catalogues: Sequence[Catalogue]) -> Iterator[Mistake]:
 
 def describe(entry: Mistake, occurrence: Found, case: Case) -> Diagnosis:
     """The mistake in words, with the learner's own names."""
-    place = f"line {occurrence.line}"
-    if occurrence.file and (len(case.trace.sources) > 1 or occurrence.file != case.trace.file):
-        place = f"{occurrence.file}, {place}"
     code = occurrence.code
     if len(code) > MAX_CODE_CHARACTERS:
         code = f"{code[: MAX_CODE_CHARACTERS - 3]}..."
-    words = {"line": place, "code": code, "nodes": case.nodes, **occurrence.words}
+    words = {
+        "line": case.place(occurrence.file, occurrence.line),
+        "code": code,
+        "nodes": case.nodes,
+        **occurrence.words,
+    }
     cause = f"{entry.title}: {entry.says.format(**words)}"
     return Diagnosis(entry.id, cause, entry.do.format(**words), occurrence.file, occurrence.line, entry.evidence)
 

@@ -89,6 +89,11 @@ class Case:
         last = told if "raised" in self.seen.about else last_traceback(self.trace)
         return exceptions_of(last, self.program, self.trace.folder)
 
+    def place(self, name: str, line: int) -> str:
+        """A line of a file, for use in a sentence: "line 12", or "helper.py, line 12"."""
+        is_clear = not name or (name == self.trace.file and len(self.trace.sources) < 2)
+        return f"line {line}" if is_clear else f"{name}, line {line}"
+
     @property
     def nodes(self) -> str:
         """The nodes' names, for use in a sentence: "the node /talker"."""

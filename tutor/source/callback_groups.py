@@ -12,9 +12,17 @@ GROUPS = ("ReentrantCallbackGroup", "MutuallyExclusiveCallbackGroup")
 MULTI_THREADED = "MultiThreadedExecutor"
 
 
+UNKNOWN = "?"
+
+
 def group_of(call: ast.Call) -> str:
-    """The expression for the callback group of a timer, service and so on; "" is the node's default group."""
+    """The expression for the callback group of a timer, service and so on; "" is the node's default group.
+
+    `UNKNOWN`: it may be among arguments that are unpacked there.
+    """
     given = argument(call, "callback_group")
+    if given is None and any(keyword.arg is None for keyword in call.keywords):
+        return UNKNOWN
     code = ast.unparse(given) if given is not None else ""
     return "" if code in ("None", "self.default_callback_group") else code
 
@@ -26,27 +34,51 @@ def names_of(file: NodeFile, group: str) -> set[str]:
 
 
 def is_reentrant(file: NodeFile, group: str) -> bool:
-    """Whether this expression is, or is assigned, a ReentrantCallbackGroup."""
-    made = {file.assigned_to(each) for each in file.calls("ReentrantCallbackGroup")} - {""}
-    return "Reentrant" in group or group in made
+    """Whether this is, or is assigned, a ReentrantCallbackGroup."""
+    made = [names_of(file, file.assigned_to(each)) for each in file.calls("ReentrantCallbackGroup")]
+    return "ReentrantCallbackGroup" in group or (bool(group) and any(group in names for names in made))
+
+
+def is_exclusive(file: NodeFile, group: str) -> bool:
+    """Whether this is the node's default group, or is (assigned) a MutuallyExclusiveCallbackGroup."""
+    made = [names_of(file, file.assigned_to(each)) for each in file.calls("MutuallyExclusiveCallbackGroup")]
+    return not group or "MutuallyExclusive" in group or any(group in names for names in made)
 
 
 def timers_sharing_group(file: NodeFile, service: ast.Call) -> list[ast.Call]:
-    """The calls that create timers in the service's callback group, unless that is reentrant."""
+    """The calls that create timers of the same node in the service's callback group, unless that is reentrant."""
     own = group_of(service)
+    if not is_exclusive(file, own) or own.endswith(")"):  # a call makes another group each time
+        return []
     names = names_of(file, own)
-    return [] if is_reentrant(file, own) else [timer for timer in file.timers if group_of(timer) in names]
+    return [timer for timer in file.timers if group_of(timer) in names and are_of_one_node(file, timer, service)]
+
+
+def are_of_one_node(file: NodeFile, one: ast.AST, other: ast.AST) -> bool:
+    """Whether two syntax nodes are in one class, or in a class and one that inherits from it, or in none."""
+    classes = [owner for each in (one, other) if (owner := file.class_of(each)) is not None]
+    names = {owner.name for owner in classes}
+    return len(names) < 2 or any(ast.unparse(base) in names for owner in classes for base in owner.bases)
 
 
 def threads_of(file: NodeFile) -> tuple[ast.Call | None, int | None]:
-    """The call that makes a MultiThreadedExecutor, and its number of threads; None for each that is unknown."""
+    """The call that makes a MultiThreadedExecutor, and its number of threads; None for each that is unknown.
+
+    The number is 0 if none is given: then it is that of the machine's cores.
+    """
     made = next(iter(file.calls(MULTI_THREADED)), None)
     given = argument(made, "num_threads")
     if isinstance(given, ast.Name | ast.Attribute):
         values = values_of(ast.unparse(given), file.tree)
         given = values[0] if len(values) == 1 else given
-    number = given.value if isinstance(given, ast.Constant) and isinstance(given.value, int) else None
-    return made, number
+    match given:
+        case None if made is not None and not any(keyword.arg is None for keyword in made.keywords):
+            return made, 0
+        case ast.Constant(value=None):
+            return made, 0
+        case ast.Constant(value=int() as number):
+            return made, number
+    return made, None
 
 
 def is_set_after(file: NodeFile, group: ast.Call, creator: ast.AST) -> bool:

@@ -236,7 +236,7 @@ def _has_groups(file: NodeFile) -> bool:
     explains=_SILENT,
     evidence=Evidence.RUN,
     says="{line} keeps a callback from returning{why}: {code}",
-    do="Let the callback return at once, and leave to a timer whatever has to wait, or happen again.",
+    do="{step}",
     example=in_run(Symptom.NO_ANSWER, stuck_at=_stuck_in()),
 )
 def blocked_executor(case: Case) -> Iterator[Found]:
@@ -262,4 +262,7 @@ def blocked_executor(case: Case) -> Iterator[Found]:
     if blocked is not None:
         at, inner = blocked
         waits = any(frame.path.endswith("/threading.py") for frame in inner) or ".wait(" in at.code
-        yield found_at(at, why=": it waits for what only another callback could provide" if waits else "")
+        step = "Let the callback return at once, and leave to a timer whatever has to wait, or happen again."
+        if case.about("service") is not None:
+            step = "Let the callback get past this line in every case, and return its response."
+        yield found_at(at, why=", for nothing has ended this wait" if waits else "", step=step)

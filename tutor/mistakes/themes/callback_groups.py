@@ -15,11 +15,13 @@ from tutor.source import NodeFile
 from tutor.source.callback_groups import (
     GROUPS,
     group_of,
+    is_exclusive,
     is_set_after,
     timers_sharing_group,
 )
 
-_STILL = (Symptom.STANDS_STILL,)
+ONE_BY_ONE = 2.6
+"""Three calls that take at least this many times as long as one were served one after the other."""
 
 
 def in_worker(stuck: Sequence[Frame]) -> bool:
@@ -36,12 +38,15 @@ def _in_pool(source: str) -> Sequence[Frame]:
 
 def stops(case: Case) -> bool:
     """Whether everything else stops while one callback runs, and does not only pause or come in a burst."""
-    return bool(case.about("stops", True)) and not one_at_a_time(case)
+    return case.symptom is Symptom.STANDS_STILL and bool(case.about("stops", True))
 
 
 def one_at_a_time(case: Case) -> bool:
-    """Whether calls that were made at once were served one after the other (`ratio`: how long, in calls)."""
-    return case.about("ratio") is not None
+    """Whether calls made at once were served one after the other, and not some of them beside others.
+
+    `ratio`: how many times as long as one call they took.
+    """
+    return case.symptom is Symptom.CALLS_WAIT and case.about("ratio", ONE_BY_ONE) >= ONE_BY_ONE
 
 
 def _services(file: NodeFile) -> list[ast.Call]:
@@ -50,9 +55,10 @@ def _services(file: NodeFile) -> list[ast.Call]:
 
 @mistake(
     "callback-group-set-too-late",
-    explains=_STILL,
+    explains=(Symptom.STANDS_STILL, Symptom.CALLS_WAIT),
     says="{line} is made before line {later} sets its callback group, which is still None then: {code}",
     do="Make the groups before super().__init__() uses them, or set everything up after it.",
+    example=in_run(Symptom.STANDS_STILL),
 )
 def set_too_late(case: Case) -> Iterator[Found]:
     """A callback group is set after it was used.
@@ -83,8 +89,8 @@ def set_too_late(case: Case) -> Iterator[Found]:
 
     See it: log the group where the timer is made.
     """
-    for file in case.files if stops(case) else ():
-        for made in file.timers:
+    for file in case.files if stops(case) or one_at_a_time(case) else ():
+        for made in file.timers if stops(case) else _services(file):
             group, creator = group_of(made), file.function_around(made)
             groups = [call for call in file.calls(*GROUPS) if group and file.assigned_to(call) == group]
             if len(groups) == 1 and creator is not None and is_set_after(file, groups[0], creator):
@@ -93,8 +99,8 @@ def set_too_late(case: Case) -> Iterator[Found]:
 
 @mistake(
     "same-callback-group",
-    explains=_STILL,
-    says="{line} puts the timer into {group}, where it waits for the service: {code}",
+    explains=[Symptom.STANDS_STILL],
+    says="{line} {puts}, beside the service, and that group runs one callback at a time: {code}",
     do="Give the timer and the service different callback groups, or a reentrant one.",
     example=in_run(Symptom.STANDS_STILL),
 )
@@ -122,17 +128,15 @@ def same_group(case: Case) -> Iterator[Found]:
         for service in _services(file):
             for timer in timers_sharing_group(file, service):
                 group = group_of(timer)
-                named = f"the service's group {group}" if group else "the node's default group, as the service is"
-                yield found(file, timer, group=named)
+                puts = f"puts the timer into {group}" if group else "leaves the timer in the node's default group"
+                yield found(file, timer, puts=puts)
 
 
 @mistake(
     "one-call-at-a-time",
-    explains=_STILL,
-    evidence=Evidence.SOURCE,
-    says="{line} puts the service into a group in which its calls wait for each other: {code}",
-    do="Put the service into a reentrant callback group.",
-    example=in_run(Symptom.STANDS_STILL, ratio=3.0),
+    explains=[Symptom.CALLS_WAIT],
+    says="{line} {puts}, where each call waits for the one before: {code}",
+    do="Put the service into a group that lets its callback run several times at once.",
 )
 def one_call_at_a_time(case: Case) -> Iterator[Found]:
     """The calls of one service wait for each other.
@@ -152,16 +156,16 @@ def one_call_at_a_time(case: Case) -> Iterator[Found]:
     """
     if one_at_a_time(case):
         for file in case.files:
-            reentrant = {file.assigned_to(call) for call in file.calls("ReentrantCallbackGroup")} - {""}
             for service in _services(file):
                 group = group_of(service)
-                if "Reentrant" not in group and group not in reentrant:
-                    yield found(file, service)
+                if is_exclusive(file, group):
+                    puts = "puts the service into a mutually exclusive group"
+                    yield found(file, service, puts=puts if group else "leaves the service in the node's default group")
 
 
 @mistake(
     "callback-group-not-used",
-    explains=(Symptom.WRONG_RATE, Symptom.STANDS_STILL),
+    explains=(Symptom.WRONG_RATE, Symptom.STANDS_STILL, Symptom.CALLS_WAIT),
     says="{line} makes a callback group, but no callback is in it: {code}",
     do="Name the group where the timers and services are made.",
     example=in_run(Symptom.WRONG_RATE),
@@ -197,10 +201,10 @@ def unused_group(case: Case) -> Iterator[Found]:
 
 @mistake(
     "timer-waits-for-the-service",
-    explains=_STILL,
+    explains=[Symptom.STANDS_STILL],
     evidence=Evidence.SYMPTOM,
-    says="the timer stops while the service works{where}, although several threads run the callbacks",
-    do="Give the timer a callback group of its own, and no lock that the service holds while it works.",
+    says="the timer stops while the service works{where}, although a MultiThreadedExecutor runs the callbacks",
+    do="Compare the callback groups of the two, look for a lock that both take, and count the executor's threads.",
     example=in_run(Symptom.STANDS_STILL, stuck_at=_in_pool),
 )
 def waits_in_worker(case: Case) -> Iterator[Found]:
@@ -226,7 +230,7 @@ def waits_in_worker(case: Case) -> Iterator[Found]:
     """
     if case.stuck and in_worker(case.stuck) and stops(case):
         own = tracebacks.own_frame(case.stuck, case.trace.folder)
-        where = f" (line {own.line} of {own.name})" if own is not None else ""
+        where = f" ({case.place(own.name, own.line)})" if own is not None else ""
         yield Found({"where": where}, own.name if own else "", own.line if own else 0, own.code if own else "")
 
 

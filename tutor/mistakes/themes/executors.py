@@ -7,9 +7,8 @@ from collections.abc import Iterator
 
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Found, found, mistake
-from tutor.source import NodeFile, called_name, calls_in, last_name
-
-EXECUTORS = ("SingleThreadedExecutor", "MultiThreadedExecutor", "EventsExecutor")
+from tutor.mistakes.themes.spinning import EXECUTORS
+from tutor.source import NodeFile, called_name, calls_in, last_name, values_of
 
 _NODE_LISTS = tuple(f"self._{each}" for each in ("timers", "subscriptions", "services", "clients", "guards"))
 _UNSERVED = (
@@ -119,7 +118,7 @@ def _inner_node(case: Case) -> Iterator[Found]:
     """A node that creates another one, where only the outer one is spun."""
     nodes = {name for file in case.files for name in file.node_classes}
     spins = ("add_node", "spin", "spin_once", "spin_until_future_complete")
-    served = {last_name(given) for call in case.program.calls(*spins) for given in call.args}
+    served = {name for file in case.files for call in file.calls(*spins) for name in _meant(file, call)}
     for file in case.files:
         for call in file.calls(*nodes):
             outer, inner = file.class_of(call), file.assigned_to(call)
@@ -127,6 +126,16 @@ def _inner_node(case: Case) -> Iterator[Found]:
                 continue
             if any(_has_callbacks(each, call) for each in case.files):
                 yield found(file, call, spun=outer.name, other=called_name(call))
+
+
+def _meant(file: NodeFile, call: ast.Call) -> Iterator[str]:
+    """The names by which a call's arguments are known: their own, and those that they or their loops are given."""
+    for given in call.args:
+        loops = [loop for loop in file.ancestors(call) if isinstance(loop, ast.For)]
+        values = [*values_of(ast.unparse(given), file.tree), *(loop.iter for loop in loops)]
+        values += [value for loop in loops for value in values_of(ast.unparse(loop.iter), file.tree)]
+        for expression in (given, *values):
+            yield from (last_name(each) for each in ast.walk(expression))
 
 
 def _has_callbacks(file: NodeFile, made: ast.Call) -> bool:

@@ -12,10 +12,11 @@ from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Level, OutputLine
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.source import SourceFile, called_name
+from tutor.source import SourceFile, calls_in
 from tutor.source.printing import find_print, find_python_logging
 
 _LOGS = (Symptom.NOT_LOGGED, Symptom.STANDS_STILL)
+_SHOWN = ("info", "warning", "warn", "error", "fatal")
 _LEVELS = {"WARN": Level.WARN, "WARNING": Level.WARN, "ERROR": Level.ERROR, "FATAL": Level.FATAL}
 _LOG_LINE = re.compile(r"^(?:\x1b\[\d+m)?\[(?:DEBUG|INFO|WARN|ERROR|FATAL)\] \[\d+\.\d+\] \[(?P<logger>[^\]]*)\]")
 """Start of the line that rclpy writes to the terminal for a log message, in addition to sending it to /rosout."""
@@ -291,7 +292,8 @@ def at_debug(case: Case) -> Iterator[Found]:
     See it: start it with `--ros-args --log-level debug`.
     """
     calls = [(file, call) for file in case.files for call in file.calls("debug") if "log" in ast.unparse(call.func)]
-    others = [call for file in case.files for call in file.calls("info", "warning", "warn", "error", "fatal")]
-    for file, call in calls if not others or case.about("only_debug") else []:
-        assert called_name(call) == "debug"
-        yield found(file, call)
+    for file, call in calls:
+        function = file.function_around(call) if case.about("wanted_hz") is not None else None
+        timers_own = function in file.callbacks("create_timer") and not calls_in(function, *_SHOWN)
+        if timers_own or case.about("only_debug") or not case.program.calls(*_SHOWN):
+            yield found(file, call)

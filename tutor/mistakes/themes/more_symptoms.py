@@ -119,7 +119,7 @@ def calls_missing(case: Case) -> Iterator[Found]:
     )
 
 
-@symptom("callbacks-wait-for-each-other", explains=[Symptom.STANDS_STILL])
+@symptom("callbacks-wait-for-each-other", explains=[Symptom.STANDS_STILL, Symptom.CALLS_WAIT])
 def callbacks_wait_for_each_other(case: Case) -> Iterator[Found]:
     """One callback keeps others from running.
 

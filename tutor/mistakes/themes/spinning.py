@@ -13,6 +13,7 @@ from tutor.mistakes.examples import in_run
 from tutor.source import NodeFile, calls_in
 
 SPINS = ("spin", "spin_once", "spin_some", "spin_until_future_complete")
+EXECUTORS = ("SingleThreadedExecutor", "MultiThreadedExecutor", "EventsExecutor")
 SPINS_ONCE = ("spin_once", "spin_some")
 
 _SILENT = (
@@ -84,6 +85,44 @@ def no_spin(case: Case) -> Iterator[Found]:
         yield Found({"where": where}, at.name, at.line, at.code)
     elif case.stuck or not any(file.calls(*SPINS) for file in case.files):
         yield Found({"where": ""})
+
+
+@mistake(
+    "node-not-added-to-the-executor",
+    explains=_SILENT,
+    says="{line} runs the callbacks of the nodes that were added to {executor}, and none was: {code}",
+    do="Add the node to the executor before it spins.",
+)
+def node_not_added(case: Case) -> Iterator[Found]:
+    """An executor spins, and has no node.
+
+    An executor serves the nodes that were added to it, and knows of no others. A node that is only made is in the
+    graph, and none of its callbacks is ever called.
+
+    Bad:
+
+        executor = MultiThreadedExecutor()
+        bell = Doorbell()
+        executor.spin()
+
+    Good:
+
+        executor = MultiThreadedExecutor()
+        bell = Doorbell()
+        executor.add_node(bell)
+        executor.spin()
+
+    See it: `ros2 node list` shows the node; `ros2 param list NODE` gets no answer.
+    """
+    if case.program.calls("add_node") or (case.answers and case.symptom is Symptom.NO_ANSWER):
+        return
+    for file in case.files:
+        executors = {file.assigned_to(call) for call in file.calls(*EXECUTORS)} - {""}
+        for call in file.calls("spin"):
+            if not call.args and isinstance(call.func, ast.Attribute):
+                executor = ast.unparse(call.func.value)
+                if executor in executors:
+                    yield found(file, call, executor=executor)
 
 
 @mistake(

@@ -1,7 +1,9 @@
-"""The threads of an executor: how many callbacks may be busy at once."""
+"""Threads: how many callbacks an executor can have at work, and what its threads wait for."""
 
 from __future__ import annotations
 
+import ast
+import re
 from collections.abc import Iterator, Sequence
 
 from tutor.judge import tracebacks
@@ -10,9 +12,13 @@ from tutor.judge.tracebacks import Frame
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.themes.callback_groups import in_worker, one_at_a_time, stops
-from tutor.source.callback_groups import MULTI_THREADED, threads_of
+from tutor.source import NodeFile, argument, calls_in
+from tutor.source.callback_groups import MULTI_THREADED, group_of, is_reentrant, threads_of
 
-_STILL = (Symptom.STANDS_STILL,)
+_STILL = (Symptom.STANDS_STILL, Symptom.CALLS_WAIT)
+_ONE_THREADED = ("SingleThreadedExecutor", "EventsExecutor")
+_LOCKS = ("Lock", "RLock", "Condition")
+_WAITS = ("sleep", "sleep_for", "wait", "join")
 
 
 def _in_spin(source: str) -> Sequence[Frame]:
@@ -26,15 +32,16 @@ def _in_spin(source: str) -> Sequence[Frame]:
     "one-thread-for-all-callbacks",
     explains=_STILL,
     evidence=Evidence.RUN,
-    says="one thread runs all callbacks, so everything else waits while the service works{where}",
-    do="Let a MultiThreadedExecutor with several threads spin the node.",
+    says="{spins}, so while one of them works{where}, all others wait{at}",
+    do="{step}",
     example=in_run(Symptom.STANDS_STILL, stuck_at=_in_spin),
 )
 def one_thread(case: Case) -> Iterator[Found]:
     """One thread runs all callbacks.
 
     rclpy.spin() and a SingleThreadedExecutor run one callback after another. While one takes three seconds, the node's
-    timers, subscriptions and other services wait for it, whatever their callback groups are.
+    timers, subscriptions and other services wait for it, whatever their callback groups are. rclpy.spin(node) also
+    takes the node out of any other executor.
 
     Bad:
 
@@ -50,14 +57,40 @@ def one_thread(case: Case) -> Iterator[Found]:
 
     Lesson: i2.3, on executors.
     """
-    stuck = case.stuck
-    if one_at_a_time(case):
-        if not case.program.calls(MULTI_THREADED) and case.program.calls("spin"):
-            yield Found({"where": ""})
-    elif stuck and stops(case) and not in_worker(stuck):
-        own = tracebacks.own_frame(stuck, case.trace.folder)
-        where = f" (line {own.line} of {own.name})" if own is not None else ""
-        yield Found({"where": where}, own.name if own else "", own.line if own else 0, own.code if own else "")
+    spins = [(file, call) for file in case.files for call in _spins_in_one_thread(file)]
+    several = bool(case.program.calls(MULTI_THREADED))
+    where = ""
+    if case.symptom is Symptom.CALLS_WAIT:
+        added = {ast.unparse(node) for call in case.program.calls("add_node") for node in call.args}
+        taken = [(file, call) for file, call in spins if call.args and ast.unparse(call.args[0]) in added]
+        spins = taken if several else spins
+        if not one_at_a_time(case) or not spins:
+            return
+    elif not case.stuck or not stops(case) or in_worker(case.stuck):
+        return
+    elif (own := tracebacks.own_frame(case.stuck, case.trace.folder)) is not None:
+        where = f" ({case.place(own.name, own.line)})"
+    step = "Let a MultiThreadedExecutor with several threads spin the node."
+    if several:
+        step = "Let nothing but the MultiThreadedExecutor spin the node, and give it several threads."
+    if spins:
+        file, call = spins[0]
+        spins_there = f"{case.place(file.name, call.lineno)} runs the callbacks in one thread"
+        yield found(file, call, spins=spins_there, where=where, at=f": {file.line(call.lineno)}", step=step)
+    else:
+        yield Found({"spins": "one thread runs all callbacks", "where": where, "at": "", "step": step})
+
+
+def _spins_in_one_thread(file: NodeFile) -> Iterator[ast.Call]:
+    """The calls that spin the global executor, or one that has a single thread."""
+    single = {file.assigned_to(call) for call in file.calls(*_ONE_THREADED)} - {""}
+    for call in file.calls("spin"):
+        match call.func:
+            case ast.Name() | ast.Attribute(value=ast.Name("rclpy")):
+                if argument(call, "executor") is None:
+                    yield call
+            case ast.Attribute(value=executor) if ast.unparse(executor) in single:
+                yield call
 
 
 @mistake(
@@ -65,7 +98,7 @@ def one_thread(case: Case) -> Iterator[Found]:
     explains=_STILL,
     says="{line} gives the executor {threads}, and {what}: {code}",
     do="Give the executor more threads than callbacks that may be busy at once.",
-    example=in_run(Symptom.STANDS_STILL, ratio=2.0),
+    example=in_run(Symptom.CALLS_WAIT, ratio=2.0),
 )
 def too_few_threads(case: Case) -> Iterator[Found]:
     """A MultiThreadedExecutor has too few threads.
@@ -75,7 +108,7 @@ def too_few_threads(case: Case) -> Iterator[Found]:
 
     Bad:
 
-        executor = MultiThreadedExecutor(num_threads=1)
+        executor = MultiThreadedExecutor(num_threads=2)
 
     Good:
 
@@ -85,14 +118,62 @@ def too_few_threads(case: Case) -> Iterator[Found]:
     """
     for file in case.files:
         made, number = threads_of(file)
-        if made is None:
+        if made is None or number is None:
             continue
-        if one_at_a_time(case):
-            ratio, reentrant = case.about("ratio"), bool(file.calls("ReentrantCallbackGroup"))
-            if (number is None or number < 4) and (reentrant or ratio < 2.5):
-                threads = f"{number} threads" if number else "as many threads as this machine has cores"
-                if number == 1:
-                    threads = "one thread"
-                yield found(file, made, threads=threads, what=f"the calls took {ratio:.1f} times as long as one")
-        elif number == 1 and stops(case):
-            yield found(file, made, threads="one thread", what="the service takes it for as long as it works")
+        if number == 1 and (stops(case) or one_at_a_time(case)):
+            yield found(file, made, threads="one thread", what="all other callbacks wait while one of them works")
+        elif number < 3 and case.symptom is Symptom.CALLS_WAIT and _may_overlap(file, case):
+            threads = f"{number} threads" if number else "as many threads as this machine has cores"
+            yield found(file, made, threads=threads, what="each call that is worked on needs one")
+
+
+def _may_overlap(file: NodeFile, case: Case) -> bool:
+    """Whether calls do overlap, or would if there were threads for them."""
+    services = [] if file.calls(*_LOCKS) else file.calls("create_service")
+    reentrant = bool(services) and all(is_reentrant(file, group_of(service)) for service in services)
+    return reentrant or not one_at_a_time(case)
+
+
+@mistake(
+    "lock-held-while-waiting",
+    explains=[Symptom.CALLS_WAIT],
+    says="{line} takes {lock} for as long as a call works, so the next call waits for it: {code}",
+    do="Hold the lock only where shared data changes, and do the waiting outside.",
+)
+def lock_held(case: Case) -> Iterator[Found]:
+    """A callback holds a lock while it waits.
+
+    A lock lets one thread in at a time. A callback that sleeps inside keeps out all other callbacks that take the
+    lock, and other calls of itself, however many threads there are.
+
+    Bad:
+
+        def __init__(self):
+            self.create_service(Trigger, 'open_door', self.open_the_door)
+
+        def open_the_door(self, request, response):
+            with self.lock:
+                time.sleep(3.0)
+                self.opened += 1
+            return response
+
+    Good:
+
+        def __init__(self):
+            self.create_service(Trigger, 'open_door', self.open_the_door)
+
+        def open_the_door(self, request, response):
+            time.sleep(3.0)
+            with self.lock:
+                self.opened += 1
+            return response
+
+    See it: call the service twice at once, and look at the times in the log.
+    """
+    for file in case.files if one_at_a_time(case) else ():
+        for function in file.callbacks("create_service"):
+            for block in ast.walk(function):
+                if isinstance(block, ast.With) and any(calls_in(each, *_WAITS) for each in block.body):
+                    lock = ast.unparse(block.items[0].context_expr)
+                    if re.search("lock|mutex|semaphore", lock, re.IGNORECASE):
+                        yield found(file, block, lock=lock)

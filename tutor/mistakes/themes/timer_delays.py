@@ -10,8 +10,15 @@ from tutor.judge.rates import Rate
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.source import NodeFile, calls_in
+from tutor.source import NodeFile, calls_in, values_of
 
+_NEVER_DUE = (
+    Symptom.NO_MESSAGES,
+    Symptom.WRONG_RATE,
+    Symptom.STANDS_STILL,
+    Symptom.CHANGE_IGNORED,
+    Symptom.NOT_LOGGED,
+)
 _CLOCKS = ("time", "monotonic", "perf_counter", "now", "time_ns", "monotonic_ns")
 
 
@@ -68,16 +75,16 @@ def _is_short(file: NodeFile, call: ast.Call, hz: float) -> bool:
 
 @mistake(
     "ticks-dropped",
-    explains=[Symptom.WRONG_RATE],
-    says="{line} drops each tick that comes a little early: {code}",
-    do="Leave the waiting to the timer, and remove this test from its callback.",
+    explains=[Symptom.WRONG_RATE, Symptom.STANDS_STILL],
+    says="{line} drops each tick {which}: {code}",
+    do="Remove this test from the timer's callback.",
 )
 def ticks_dropped(case: Case) -> Iterator[Found]:
-    """A timer's callback returns if it was called a moment too early.
+    """A timer's callback returns without doing anything.
 
     Timers are due at fixed times, but the time between two calls is now a little more, now a little less. A callback
     that compares it with the exact period drops every tick that comes a moment early, so that the rate falls by a third
-    or more.
+    or more. One that returns while another callback works drops all ticks in that time.
 
     Bad:
 
@@ -106,7 +113,18 @@ def ticks_dropped(case: Case) -> Iterator[Found]:
                     case ast.If(
                         test=ast.Compare(left=elapsed, ops=[ast.Lt() | ast.LtE()]), body=[ast.Return()], orelse=[]
                     ) if calls_in(elapsed, *_CLOCKS):
-                        yield found(file, node)
+                        yield found(file, node, which="that comes a little early")
+                    case ast.If(test=test, body=[ast.Return()], orelse=[]) if case.symptom is Symptom.STANDS_STILL:
+                        if name := next((each for each in _set_by_services(file) if each in ast.unparse(test)), ""):
+                            yield found(file, node, which=f"that comes while a call has set {name}")
+
+
+def _set_by_services(file: NodeFile) -> list[str]:
+    """The attributes that callbacks of services assign, such as "self.busy"."""
+    nodes = [node for function in file.callbacks("create_service") for node in ast.walk(function)]
+    plain = [target for node in nodes if isinstance(node, ast.Assign) for target in node.targets]
+    targets = [*plain, *(node.target for node in nodes if isinstance(node, ast.AugAssign))]
+    return [name for target in targets if (name := ast.unparse(target)).startswith("self.")]
 
 
 @mistake(
@@ -201,3 +219,53 @@ def rate_ignored(case: Case) -> Iterator[Found]:
     """
     if case.about("unchanged"):
         yield Found({"name": case.about("parameter", "the rate")})
+
+
+@mistake(
+    "simulated-time",
+    explains=_NEVER_DUE,
+    says="{line} sets use_sim_time, so timers wait for a simulator's /clock, and there is none",
+    do="Leave use_sim_time off where no simulator runs.",
+)
+def simulated_time(case: Case) -> Iterator[Found]:
+    """Timers wait for the clock of a simulator.
+
+    With the parameter use_sim_time, a node takes its time from the topic /clock. While nobody publishes there, its
+    clock stands still at 0, and no timer is ever due.
+
+    Bad:
+
+        super().__init__('lamp', parameter_overrides=[Parameter('use_sim_time', value=True)])
+
+    Good:
+
+        super().__init__('lamp')
+
+    See it: `ros2 param get NODE use_sim_time`, `ros2 topic echo /clock`.
+    """
+    for file in case.files:
+        for name in file.nodes:
+            if isinstance(name, ast.Constant) and name.value == "use_sim_time" and _is_set(file, name):
+                yield found(file, name)
+
+
+def _is_set(file: NodeFile, name: ast.Constant) -> bool:
+    """Whether True is given with a name: as its value in a dict, or in the innermost expression that has one."""
+    for around in file.ancestors(name):
+        match around:
+            case ast.Dict(keys=keys, values=values) if name in keys:
+                nodes: list[ast.AST] = [values[keys.index(name)]]
+            case _:
+                nodes = list(ast.walk(around))
+        if any(_is_true(file, node) for node in nodes):
+            return True
+        if isinstance(around, ast.stmt):
+            return False
+    return False
+
+
+def _is_true(file: NodeFile, node: ast.AST) -> bool:
+    if isinstance(node, ast.Name):
+        given = values_of(node.id, file.tree)
+        return len(given) == 1 and isinstance(given[0], ast.Constant) and given[0].value is True
+    return isinstance(node, ast.Constant) and node.value is True

@@ -19,6 +19,11 @@ MIN_MILLISECONDS = 50.0
 """A timer's period from this number on is in milliseconds: nobody waits so many seconds in an exercise."""
 
 
+_TOLERANCE = 0.1
+_SELDOM_S = 5.0
+"""A timer of this period, in seconds, hardly ticks while a check looks."""
+
+
 def periods(file: NodeFile) -> Iterator[ast.expr]:
     """The expressions of timers' periods: the arguments, and what is assigned to them."""
     for timer in file.timers:
@@ -145,6 +150,44 @@ def period_in_another_unit(case: Case) -> Iterator[Found]:
                 large = [number for number in numbers if isinstance(number, int | float) and number >= 1000]
                 if len(large) == 1 and large[0] != 1e9:
                     yield found(file, node, what=f"nanoseconds, but computed with {large[0]:g} to the second")
+
+
+@mistake(
+    "timer-of-another-period",
+    explains=[Symptom.WRONG_RATE, Symptom.NOT_LOGGED],
+    says="{line} makes a timer of {period:g} s, so it ticks {how}: {code}",
+    do="Work out how many seconds there are between two ticks, and give the timer that period.",
+    example=in_run(Symptom.WRONG_RATE, wanted_hz=4.0, found_hz=1.0),
+)
+def another_period(case: Case) -> Iterator[Found]:
+    """A timer has another period than it should.
+
+    create_timer takes the time between two ticks, in seconds. For a given number of ticks a second, it is 1 divided by
+    that number.
+
+    Bad:
+
+        self.create_timer(1.0, self.blink)
+
+    Good:
+
+        self.create_timer(0.25, self.blink)
+
+    See it: `ros2 topic hz TOPIC`, or the time stamps of the log.
+    """
+    wanted, seen = case.about("wanted_hz"), case.about("found_hz")
+    for file in case.files if wanted is not None else ():
+        for timer in file.timers:
+            given = argument(timer, "timer_period_sec")
+            values = [given, *(values_of(ast.unparse(given), file.tree) if given is not None else [])]
+            numbers = [each.value for each in values if isinstance(each, ast.Constant)]
+            for period in numbers:
+                if not isinstance(period, int | float) or period <= 0 or abs(period * wanted - 1) < _TOLERANCE:
+                    continue
+                if seen is not None and abs(period * seen - 1) < _TOLERANCE:
+                    yield found(file, timer, period=period, how=f"{seen:.1f} times a second")
+                elif case.symptom is Symptom.NOT_LOGGED and len(file.timers) == 1 and period >= _SELDOM_S:
+                    yield found(file, timer, period=period, how="too seldom to be seen here")
 
 
 @mistake(

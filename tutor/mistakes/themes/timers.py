@@ -10,7 +10,8 @@ from tutor.judge.rates import Rate
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.source import NodeFile, argument, values_of
+from tutor.source import NodeFile, argument, calls_in, values_of
+from tutor.source.callback_groups import are_of_one_node
 
 _TOO_MANY = (Symptom.WRONG_RATE, Symptom.BAD_VALUE_ACCEPTED)
 _TOO_FEW = (Symptom.NO_MESSAGES, Symptom.WRONG_RATE, Symptom.STANDS_STILL, Symptom.CHANGE_IGNORED)
@@ -98,14 +99,18 @@ def two_timers(case: Case) -> Iterator[Found]:
     """
     for file in case.files:
         at_start = file.reachable_from(file.setup) if file.setup is not None else []
+        at_start += file.functions_named("__init__")
         made = [call for call in file.timers if file.function_around(call) in at_start]
         for call, other in pairwise(made):
-            if all(_same(argument(call, name), argument(other, name)) for name in ("timer_period_sec", "callback")):
+            if are_of_one_node(file, call, other) and all(
+                _same(argument(call, name), argument(other, name)) for name in ("timer_period_sec", "callback")
+            ):
                 yield found(file, call, other=other.lineno)
         fixed = [call for call in made if _is_fixed(file, argument(call, "timer_period_sec"))]
         for call in fixed:
             for other in made:
-                if other not in fixed and _same(argument(call, "callback"), argument(other, "callback")):
+                same = _same(argument(call, "callback"), argument(other, "callback"))
+                if other not in fixed and same and are_of_one_node(file, call, other):
                     yield found(file, call, other=other.lineno)
 
 
@@ -178,7 +183,7 @@ def bursts(case: Case) -> Iterator[Found]:
 
 @mistake(
     "timer-not-started",
-    explains=_TOO_FEW,
+    explains=(*_TOO_FEW, Symptom.NOT_LOGGED),
     says="{line} makes a timer that does not start on its own (autostart is False), and nothing starts it",
     do="Let the timer start on its own, or call its reset() when it should begin.",
 )
@@ -209,14 +214,14 @@ def timer_not_started(case: Case) -> Iterator[Found]:
 @mistake(
     "timer-cancelled",
     explains=_TOO_FEW,
-    says="{line} ends the timer from its own callback: {code}",
+    says="{line} ends the timer, in {function}: {code}",
     do="Let the timer run for as long as the node does.",
 )
 def self_cancelling(case: Case) -> Iterator[Found]:
-    """A timer ends itself.
+    """A callback ends a timer.
 
     cancel() stops a timer until its reset() is called, and destroy_timer() stops it for good. In its own callback, they
-    make a timer that fires once, or a few times.
+    make a timer that fires once, or a few times; in another one, it fires no more once that was called.
 
     Bad:
 
@@ -239,61 +244,15 @@ def self_cancelling(case: Case) -> Iterator[Found]:
     for file in case.files:
         for timer in file.timers:
             callback, name = file.function(argument(timer, "callback")), file.assigned_to(timer)
-            reached = file.reachable_from(callback) if callback is not None and name else []
+            reached = list(file.reachable_from(callback)) if callback is not None and name else []
+            if case.symptom is Symptom.STANDS_STILL and name:
+                served = file.callbacks("create_service")
+                reached += [each for each in served if not calls_in(each, "reset", "create_timer")]
             for call in file.calls("cancel", "destroy_timer"):
                 owner = [call.func.value] if isinstance(call.func, ast.Attribute) else []
-                if file.function_around(call) in reached and name in map(ast.unparse, (*call.args, *owner)):
-                    yield found(file, call)
-
-
-@mistake(
-    "simulated-time",
-    explains=_TOO_FEW,
-    says="{line} sets use_sim_time, so timers wait for a simulator's /clock, and there is none",
-    do="Leave use_sim_time off where no simulator runs.",
-)
-def simulated_time(case: Case) -> Iterator[Found]:
-    """Timers wait for the clock of a simulator.
-
-    With the parameter use_sim_time, a node takes its time from the topic /clock. While nobody publishes there, its
-    clock stands still at 0, and no timer is ever due.
-
-    Bad:
-
-        super().__init__('lamp', parameter_overrides=[Parameter('use_sim_time', value=True)])
-
-    Good:
-
-        super().__init__('lamp')
-
-    See it: `ros2 param get NODE use_sim_time`, `ros2 topic echo /clock`.
-    """
-    for file in case.files:
-        for name in file.nodes:
-            if isinstance(name, ast.Constant) and name.value == "use_sim_time" and _is_set(file, name):
-                yield found(file, name)
-
-
-def _is_set(file: NodeFile, name: ast.Constant) -> bool:
-    """Whether True is given with a name: as its value in a dict, or in the innermost expression that has one."""
-    for around in file.ancestors(name):
-        match around:
-            case ast.Dict(keys=keys, values=values) if name in keys:
-                nodes: list[ast.AST] = [values[keys.index(name)]]
-            case _:
-                nodes = list(ast.walk(around))
-        if any(_is_true(file, node) for node in nodes):
-            return True
-        if isinstance(around, ast.stmt):
-            return False
-    return False
-
-
-def _is_true(file: NodeFile, node: ast.AST) -> bool:
-    if isinstance(node, ast.Name):
-        given = values_of(node.id, file.tree)
-        return len(given) == 1 and isinstance(given[0], ast.Constant) and given[0].value is True
-    return isinstance(node, ast.Constant) and node.value is True
+                function = file.function_around(call)
+                if function in reached and name in map(ast.unparse, (*call.args, *owner)):
+                    yield found(file, call, function=function.name)
 
 
 def _is_fixed(file: NodeFile, period: ast.expr | None) -> bool:
