@@ -112,7 +112,7 @@ def judge_random(found: CollectedValues) -> Verdict:
         return failed(
             expected,
             f"{pattern.text} ({len(run)} values)",
-            Symptom.WRONG_VALUES.seen(found.trace or NOT_STARTED, topic=TOPIC, pattern=pattern),
+            Symptom.WRONG_VALUES.seen(found.trace or NOT_STARTED, topic=TOPIC, pattern=pattern, drawn=run),
             [f"data: {value:g}" for value in run[:8]],
         )
     longest = max(found.runs, key=len)

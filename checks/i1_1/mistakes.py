@@ -42,7 +42,7 @@ def int_in_float(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic echo TOPIC` shows something like 1.2e-322.
     """
-    wrong = case.about("wrong", ())
+    wrong = case.about("wrong") or case.about("drawn", ())
     if wrong and all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
         yield Found()
 

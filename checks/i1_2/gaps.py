@@ -219,5 +219,12 @@ def _unnoticed(jump: Trial, steady: Trial, fault: Fault) -> Observation:
     """A jump of N is in no log message; a node that does not spin has shown so in one of the two trials."""
     asked = jump if steady.spins else steady
     return Symptom.NOT_LOGGED.seen(
-        jump.trace, stuck=asked.stuck, answers=asked.spins, topic=TOPIC, type=TYPE, what="the gap", **fault
+        jump.trace,
+        stuck=asked.stuck,
+        answers=asked.spins,
+        topic=TOPIC,
+        type=TYPE,
+        what="the gap",
+        no_message=True,
+        **fault,
     )

@@ -162,6 +162,13 @@ def find_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: Trial
             return {"fault": "rate-per-minute", "number": number.text}
         if any(number.value * by in true for by in (1e-3, 1e3, 1e6, 1e9)):
             return {"fault": "rate-in-another-unit", "number": number.text}
+    elapsed = [_elapsed_numbers(each, trial) for each in summaries]
+    if all(elapsed):
+        number = _elapsed_numbers(summary, trial)[0]
+        return {
+            "fault": "wrong-rate-in-the-summary",
+            "what": f"{number.text} is the time in seconds since the first message",
+        }
     waited = [_clock_lead(each, trial) for each in summaries]
     for number, span in _clock_lead(summary, trial):
         if span.high > 0.7 and all(any(span.meets(same) for _, same in each) for each in waited):
@@ -172,10 +179,20 @@ def find_wrong_rate(summary: Summary, summaries: Sequence[Summary], trial: Trial
         return {"fault": "seconds-cut-off", "number": number.text, "covered": covered, "whole_s": whole_s}
     if not found:
         return {"fault": "no-rate"}
+    texts = ", ".join(number.text for number in found)
     return {
         "fault": "wrong-rate-in-the-summary",
-        "what": f"none of {', '.join(number.text for number in found)} is the rate",
+        "what": f"none of {texts} is the rate" if len(found) > 1 else f"{texts} is not the rate",
     }
+
+
+def _elapsed_numbers(summary: Summary, trial: Trial) -> list[Number]:
+    """The numbers that are the seconds from the first message to the summary."""
+    count, since = _covered_count(summary, trial), trial.sent[0].at
+    soonest, latest = trial.sent[count - 1].at - since, summary.at - since
+    return [
+        each for each in numbers_except_count(summary, trial) if soonest - DELAY_S <= each.value <= latest + DELAY_S
+    ]
 
 
 def _find_whole_seconds(summary: Summary, trial: Trial) -> list[tuple[Number, int]]:

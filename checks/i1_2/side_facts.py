@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import wraps
 from typing import Any
 
-from checks.i1_2 import backlog
+from checks.i1_2 import backlog, losses
 from checks.i1_2.facts import TOPIC, TYPE, Trial
 from tutor.judge.symptom import Symptom
 from tutor.judge.verdict import Failure, Verdict
@@ -30,7 +30,10 @@ def with_side_facts[V: Verdict | None](judge: Callable[..., V]) -> Callable[...,
 
 
 def _find_facts(trials: Sequence[Trial]) -> dict[str, Any]:
-    """The facts that are so: `late`, in words; `subscriptions`, if each message counts twice; `own_publisher`."""
+    """The facts that are so: `late`, in words, and whether it is `surely_late`, whatever it counts; `own_publisher`.
+
+    `subscriptions`, if each message counts twice; `renewals` of its subscription.
+    """
     facts: dict[str, Any] = {"topic": TOPIC, "type": TYPE}
     for trial in trials:
         ours = [each for each in trial.trace.graph.subscriptions if (each.topic, each.type) == (TOPIC, TYPE)]
@@ -39,8 +42,12 @@ def _find_facts(trials: Sequence[Trial]) -> dict[str, Any]:
         own = [each for each in trial.trace.graph.publishers if (each.topic, each.type) == (TOPIC, TYPE)]
         if own and any(line.numbers for line in trial.lines):
             facts["own_publisher"] = own[0].node
+        if losses.renews_subscription(trial):
+            facts["renewals"] = trial.new_subscriptions
         if (late := _find_delay(trial, trials)) and "late" not in facts:
             facts["late"] = late
+        # A wrong count looks like lost messages, and a node that says nothing may well be prompt.
+        facts["surely_late"] = facts.get("surely_late", False) or backlog.messages_behind(trial) > 0
     return facts
 
 
@@ -48,7 +55,8 @@ def _find_delay(trial: Trial, trials: Sequence[Trial]) -> str:
     """How the node handles messages late or not at all, in words; "" if it keeps up."""
     if behind := backlog.messages_behind(trial):
         return f"a message is handled when {behind} newer ones have come, or never"
-    if not trial.first_publisher_left_at and any(backlog.find_lost(trial, each) for each in trials):
+    rises = not trial.first_publisher_left_at and not trial.jumps
+    if rises and any(backlog.find_lost(trial, each) for each in trials):
         return "some messages never reach the callback"
     if trial.sent and trial.spins and not trial.lines:
         return "the node is not done with its messages in time"

@@ -241,12 +241,7 @@ def judge_shutdown(seen: LaunchRun) -> Verdict:
         return failed(
             expected,
             f"ended {ended.took_s:.2f} s after Ctrl+C with {ended.exit}; {len(ended.survivors)} left",
-            Symptom.DOES_NOT_END.seen(
-                replace(seen.trace, sources=programs),
-                says=f"still there after the launch: {ended.survivors[0][:120]}",
-                do="Let the launch description start it, and no Python code: then launch ends it, too.",
-                left_behind=True,
-            ),
+            Symptom.DOES_NOT_END.seen(replace(seen.trace, sources=programs), left_behind=ended.survivors[0][:120]),
             [command[:200] for command in ended.survivors[:6]],
         )
     return passed(expected, f"{verdict.observed}; no process is left")

@@ -554,7 +554,7 @@ def test_a_clean_shutdown_passes() -> None:
 def test_a_process_is_left_behind() -> None:
     left = ending()
     object.__setattr__(left, "survivors", ("sleep 1000",))
-    assert_failed(judges.judge_shutdown(launched(pair("/chatter"), ending=left)), "does not end", "sleep 1000")
+    assert_failed(judges.judge_shutdown(launched(pair("/chatter"), ending=left)), "process left behind", "sleep 1000")
 
 
 def test_the_launch_ignores_sigint() -> None:

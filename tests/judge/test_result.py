@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tutor.judge.check import Check, Criterion
-from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report, overall
+from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report, overall, tell_roots_once
 from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed, skipped
 from tutor.judge.wording import shape
 
@@ -103,3 +103,30 @@ def test_a_check_with_invalid_dependencies_is_rejected(wrong: list[tuple[str, tu
 def test_a_shape_is_a_message_without_its_numbers(whole: int, decimal: str) -> None:
     assert shape(f"a={whole} b={decimal}.") == "a=# b=#."
     assert shape("no number") == "no number"
+
+
+def _failure(criterion: str, cause: str, *, place: str = "", root: str = "", bonus: bool = False) -> CriterionResult:
+    verdict = Verdict(Status.FAILED, cause=cause, step="Do.", mistake=cause.partition(":")[0], place=place, root=root)
+    return CriterionResult(criterion, criterion, bonus, verdict, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "same"),
+    [
+        (_failure("a", "late: after 0.4 s"), _failure("b", "late: after 0.6 s"), True),
+        (_failure("a", "late: door"), _failure("b", "late: bell"), False),
+        (_failure("a", "late: door", place="x.py:1"), _failure("b", "late: bell", place="x.py:1"), True),
+        (_failure("a", "late: door", place="x.py:1"), _failure("b", "late: door", place="x.py:2"), False),
+        (_failure("a", "late: x", place="x.py:1", root="r"), _failure("b", "late: y", place="x.py:2", root="r"), True),
+        (_failure("a", "late: door"), _failure("b", "early: door"), False),
+    ],
+)
+def test_a_root_is_told_once(first: CriterionResult, second: CriterionResult, same: bool) -> None:
+    told = tell_roots_once((first, second))
+    assert told[0] == first
+    assert (told[1].verdict.same_as, told[1].verdict.step) == (("a", "") if same else ("", "Do."))
+
+
+def test_a_required_criterion_tells_the_root() -> None:
+    told = tell_roots_once((_failure("a", "late: x", bonus=True), _failure("b", "late: x")))
+    assert [each.verdict.same_as for each in told] == ["b", ""]

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from tutor.judge.verdict import Status, Verdict
+
+_NUMBER = re.compile(r"\d+(?:\.\d+)?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,8 +137,8 @@ def overall(statuses: Iterable[Status]) -> Status:
 
 
 def tell_roots_once(criteria: Sequence[CriterionResult]) -> tuple[CriterionResult, ...]:
-    """Let criteria that fail by the same mistake at the same place point to the first of them, required ones first."""
-    roots: dict[tuple[str, str, str], str] = {}
+    """Let criteria that fail for the same reason point to the first of them, required ones first."""
+    roots: dict[tuple[str, str], str] = {}
     for criterion in sorted(criteria, key=lambda each: each.bonus):
         if criterion.verdict.mistake:
             roots.setdefault(_root(criterion.verdict), criterion.id)
@@ -149,6 +152,6 @@ def tell_roots_once(criteria: Sequence[CriterionResult]) -> tuple[CriterionResul
     return tuple(told)
 
 
-def _root(verdict: Verdict) -> tuple[str, str, str]:
-    """What makes two failures the same: the mistake and its place, or its words where it has none."""
-    return verdict.mistake, verdict.place, "" if verdict.place else verdict.cause
+def _root(verdict: Verdict) -> tuple[str, str]:
+    """What makes two failures the same: the mistake, and its root or place, or its words without their numbers."""
+    return verdict.mistake, verdict.root or verdict.place or _NUMBER.sub("", verdict.cause)

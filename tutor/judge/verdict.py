@@ -51,8 +51,9 @@ class Verdict:
     `observed` contains numbers with units; `evidence` holds single lines to show verbatim (log lines, samples, the
     learner's own line of code), oldest first. Of a failure, `mistake` is its id in the catalogue, `cause` says why, and
     `step` what to change, in words; `place` is the file and line, such as "node.py:12", if one is known. `same_as`: the
-    id of the criterion whose failure explains this one; then cause and step are told there. `spins`: whether the node
-    was seen to spin, None if nothing shows it.
+    id of the criterion whose failure explains this one; then cause and step are told there. `root`: what failures for
+    the same reason have in common, apart from the mistake; if empty, the place, or else the words of the cause.
+    `spins`: whether the node was seen to spin, None if nothing shows it.
     """
 
     status: Status
@@ -64,6 +65,7 @@ class Verdict:
     mistake: str = ""
     place: str = ""
     same_as: str = ""
+    root: str = ""
     spins: bool | None = None
 
     @property

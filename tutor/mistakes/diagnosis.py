@@ -85,7 +85,15 @@ def explain(failure: Failure, check: Check) -> Verdict:
         failure.evidence,
         found.mistake,
         f"{found.file}:{found.line}" if found.line else "",
+        root=_root(found, failure.seen),
     )
+
+
+def _root(found: Diagnosis, seen: Observation) -> str:
+    """What failures by this mistake have in common: whatever the run was about, a process ends in one way."""
+    if seen.symptom in (Symptom.DOES_NOT_END, Symptom.ENDS_BADLY):
+        return "Ctrl+C"
+    return "the program" if found.evidence is Evidence.PROCESS and not found.line else ""
 
 
 def remarks(sources: Mapping[str, str], check: Check) -> tuple[Remark, ...]:

@@ -51,16 +51,17 @@ class LaunchFile:
     text: str = ""
 
     @cached_property
-    def _file(self) -> SourceFile:
+    def file(self) -> SourceFile:
+        """The file, in which each imported class goes by its original name."""
         return _ResolvedFile(self.text)
 
     def calls(self, *names: str) -> list[Call]:
         """The calls of functions or methods with these names, in file order."""
-        return [_call(each, self._file) for each in self._file.calls(*names)]
+        return [_call(each, self.file) for each in self.file.calls(*names)]
 
     def uses(self, name: str) -> int:
         """How often the variable with this name is read."""
-        names = [each for each in self._file.nodes if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load)]
+        names = [each for each in self.file.nodes if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load)]
         return [each.id for each in names].count(name)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 
-from tutor.source.file import Function, SourceFile, called_name, values_of
+from tutor.source.file import Function, SourceFile, called_name, last_name, values_of
 from tutor.source.program import Program
 
 _VALUE = "\0"
@@ -36,7 +36,8 @@ def find_python_logging(program: Program, text: str = "") -> Call | None:
         (file, call)
         for file in program.files
         for call in file.calls(*_LEVELS)
-        if isinstance(call.func, ast.Attribute) and ast.unparse(call.func.value) in loggers and call.args
+        if isinstance(call.func, ast.Attribute) and call.args
+        if ast.unparse(call.func.value) in loggers or last_name(getattr(call.func.value, "func", None)) == "getLogger"
     ]
     return next((call for call in calls if not text or _matching_characters(call, text)), None)
 

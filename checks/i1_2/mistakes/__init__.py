@@ -1,9 +1,10 @@
 """I1.2: the mistakes that only this exercise can know, in the order in which they are asked."""
 
-from checks.i1_2.mistakes import counts as counts
-from checks.i1_2.mistakes import gap_faults as gap_faults
-from checks.i1_2.mistakes import gaps as gaps
+# ruff: noqa: I001
 from checks.i1_2.mistakes import late as late
+from checks.i1_2.mistakes import counts as counts
+from checks.i1_2.mistakes import gaps as gaps
+from checks.i1_2.mistakes import gap_faults as gap_faults
 from checks.i1_2.mistakes import rates as rates
 from checks.i1_2.mistakes import restarts as restarts
 from checks.i1_2.mistakes import summaries as summaries

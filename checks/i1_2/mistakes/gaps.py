@@ -12,7 +12,7 @@ from checks.i1_2.parsing import find_misread
 from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Found, found
 from tutor.mistakes.examples import in_run
-from tutor.source import Function
+from tutor.source import Function, argument
 
 
 def _callbacks(case: Case, *faults: str) -> list[Function]:
@@ -261,3 +261,33 @@ def tested_for_truth(case: Case) -> Iterator[Found]:
     for function in _callbacks(case, ZERO):
         if (tested := comparing.find_truth_test(function)) is not None:
             yield found(case.program.holding(tested), tested, tested=ast.unparse(tested))
+
+
+@CATALOGUE.mistake(
+    "lost-on-the-way-only",
+    explains=[Symptom.NOT_LOGGED],
+    says="{line} tells of messages that DDS loses on their way; a number that was never sent is not among them: {code}",
+    do="Work out from the numbers in two messages whether one is missing between them.",
+    example=in_run(Symptom.NOT_LOGGED, fault=UNNOTICED),
+)
+def lost_on_the_way(case: Case) -> Iterator[Found]:
+    """The event message_lost is taken for a gap in the numbers.
+
+    DDS counts what a publisher has sent, and reports a loss if a sample of it does not arrive. It does not read the
+    messages: what the sender left out, or what was sent before a restart, is no loss.
+
+    Bad:
+
+        events = SubscriptionEventCallbacks(message_lost=self.on_lost)
+        self.create_subscription(Int32, 'doors', self.on_door, 10, event_callbacks=events)
+
+    Good:
+
+        self.create_subscription(Int32, 'doors', self.on_door, 10)
+
+    See it: publish 1, 2 and 5 by hand: DDS has lost nothing.
+    """
+    for file in case.files if case.about("fault") in (UNNOTICED, ZERO) else ():
+        for call in file.calls("SubscriptionEventCallbacks"):
+            if argument(call, "message_lost") is not None:
+                yield found(file, call)

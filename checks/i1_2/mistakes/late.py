@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from checks.i1_2.mistakes.entries import CATALOGUE, shown, told
+from checks.i1_2.mistakes.entries import CATALOGUE
 from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Evidence, Found, found
 from tutor.mistakes.examples import in_run
@@ -13,7 +13,39 @@ from tutor.mistakes.themes.setting_up import set_up_twice
 from tutor.source import argument, calls_in
 
 _LOGS = (Symptom.WRONG_LOG, Symptom.NOT_LOGGED)
+_FOLLOW_FROM_LOSSES = ("wrong-count", "missing-summary", "fewer-summaries", "no-summary", "stopped-counting")
+"""What a node looks like, too, that misses messages."""
 _SPINS_ONCE = ("spin_once", "_spin_once", "spin_once_until_future_complete")
+
+
+@CATALOGUE.mistake(
+    "a-subscription-for-each-message",
+    explains=_LOGS,
+    evidence=Evidence.RUN,
+    says="it has subscribed anew {renewals} times: what is sent between two subscriptions is lost",
+    do="Make one subscription when the node starts, and let its callback handle each message.",
+    example=in_run(Symptom.WRONG_LOG, renewals=17),
+)
+def renewed_subscription(case: Case) -> Iterator[Found]:
+    """A node subscribes anew for each message.
+
+    wait_for_message() makes a subscription, waits for one message, and destroys the subscription. What is sent before
+    the next one is matched is lost.
+
+    Bad:
+
+        while rclpy.ok():
+            ok, message = wait_for_message(Bool, node, 'ring')
+
+    Good:
+
+        node.create_subscription(Bool, 'ring', on_ring, 10)
+        rclpy.spin(node)
+
+    See it: `ros2 topic info TOPIC`, again and again: the number of subscriptions goes up and down.
+    """
+    if case.about("renewals"):
+        yield Found({"renewals": case.about("renewals")})
 
 
 @CATALOGUE.mistake(
@@ -182,11 +214,13 @@ def short_queue(case: Case) -> Iterator[Found]:
                 yield found(file, call, counted=case.about("counted"))
 
 
-@shown(
+@CATALOGUE.mistake(
     "cannot-keep-up",
-    says="up to the last message that it quotes there were {counted}: the node drops some, or is too slow for them",
+    explains=_LOGS,
+    evidence=Evidence.SYMPTOM,
+    says="{late}: the node is too slow for them, or leaves some out",
     do="Find what takes long, in the callback or outside it, or what skips messages before they are counted.",
-    counted=57,
+    example=in_run(Symptom.WRONG_LOG, fault="cannot-keep-up", counted=57),
 )
 def cannot_keep_up(case: Case) -> Iterator[Found]:
     """Messages are lost when they come fast.
@@ -206,31 +240,7 @@ def cannot_keep_up(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic pub -r 25 TOPIC TYPE VALUES`, and the log.
     """
-    return told(case, "cannot-keep-up")
-
-
-@shown(
-    "a-subscription-for-each-message",
-    says="it has subscribed anew {renewals} times: what is sent between two subscriptions is lost",
-    do="Make one subscription when the node starts, and let its callback handle each message.",
-    renewals=17,
-)
-def renewed_subscription(case: Case) -> Iterator[Found]:
-    """A node subscribes anew for each message.
-
-    wait_for_message() makes a subscription, waits for one message, and destroys the subscription. What is sent before
-    the next one is matched is lost.
-
-    Bad:
-
-        while rclpy.ok():
-            ok, message = wait_for_message(Bool, node, 'ring')
-
-    Good:
-
-        node.create_subscription(Bool, 'ring', on_ring, 10)
-        rclpy.spin(node)
-
-    See it: `ros2 topic info TOPIC`, again and again: the number of subscriptions goes up and down.
-    """
-    return told(case, "a-subscription-for-each-message")
+    if case.about("fault") == "cannot-keep-up":
+        yield Found({"late": f"up to the last message that it quotes there were {case.about('counted')}"})
+    elif case.about("surely_late") and case.about("fault") in _FOLLOW_FROM_LOSSES:
+        yield Found({"late": case.about("late")})

@@ -20,6 +20,7 @@ from tutor.mistakes.themes import executors as executors
 from tutor.mistakes.themes import launch_start as launch_start
 from tutor.mistakes.themes import launch_loading as launch_loading
 from tutor.mistakes.themes import launch_remappings as launch_remappings
+from tutor.mistakes.themes import launch_scopes as launch_scopes
 from tutor.mistakes.themes import launch_names as launch_names
 from tutor.mistakes.themes import launch_effects as launch_effects
 from tutor.mistakes.themes import launch_nodes as launch_nodes

@@ -58,9 +58,9 @@ def absolute(case: Case) -> Iterator[Found]:
 
 @mistake(
     "namespace-of-its-own",
-    explains=_NAMES,
+    explains=(*_NAMES, Symptom.NOT_CONNECTED),
     evidence=Evidence.RUN,
-    says="{node} is in the namespace {namespace}, so it uses {topic} instead of {wanted}",
+    says="{node} is in the namespace {namespace}, and so its topics are there, apart from those of the other node",
     do="Give both nodes the same namespace.",
     example=in_run(
         Symptom.WRONG_NAMES,
@@ -88,16 +88,19 @@ def own_namespace(case: Case) -> Iterator[Found]:
     See it: `ros2 node list`, `ros2 topic list`.
     """
     wanted = str(case.about("wanted", ""))
-    for endpoint in endpoints_of(case) if case.about("argument") == "topic" else ():
+    endpoints = endpoints_of(case)
+    for endpoint in endpoints:
         namespace = endpoint.node.rpartition("/")[0]
-        if namespace and f"{namespace}/{last_part(wanted)}" == endpoint.topic != wanted:
-            words: dict[str, object] = {
-                "node": endpoint.node,
-                "namespace": namespace,
-                "topic": endpoint.topic,
-                "wanted": wanted,
-            }
-            yield Found(words)
+        relative = endpoint.topic.removeprefix(f"{namespace}/")
+        if not namespace or relative == endpoint.topic:
+            continue
+        if case.about("argument") == "topic":
+            apart = relative == last_part(wanted) and endpoint.topic != wanted
+        else:
+            others = {each.topic for each in endpoints if not each.node.startswith(f"{namespace}/")}
+            apart = case.symptom is Symptom.NOT_CONNECTED and f"/{relative}" in others
+        if apart:
+            yield Found({"node": endpoint.node, "namespace": namespace})
 
 
 @mistake(

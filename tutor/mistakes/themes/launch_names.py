@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from difflib import get_close_matches
 
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
@@ -34,9 +35,9 @@ def reaches_no_node(case: Case) -> bool:
 
 
 def remappings_of(case: Case) -> list[tuple[str, str]]:
-    """The remappings on the nodes' command lines, as (source, target)."""
-    commands = case.about("command_lines", ())
-    return [(found["source"], found["target"]) for command in commands for found in REMAP.finditer(command)]
+    """The remappings of topics on the nodes' command lines, as (source, target)."""
+    rules = [found for command in case.about("command_lines", ()) for found in REMAP.finditer(command)]
+    return [(found["source"], found["target"]) for found in rules if not found["source"].startswith("__")]
 
 
 def last_part(name: str) -> str:
@@ -129,8 +130,9 @@ def argument_name(case: Case) -> Iterator[Found]:
     """
     argument, declared = case.about("argument"), case.trace.launch_arguments
     if argument is not None and argument not in declared and reaches_no_node(case):
-        calls = launch_file(case).calls("DeclareLaunchArgument")
-        yield at_call(case, next(iter(calls), None), argument=argument, declared=", ".join(declared) or "no argument")
+        calls = {each.argument(0, "name").strip("'"): each for each in launch_file(case).calls("DeclareLaunchArgument")}
+        meant = next(iter(get_close_matches(argument, calls)), "")
+        yield at_call(case, calls.get(meant), argument=argument, declared=", ".join(declared) or "no argument")
 
 
 @mistake(
@@ -164,80 +166,6 @@ def argument_overwritten(case: Case) -> Iterator[Found]:
 
 
 @mistake(
-    "setting-lost-with-its-group",
-    explains=_NAMES,
-    says="{line} sets {name} in a group, and the end of the group undoes it: {code}",
-    do="Set it outside the group, or make the group unscoped.",
-)
-def lost_with_group(case: Case) -> Iterator[Found]:
-    """A configuration is set in a group, but read outside it.
-
-    A GroupAction is scoped: at its end, launch configurations are what they were before it.
-
-    Bad:
-
-        GroupAction([SetLaunchConfiguration('target', 'hall')])
-        Node(package='house', executable='bell', namespace=LaunchConfiguration('target'))
-
-    Good:
-
-        SetLaunchConfiguration('target', 'hall')
-        Node(package='house', executable='bell', namespace=LaunchConfiguration('target'))
-
-    See it: `ros2 node list`.
-    """
-    file = launch_file(case)
-    for group in file.calls("GroupAction"):
-        for call in file.calls("SetLaunchConfiguration"):
-            name = call.argument(0, "name")
-            inside = call.code in group.code and "scoped" not in group.named
-            reads = [each for each in file.calls("LaunchConfiguration") if each.argument(0, "variable_name") == name]
-            if inside and any(read.code not in group.code for read in reads):
-                yield at_call(case, call, name=name.strip("'\""))
-
-
-@mistake(
-    "namespace-not-pushed-to-the-node",
-    name="namespace not used",
-    explains=_NAMES,
-    says="{line}: {why}: {code}",
-    do="Put the nodes into one group with what pushes the namespace, and the namespace first.",
-    example=in_run(Symptom.WRONG_NAMES, argument="namespace", wanted="hall"),
-)
-def not_pushed(case: Case) -> Iterator[Found]:
-    """A pushed namespace does not reach a node.
-
-    PushRosNamespace affects what comes after it in the same list or group, if its condition is met. A node before it,
-    or one that an event handler starts later, is not in that namespace.
-
-    Bad:
-
-        Node(package='house', executable='bell')
-        PushRosNamespace('hall')
-
-    Good:
-
-        PushRosNamespace('hall')
-        Node(package='house', executable='bell')
-
-    See it: `ros2 node list`.
-    """
-    if case.about("argument") != "namespace":
-        return
-    file = launch_file(case)
-    for pushed in file.calls("PushRosNamespace", "PushROSNamespace"):
-        handlers = file.calls("OnProcessExit", "OnProcessStart", "TimerAction", "OnExecutionComplete", "OnShutdown")
-        late = [node for node in nodes_of(file) if any(node.code in handler.code for handler in handlers)]
-        if "condition" in pushed.named:
-            why = f"it has condition={pushed.named['condition']}, and is left out when that is false"
-        elif late:
-            why = f"the Node in line {late[0].line} is started by a handler later, outside of this namespace"
-        else:
-            why = "it only affects what comes after it in the same list"
-        yield at_call(case, pushed, why=why)
-
-
-@mistake(
     "value-in-the-wrong-place",
     explains=_NAMES,
     says="{line}: the Node has {keyword}={given}, which {why}",
@@ -262,14 +190,19 @@ def wrong_place(case: Case) -> Iterator[Found]:
     See it: `ros2 node info NODE`.
     """
     argument, file = str(case.about("argument", "")), launch_file(case)
-    right = "namespace" if argument == "namespace" else "remappings"
-    for node in nodes_of(file):
+    right, effect = "remappings", "renames no topic"
+    wanted = str(case.about("wanted", ""))
+    arrived = any(each.topic == wanted for each in endpoints_of(case))
+    if argument == "namespace":
+        right, effect = "namespace", "puts it into no namespace"
+        arrived = any(each.node.startswith(f"/{wanted}/") for each in endpoints_of(case))
+    for node in () if arrived else nodes_of(file):
         for keyword in ("parameters", "arguments", "ros_arguments", "name", "namespace", "remappings"):
             given = node.named.get(keyword, "")
-            if keyword != right and _is_used(file, argument, given):
-                yield at_call(case, node, keyword=keyword, given=_short(given), why="renames nothing")
+            if keyword != right and _is_used(file, argument, given) and ":=" not in given:
+                yield at_call(case, node, keyword=keyword, given=_short(given), why=effect)
             elif keyword == right and given and not _is_used(file, argument, given) and reaches_no_node(case):
-                why = f"has a fixed text in it, and not the value of {argument}"
+                why = f"is a fixed text, and not the value of {argument}"
                 yield at_call(case, node, keyword=keyword, given=_short(given), why=why)
 
 

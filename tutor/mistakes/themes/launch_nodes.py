@@ -170,3 +170,31 @@ def different_topics(case: Case) -> Iterator[Found]:
     sent = {each.topic for each in graph.publishers}
     if senders and heard and not any(each.topic in sent for each in graph.subscriptions if each.topic not in ours):
         yield Found({"what": f"{', '.join(senders)}; {', '.join(heard)}"})
+
+
+@mistake(
+    "process-left-behind",
+    explains=[Symptom.DOES_NOT_END],
+    evidence=Evidence.RUN,
+    says="the launch has ended, and this still runs: {command}",
+    do="Let the launch description start it, and no Python code: then launch ends it, too.",
+    example=in_run(Symptom.DOES_NOT_END, left_behind="sleep 1000"),
+)
+def left_behind(case: Case) -> Iterator[Found]:
+    """A process outlives the launch that started it.
+
+    launch sends SIGINT to what its actions have started. A program that the launch file's Python code starts by itself
+    is unknown to it, and goes on.
+
+    Bad:
+
+        subprocess.Popen(['ring-the-bell'])
+
+    Good:
+
+        ExecuteProcess(cmd=['ring-the-bell'])
+
+    See it: `ps` after Ctrl+C.
+    """
+    if case.about("left_behind"):
+        yield Found({"command": case.about("left_behind")})

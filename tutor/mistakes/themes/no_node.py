@@ -16,7 +16,7 @@ _WHILE_RUNNING = tuple(symptom for symptom in EVERY_SYMPTOM if symptom not in _A
 
 @mistake(
     "another-domain",
-    explains=(Symptom.ENDED, Symptom.NO_MESSAGES, Symptom.NOTHING_RECEIVED, Symptom.SERVICE_MISSING, Symptom.NO_ANSWER),
+    explains=_WHILE_RUNNING,
     says="{line} puts the node into another ROS domain, where nothing else sees it: {code}",
     do="Leave the choice of the domain to whoever starts the node.",
 )
@@ -36,7 +36,7 @@ def another_domain(case: Case) -> Iterator[Found]:
 
     See it: `ros2 node list` does not show the node.
     """
-    for file in case.files:
+    for file in () if case.trace.graph.nodes else case.files:
         for node in file.nodes:
             match node:
                 case ast.Assign(targets=[ast.Subscript(slice=ast.Constant(value="ROS_DOMAIN_ID"))]):
@@ -49,8 +49,8 @@ def another_domain(case: Case) -> Iterator[Found]:
     "no-node",
     explains=_WHILE_RUNNING,
     evidence=Evidence.SYMPTOM,
-    says="the program runs, but has made no ROS node{output}",
-    do="Call rclpy.init() and make the node first: a loop above them keeps the program from getting there.",
+    says="{what}",
+    do="{do}",
     example=in_run(Symptom.NO_MESSAGES, graph=Graph()),
 )
 def no_node(case: Case) -> Iterator[Found]:
@@ -72,5 +72,12 @@ def no_node(case: Case) -> Iterator[Found]:
 
     See it: `ros2 node list`.
     """
-    if case.trace.exit is None and not case.trace.graph.nodes:
-        yield Found({"output": ", and prints endlessly" if case.trace.dropped_lines else ""})
+    if case.trace.exit is not None or case.trace.graph.nodes:
+        return
+    what = "the launch runs, but nothing that it starts has made a ROS node"
+    do = "Start programs that are ROS nodes: a Node, with its package and executable, for each."
+    if case.symptom not in (Symptom.NOT_LAUNCHED, Symptom.WRONG_NAMES, Symptom.NOT_CONNECTED):
+        output = ", and prints endlessly" if case.trace.dropped_lines else ""
+        what = f"the program runs, but has made no ROS node{output}"
+        do = "Call rclpy.init() and make the node first: a loop above them keeps the program from getting there."
+    yield Found({"what": what, "do": do})

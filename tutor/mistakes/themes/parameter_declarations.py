@@ -178,7 +178,7 @@ def declared_under_another_name(case: Case) -> Iterator[Found]:
 @mistake(
     "arguments-left-out",
     explains=(*_START, Symptom.WRONG_NAMES),
-    says="{line} keeps the command line's arguments, and with them the parameters given there, from the node: {code}",
+    says="{line} keeps the command line's arguments from the node, and with them what is set and renamed there: {code}",
     do="Let rclpy take the command line's arguments itself.",
 )
 def dropped_arguments(case: Case) -> Iterator[Found]:
