@@ -23,7 +23,7 @@ _FAULTS = (
 @CATALOGUE.mistake(
     "texts-compared",
     explains=[Symptom.WRONG_LOG, Symptom.NOT_LOGGED],
-    says="{line} compares texts, and as a text, “10” is less than “9”: {code}",
+    says="{line} compares texts, and as texts, “10” is less than “9”: {code}",
     do="Take the numbers out of the texts, and compare those.",
     example=in_run(Symptom.WRONG_LOG, fault="starts-over-silently", restarted=10, messages=23),
 )
