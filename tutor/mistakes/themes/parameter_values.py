@@ -181,6 +181,7 @@ def parameter_object(case: Case) -> Iterator[Found]:
 
 @mistake(
     "read-only-parameter",
+    name="read-only parameter",
     explains=(Symptom.REFUSED, Symptom.CHANGE_IGNORED),
     says="{line} makes a parameter read-only, so it keeps its first value: {code}",
     do="Leave out read_only if the value should change at run time.",
