@@ -239,7 +239,7 @@ def test_a_second_call_that_a_busy_machine_delayed_leaves_it_open() -> None:
     ("seen", "cause", "word"),
     [
         (single_calls((), answer(sum_=2)), "wrong answer", "2 instead of 8"),
-        (single_calls((), answer(sum_=0)), "response field not set", "not with 8"),
+        (single_calls((), answer(sum_=0)), "response field not set", "instead of 8"),
         (single_calls((), answer(sum_=None), stuck=IN_CALL), "deadlock by call()", "line 12"),
         (single_calls((), answer(sum_=None), stuck=IN_WORKER), "blocked executor", "line 12"),
         (single_calls((), answer(sum_=None), spins=False), "no spin", "/node"),
