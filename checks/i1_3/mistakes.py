@@ -40,14 +40,14 @@ def _wrong(case: Case) -> tuple[str, list[tuple[int, int, int]]]:
     name="file missing",
     explains=[Symptom.CALLS_MISSING],
     evidence=Evidence.PROCESS,
-    says="there is no {file} in what was handed in",
-    do="Write the client into {file}, beside {beside}.",
+    says="there is no {file} among the files",
+    do="Write the client in {file}, next to {beside}.",
     example=in_run(Symptom.CALLS_MISSING, file="bell_client.py", beside="bell_server.py"),
 )
 def file_missing(case: Case) -> Iterator[Found]:
     """One of the files is not there.
 
-    An exercise of two programs has two files, and each is started by its own name.
+    An exercise with two programs has two files, each of which is started by its name.
 
     Bad:
 
@@ -73,10 +73,10 @@ def file_missing(case: Case) -> Iterator[Found]:
     example=_answered("/add", (20, 4, 16), (9, 3, 6)),
 )
 def another_operation(case: Case) -> Iterator[Found]:
-    """A service computes what another one should.
+    """A service computes what another should.
 
-    Services that look alike are often copied: a name, an operator or a callback of the original stays behind. A result
-    that is kept under too short a key is another way to get another's.
+    Services that look alike are often copied, and a name, an operator or a callback of the original stays behind. Or a
+    result is kept under a key that two services share.
 
     Bad:
 
@@ -112,7 +112,7 @@ def _answers_like(results: list[tuple[int, int, int]], other: str) -> bool:
     example=_answered("/subtract", (20, 4, -16), (3, 10, 7)),
 )
 def wrong_way_round(case: Case) -> Iterator[Found]:
-    """Two operands have changed places.
+    """Two operands are swapped.
 
     Sums and products do not care which number comes first. Differences and quotients do.
 
@@ -137,13 +137,13 @@ def wrong_way_round(case: Case) -> Iterator[Found]:
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
     says="{service} answers {got} whenever an operand is negative, and is right otherwise",
-    do="Take the test for negative numbers out of the callback of {service}.",
+    do="Remove the test for negative numbers from the callback of {service}.",
     example=_answered("/add", (-40, 4, 0), (50, -5, 0), (6, 3, 9)),
 )
 def negatives_refused(case: Case) -> Iterator[Found]:
     """Negative numbers are refused.
 
-    An int64 holds negative numbers as well as others. What a service does not refuse by its nature, it computes.
+    An int64 holds negative numbers as well, and they can be computed with like any others.
 
     Bad:
 
@@ -166,8 +166,8 @@ def negatives_refused(case: Case) -> Iterator[Found]:
     "zero-refused",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
-    says="{service} computes with every other number, but not with b = 0, which only a division must refuse",
-    do="Test for zero in the callback of /divide only.",
+    says="{service} computes with every other number, but not when b is 0, which only a division must refuse",
+    do="Test for zero only in the callback of /divide.",
     example=_answered("/add", (7, 0, 0), (6, 3, 9)),
 )
 def zero_refused(case: Case) -> Iterator[Found]:
@@ -225,14 +225,15 @@ def sign_lost(case: Case) -> Iterator[Found]:
     "cut-to-32-bits",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
-    says="{service} cuts its result off to 32 bits, and the large ones need more",
+    says="{service} cuts its result to 32 bits, but large ones need more",
     do="Leave the numbers as they are: an int64 has 64 bits, and Python's int has no limit.",
     example=_answered("/add", (_BIG, 3, (_BIG + 3) % 2**32), (6, 3, 9)),
 )
 def cut_off(case: Case) -> Iterator[Found]:
-    """A result is cut off to 32 bits.
+    """A result is cut to 32 bits.
 
-    An int64 field holds numbers up to some 9 * 10^18. A mask, or an int32 of numpy or ctypes, cuts at 2 * 10^9.
+    An int64 field holds numbers up to about 9 * 10^18. A mask, or numpy's or ctypes' int32, cuts them at about 2 *
+    10^9.
 
     Bad:
 
@@ -253,8 +254,8 @@ def cut_off(case: Case) -> Iterator[Found]:
     "the-same-message-for-every-call",
     explains=[Symptom.NOT_LOGGED],
     evidence=Evidence.RUN,
-    says="a good division is logged in the same words as one by zero, so the message reports no error: {message}",
-    do="Log the error only where b is 0.",
+    says="a valid division is logged in the same words as one by zero, so the message reports no error: {message}",
+    do="Log the error only when b is 0.",
     example=in_run(
         Symptom.NOT_LOGGED,
         ordinary=(LogRecord(40, "node", "error", 0.0, 0.0),),
@@ -262,9 +263,10 @@ def cut_off(case: Case) -> Iterator[Found]:
     ),
 )
 def same_message(case: Case) -> Iterator[Found]:
-    """The same message comes whether something went wrong or not.
+    """The same message appears whether or not something went wrong.
 
-    A message reports an error only if it does not come when all is well. Who reads the log cannot tell the two apart.
+    A message reports an error only if it does not also appear when all is well. Otherwise, whoever reads the log cannot
+    tell the two apart.
 
     Bad:
 

@@ -114,9 +114,9 @@ def pauses(case: Case) -> Iterator[Found]:
     do="Make the timer once, where the node is set up.",
 )
 def timer_for_each_call(case: Case) -> Iterator[Found]:
-    """A service's callback makes a timer, and nothing ends it.
+    """A service's callback makes a timer that nothing ends.
 
-    A timer runs until it is cancelled. One that is made anew in each call adds its ticks to those of all before.
+    A timer runs until it is cancelled. One that is made anew in each call adds its ticks to those of all before it.
 
     Bad:
 
@@ -200,8 +200,8 @@ def wrong_duration(case: Case) -> Iterator[Found]:
 def wrong_sum(case: Case) -> Iterator[Found]:
     """What a callback puts into the response is wrong.
 
-    A response holds what the callback puts into its fields at the end. The request's fields are whole numbers of 64
-    bits, and Python's own are as long as they need to be: neither a float nor a narrower type is needed on the way.
+    A response holds what the callback puts into its fields. The request's fields are whole numbers of 64 bits, and
+    Python's own integers are as long as they need to be: neither a float nor a narrower type is needed in between.
 
     Bad:
 

@@ -266,15 +266,15 @@ def tested_for_truth(case: Case) -> Iterator[Found]:
 @CATALOGUE.mistake(
     "lost-on-the-way-only",
     explains=[Symptom.NOT_LOGGED],
-    says="{line} tells of messages that DDS loses on their way; a number that was never sent is not among them: {code}",
+    says="{line} reports messages that DDS loses on their way, which a number that was never sent is not: {code}",
     do="Work out from the numbers in two messages whether one is missing between them.",
     example=in_run(Symptom.NOT_LOGGED, fault=UNNOTICED),
 )
 def lost_on_the_way(case: Case) -> Iterator[Found]:
-    """The event message_lost is taken for a gap in the numbers.
+    """The message_lost event is taken for a gap in the numbers.
 
-    DDS counts what a publisher has sent, and reports a loss if a sample of it does not arrive. It does not read the
-    messages: what the sender left out, or what was sent before a restart, is no loss.
+    DDS counts what a publisher has sent, and reports a loss if a message does not arrive. It does not read the
+    messages: a number that the sender left out is no loss to it.
 
     Bad:
 

@@ -30,14 +30,14 @@ def _stuck_at_last_line(*inner: Frame) -> Callable[[str], Sequence[Frame]]:
     "no-spin-for-the-answer",
     explains=_CALLS,
     evidence=Evidence.PROCESS,
-    says="{line} waits for an answer, and nothing spins the node, so that none can come in: {code}",
+    says="{line} waits for an answer, but nothing spins the node, so none can arrive: {code}",
     do="Spin the node while you wait, best until the future is complete.",
 )
 def no_spin_for_answer(case: Case) -> Iterator[Found]:
-    """A client waits for an answer, and nothing spins.
+    """A client waits for an answer, but nothing spins.
 
-    Answers come in through the executor, like everything that reaches a node. A loop that only looks whether the future
-    is done, or a call() in the only thread, waits for what nobody takes in.
+    Answers arrive through the executor, like everything that reaches a node. A loop that only checks whether the future
+    is done, or a call() in the only thread, waits for an answer that nothing takes in.
 
     Bad:
 
@@ -50,7 +50,7 @@ def no_spin_for_answer(case: Case) -> Iterator[Found]:
         future = door.call_async(Trigger.Request())
         rclpy.spin_until_future_complete(node, future)
 
-    See it: the server logs the call, and the client never goes on.
+    See it: the server logs the call, but the client never goes on.
 
     Lesson: i1.3, the client.
     """
@@ -65,14 +65,14 @@ def no_spin_for_answer(case: Case) -> Iterator[Found]:
     "event-loop-not-woken",
     explains=_WAITING,
     evidence=Evidence.PROCESS,
-    says="{line} runs in the executor's thread, which does not wake the event loop of asyncio: {code}",
-    do="Let the loop itself do it: pass it to the loop's call_soon_threadsafe().",
+    says="{line} runs in the executor's thread, and so does not wake asyncio's event loop: {code}",
+    do="Let the loop itself set it, through the loop's call_soon_threadsafe().",
 )
 def loop_not_woken(case: Case) -> Iterator[Found]:
-    """A callback of ROS sets an event of asyncio.
+    """A ROS callback sets an asyncio event.
 
-    The objects of asyncio belong to the thread of their event loop. Set from another thread, as from a callback that an
-    executor runs, they change, but the loop sleeps on until something else wakes it.
+    asyncio's objects belong to the thread of their event loop. If they are set from another thread, as from a callback
+    that an executor runs, they do change, but the loop sleeps on until something else wakes it.
 
     Bad:
 
@@ -105,15 +105,15 @@ def _is_of_asyncio(value: ast.expr) -> bool:
     "event-never-set",
     explains=_WAITING,
     evidence=Evidence.RUN,
-    says="{line} waits for {event}, and nothing in the program sets it: {code}",
+    says="{line} waits for {event}, but nothing in the program sets it: {code}",
     do="Set {event} where the answer arrives, such as in the future's done callback.",
     example=in_run(Symptom.RUNS_ON, stuck_at=_stuck_at_last_line()),
 )
 def event_never_set(case: Case) -> Iterator[Found]:
-    """A thread waits for an event that nobody sets.
+    """A thread waits for an event that nothing sets.
 
-    wait() of a threading.Event returns when some other thread calls set(). An answer that arrives sets nothing by
-    itself.
+    The wait() of a threading.Event returns when another thread calls its set(). An answer that arrives does not do that
+    on its own.
 
     Bad:
 
@@ -156,10 +156,10 @@ def last_name_of(target: str) -> str:
     example=in_run(Symptom.RUNS_ON, stuck_at=_stuck_at_last_line(Frame("/lib/rclpy/executors.py", 1, "spin", "", 1))),
 )
 def spin_never_returns(case: Case) -> Iterator[Found]:
-    """A program that should end spins for ever.
+    """A program that should end spins forever.
 
-    spin() returns on Ctrl+C or after a shutdown, not when there is nothing left to do. A program with an end spins
-    until a future is complete.
+    spin() returns on Ctrl+C or after a shutdown, not when there is nothing left to do. A program that is to end spins
+    only until a future is complete.
 
     Bad:
 
@@ -183,8 +183,8 @@ def spin_never_returns(case: Case) -> Iterator[Found]:
     "thread-never-ends",
     explains=[Symptom.RUNS_ON],
     evidence=Evidence.RUN,
-    says="a thread goes on{where}, and the program ends only when all its threads have",
-    do="End what the thread does first, a spin with shutdown(), a loop with its condition.",
+    says="a thread goes on{where}, and a program ends only when all its threads have",
+    do="First end what the thread does: a spin with shutdown(), a loop through its condition.",
     example=in_run(
         Symptom.RUNS_ON, stuck_at=_stuck_at_last_line(Frame("/lib/python3.12/threading.py", 1, "join", "", 1))
     ),
@@ -192,7 +192,7 @@ def spin_never_returns(case: Case) -> Iterator[Found]:
 def thread_never_ends(case: Case) -> Iterator[Found]:
     """A thread keeps the program from ending.
 
-    Python ends when its last thread has ended, daemons left aside; join() waits for one of them. A thread that spins
+    Python ends when its last thread has ended, daemon threads aside; join() waits for one of them. A thread that spins
     ends with the context, and one that loops when its condition says so.
 
     Bad:
@@ -210,7 +210,7 @@ def thread_never_ends(case: Case) -> Iterator[Found]:
         rclpy.shutdown()
         thread.join()
 
-    See it: the last line is printed, and the prompt does not come back.
+    See it: the last line is printed, but the prompt does not come back.
     """
     waits = [frame for frame in case.stuck if frame.path.endswith("/threading.py")]
     if any(frame.function in ("_shutdown", "join") for frame in waits):
@@ -223,7 +223,7 @@ def thread_never_ends(case: Case) -> Iterator[Found]:
     "zero-is-false",
     explains=[Symptom.CALLS_MISSING, Symptom.RUNS_ON],
     evidence=Evidence.RUN,
-    says="{line} takes the answer 0 for none, since the number 0 counts as false: {code}",
+    says="{line} takes the answer 0 for no answer, since 0 counts as false: {code}",
     do="Compare with None there.",
     slip=True,
     example=in_run(Symptom.RUNS_ON, last_response={"count": 0}),
@@ -231,8 +231,7 @@ def thread_never_ends(case: Case) -> Iterator[Found]:
 def zero_is_false(case: Case) -> Iterator[Found]:
     """An answer of 0 is taken for no answer.
 
-    In a condition, 0, 0.0, an empty text and None are all false. Whether there is a value at all is asked with
-    `is None`.
+    In a condition, 0, 0.0, an empty text and None are all false. To ask whether there is a value at all, use `is None`.
 
     Bad:
 
@@ -264,15 +263,15 @@ def zero_is_false(case: Case) -> Iterator[Found]:
     "did-not-end",
     explains=[Symptom.RUNS_ON],
     evidence=Evidence.SYMPTOM,
-    says="the program has made all its calls, and {where}",
-    do="Let main() return soon after the last answer, and nothing wait for what does not come any more.",
+    says="the program has made all its calls, but {where}",
+    do="Let main() return soon after the last answer, and let nothing wait for what will never come.",
     example=in_run(Symptom.RUNS_ON),
 )
 def did_not_end(case: Case) -> Iterator[Found]:
-    """A program goes on after its work.
+    """A program goes on after its work is done.
 
-    It ends when main() returns and no other thread is left. A pause, a loop that counts to one too many, or a wait for
-    one more answer keeps it.
+    A program ends when main() returns and no other thread is left. A pause, a loop with one round too many, or a wait
+    for one more answer keeps it going.
 
     Bad:
 

@@ -47,15 +47,15 @@ def requests(file: NodeFile) -> list[ast.Call]:
     "needs-arguments",
     explains=_CALLS,
     evidence=Evidence.PROCESS,
-    says="the program is run without arguments, and then it ends with {exit}: {what}",
-    do="Let it do its work without arguments too, with values of its own.",
+    says="the program is run without arguments, and then ends with {exit}: {what}",
+    do="Let it do its work without arguments as well, with values of its own.",
     example=in_run(Symptom.CALLS_MISSING, exit=Exit(2, None, 0.2), calls=0),
 )
 def needs_arguments(case: Case) -> Iterator[Found]:
     """A program does nothing without arguments.
 
-    A program that others start, such as a launch file, gets the arguments that they know of, which are often none. A
-    default for each makes it usable at once.
+    A program that is started by another, such as a launch file, gets the arguments that the other knows of, often none.
+    A default for each makes it usable at once.
 
     Bad:
 
@@ -93,14 +93,14 @@ def _ends(test: ast.If) -> bool:
     explains=_CALLS,
     evidence=Evidence.PROCESS,
     says="the client asks for {given}, {what}",
-    do="Use the name and the type of the service that is there where the client is made.",
+    do="Make the client with the name and the type of the service that is there.",
     example=in_run(Symptom.CALLS_MISSING, graph=_ASKING, services=("/open_door",), type="std_srvs/srv/Trigger"),
 )
 def service_not_offered(case: Case) -> Iterator[Found]:
     """A client asks for a service that nobody offers.
 
     A client reaches a service only if name and type are the same, letter by letter. Nothing tells it that there is a
-    similar one: it waits.
+    similar one: it just waits.
 
     Bad:
 
@@ -133,13 +133,13 @@ def service_not_offered(case: Case) -> Iterator[Found]:
     explains=_CALLS,
     evidence=Evidence.PROCESS,
     slip=True,
-    says="{line} goes on waiting as long as the service is there: {code}",
-    do="Write not in front of the condition.",
+    says="{line} keeps waiting as long as the service is there: {code}",
+    do="Put not in front of the condition.",
 )
 def wait_turned_around(case: Case) -> Iterator[Found]:
     """A client waits while the service is there.
 
-    wait_for_service() is true once the service is there. A loop that waits goes on while it is not.
+    wait_for_service() is true once the service is there. A loop that waits has to go on while it is not.
 
     Bad:
 
@@ -151,7 +151,7 @@ def wait_turned_around(case: Case) -> Iterator[Found]:
         while not door.wait_for_service(timeout_sec=1.0):
             print('waiting')
 
-    See it: it waits for ever once the service is there.
+    See it: it waits forever once the service is there.
     """
     for file in case.files if in_silence(case) else ():
         for loop in file.nodes:
@@ -165,14 +165,14 @@ def wait_turned_around(case: Case) -> Iterator[Found]:
     "service-not-waited-for",
     explains=_CALLS,
     evidence=Evidence.PROCESS,
-    says="{line} sends a request without knowing that there is a server, and a request to nobody is lost: {code}",
+    says="{line} sends a request without knowing whether there is a server; without one, it is lost: {code}",
     do="Wait for the service before the first request.",
 )
 def not_waited_for(case: Case) -> Iterator[Found]:
     """A request is sent before there is a server.
 
-    Programs start in any order, and even a server that is running takes a moment to be found. A request that is sent
-    before is lost without a word: no answer ever comes.
+    Programs start in any order, and even a running server takes a moment to be found. A request that is sent before
+    that is lost without a word: no answer ever comes.
 
     Bad:
 
@@ -206,7 +206,7 @@ def not_waited_for(case: Case) -> Iterator[Found]:
 def waits_too_short(case: Case) -> Iterator[Found]:
     """A client gives up before its service is there.
 
-    wait_for_service(timeout_sec=…) returns False when the time is over, and the program goes on. Servers that start
+    wait_for_service(timeout_sec=…) returns False when the time is up, and the program goes on. Servers that start
     together with the client take a second or more to be found.
 
     Bad:
@@ -234,14 +234,15 @@ def waits_too_short(case: Case) -> Iterator[Found]:
 @mistake(
     "return-in-the-loop",
     explains=_CALLS,
-    says="{line} ends the loop of line {loop} in its first turn: {code}",
+    says="{line} ends the loop in line {loop} in its first round: {code}",
     do="Move it below the loop.",
     example=in_run(Symptom.CALLS_MISSING, calls=1),
 )
 def return_in_loop(case: Case) -> Iterator[Found]:
     """A return at the end of a loop's body ends the loop.
 
-    return leaves the function at once, also from inside a loop. At the end of the body, it does so in the first turn.
+    return leaves the function at once, even from inside a loop. At the end of the loop's body, it does so in the first
+    round.
 
     Bad:
 
@@ -272,8 +273,8 @@ def return_in_loop(case: Case) -> Iterator[Found]:
 def client_overwritten(case: Case) -> Iterator[Found]:
     """A loop makes several clients, and keeps only the last.
 
-    An assignment replaces what a name stood for. After a loop that assigns to the same name in each turn, it stands for
-    the last one.
+    An assignment replaces what a name stood for. After a loop that assigns to the same name in each round, the name
+    stands for the last client.
 
     Bad:
 

@@ -176,15 +176,15 @@ def different_topics(case: Case) -> Iterator[Found]:
     "process-left-behind",
     explains=[Symptom.DOES_NOT_END],
     evidence=Evidence.RUN,
-    says="the launch has ended, and this still runs: {command}",
-    do="Let the launch description start it, and no Python code: then launch ends it, too.",
+    says="the launch has ended, but this still runs: {command}",
+    do="Let the launch description start it instead of Python code: then launch ends it, too.",
     example=in_run(Symptom.DOES_NOT_END, left_behind="sleep 1000"),
 )
 def left_behind(case: Case) -> Iterator[Found]:
     """A process outlives the launch that started it.
 
-    launch sends SIGINT to what its actions have started. A program that the launch file's Python code starts by itself
-    is unknown to it, and goes on.
+    launch sends SIGINT to what its actions have started. It knows nothing of a program that the launch file's Python
+    code starts on its own, which goes on.
 
     Bad:
 

@@ -100,15 +100,15 @@ def lost_with_group(case: Case) -> Iterator[Found]:
 @mistake(
     "set-after-the-node",
     explains=_NAMES,
-    says="{line} comes after the Node in line {node}, and holds only for what comes later: {code}",
-    do="Put it above the nodes for which it is meant.",
+    says="{line} comes after the Node in line {node}, but affects only what comes after it: {code}",
+    do="Put it above the nodes that it is meant for.",
     example=_example,
 )
 def too_late(case: Case) -> Iterator[Found]:
     """A namespace is pushed, or a remapping set, after the node.
 
-    A launch description is executed from its beginning to its end. PushRosNamespace and SetRemap change what comes
-    after them; a node that has been started keeps its names.
+    A launch description is executed from top to bottom. PushRosNamespace and SetRemap change what comes after them; a
+    node that has been started keeps its names.
 
     Bad:
 
@@ -132,13 +132,13 @@ def too_late(case: Case) -> Iterator[Found]:
     "setting-under-a-condition",
     explains=_NAMES,
     says="{line} is left out, since its condition, {condition}, is not met: {code}",
-    do="Give it a condition that is met in this launch too, or none.",
+    do="Give it a condition that is also met in this launch, or none.",
     example=_example,
 )
 def condition_not_met(case: Case) -> Iterator[Found]:
     """A namespace or remapping has a condition that is not met.
 
-    Every action takes a condition. If it is not met, launch leaves the action out, and says nothing.
+    Every action can have a condition. If it is not met, launch leaves out the action without a word.
 
     Bad:
 

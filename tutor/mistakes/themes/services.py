@@ -157,14 +157,14 @@ def _is_similar(given: str, wanted: str) -> bool:
 @mistake(
     "service-destroyed",
     explains=_UNREACHED,
-    says="{line} is in __del__, which Python calls as soon as nothing refers to the object any more: {code}",
-    do="Leave the service alone there: the node destroys it when it goes.",
+    says="{line} is in __del__, which Python calls once nothing refers to the object any more: {code}",
+    do="Leave the service alone there: the node destroys it when the node itself goes.",
 )
 def destroyed(case: Case) -> Iterator[Found]:
     """A service is destroyed along with the object that made it.
 
-    Python calls __del__ when an object is no longer referred to, as when its variable gets another value. A service
-    destroyed there is gone, although the node lives.
+    Python calls __del__ when nothing refers to an object any more, for instance when its variable gets another value. A
+    service destroyed there is gone, although the node lives on.
 
     Bad:
 

@@ -90,14 +90,14 @@ def no_spin(case: Case) -> Iterator[Found]:
 @mistake(
     "node-not-added-to-the-executor",
     explains=_SILENT,
-    says="{line} runs the callbacks of the nodes that were added to {executor}, and none was: {code}",
+    says="{line} runs the callbacks of the nodes that were added to {executor}, but none was: {code}",
     do="Add the node to the executor before it spins.",
 )
 def node_not_added(case: Case) -> Iterator[Found]:
-    """An executor spins, and has no node.
+    """An executor spins, but has no node.
 
-    An executor serves the nodes that were added to it, and knows of no others. A node that is only made is in the
-    graph, and none of its callbacks is ever called.
+    An executor serves the nodes that were added to it, and no others. A node that is merely made is in the graph, but
+    none of its callbacks is ever called.
 
     Bad:
 

@@ -138,13 +138,13 @@ def _may_overlap(file: NodeFile, case: Case) -> bool:
     "lock-held-while-waiting",
     explains=[Symptom.CALLS_WAIT],
     says="{line} takes {lock} for as long as a call works, so the next call waits for it: {code}",
-    do="Hold the lock only where shared data changes, and do the waiting outside.",
+    do="Hold the lock only while shared data changes, and do the waiting outside it.",
 )
 def lock_held(case: Case) -> Iterator[Found]:
     """A callback holds a lock while it waits.
 
-    A lock lets one thread in at a time. A callback that sleeps inside keeps out all other callbacks that take the
-    lock, and other calls of itself, however many threads there are.
+    A lock lets one thread in at a time. A callback that sleeps while it holds one keeps out all other callbacks that
+    take the lock, and other calls of its own service, however many threads there are.
 
     Bad:
 

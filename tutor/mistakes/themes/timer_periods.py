@@ -156,14 +156,14 @@ def period_in_another_unit(case: Case) -> Iterator[Found]:
     "timer-of-another-period",
     explains=[Symptom.WRONG_RATE, Symptom.NOT_LOGGED],
     says="{line} makes a timer of {period:g} s, so it ticks {how}: {code}",
-    do="Work out how many seconds there are between two ticks, and give the timer that period.",
+    do="Work out how many seconds there should be between two ticks, and give the timer that period.",
     example=in_run(Symptom.WRONG_RATE, wanted_hz=4.0, found_hz=1.0),
 )
 def another_period(case: Case) -> Iterator[Found]:
-    """A timer has another period than it should.
+    """A timer has the wrong period.
 
-    create_timer takes the time between two ticks, in seconds. For a given number of ticks a second, it is 1 divided by
-    that number.
+    create_timer takes the time between two ticks, in seconds. For a given number of ticks per second, it is 1 divided
+    by that number.
 
     Bad:
 
