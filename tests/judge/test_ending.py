@@ -1,4 +1,4 @@
-"""How a process ends on Ctrl+C: which endings are clean, and the causes of those that are not."""
+"""How a process ends on Ctrl+C: which endings are clean, and why the others are not."""
 
 from __future__ import annotations
 
@@ -7,20 +7,14 @@ from functools import partial
 
 import pytest
 
-from tests.checks.builders import (
-    CRASH,
-    FOLDER,
-    KEYBOARD_INTERRUPT,
-    assert_failed,
-    assert_passed,
-    ending,
-    exited,
-    trace,
-)
+from tests.checks import builders
+from tests.checks.builders import CRASH, FOLDER, KEYBOARD_INTERRUPT, assert_passed, ending, exited, trace
+from tutor.judge.check import Check
 from tutor.judge.ending import judge_ending, may_be_chance
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.verdict import Status
 
+assert_failed = partial(builders.assert_failed, check=Check("any", ()))
 judge = partial(judge_ending, shown_by="another")
 RCLPY = "/venv/lib/python3.12/site-packages/rclpy"
 OWN_FRAME = f'  File "{FOLDER}/node.py", line 30, in main\n    rclpy.shutdown()'
@@ -90,31 +84,31 @@ def test_clean_endings_pass(end: Ending) -> None:
 @pytest.mark.parametrize(
     ("end", "cause", "words"),
     [
-        (ending(still_running=True), "SIGINT ignored", "still running 5 s"),
-        (ending(1, err=SHUTDOWN_TWICE), "shutdown() after Ctrl+C", "try_shutdown"),
-        (ending(signal=2, err=KEYBOARD_INTERRUPT), "traceback on exit", "except (KeyboardInterrupt"),
+        (ending(still_running=True), "does not end", "still running 5 s"),
+        (ending(1, err=SHUTDOWN_TWICE), "shutdown() after Ctrl+C", "rclpy.shutdown() (node.py, line 30)"),
+        (ending(signal=2, err=KEYBOARD_INTERRUPT), "traceback on exit", "KeyboardInterrupt"),
         (ending(130, err=KEYBOARD_INTERRUPT), "traceback on exit", "KeyboardInterrupt"),
-        (ending(1, err=EXTERNAL), "traceback on exit", "from rclpy.executors import ExternalShutdownException"),
-        (ending(0, err=PUBLISH_AFTER), "traceback on exit", "node.py, line 30"),
-        (ending(0, err=STILL_SPINNING), "traceback on exit", "node.py, line 30"),
-        (ending(1, err=CRASH), "traceback on exit", "line 12: self.nothing()"),
-        (ending(0, err=CRASH), "traceback on exit", "AttributeError"),
+        (ending(1, err=EXTERNAL), "traceback on exit", "Catch around line 30"),
+        (ending(0, err=PUBLISH_AFTER), "used after shutdown", "node.py, line 30"),
+        (ending(0, err=STILL_SPINNING), "used after shutdown", "node.py, line 30"),
+        (ending(1, err=CRASH), "exception on exit", "line 12: self.nothing()"),
+        (ending(0, err=CRASH), "exception on exit", "AttributeError"),
         (
             ending(1, err=f"{KEYBOARD_INTERRUPT}\n\nDuring handling of …\n\n{SHUTDOWN_TWICE}"),
             "shutdown() after Ctrl+C",
             "",
         ),
-        (ending(0, err=AT_EXIT), "shutdown() after Ctrl+C", "try_shutdown"),
-        (ending(0, err=IGNORED_IN_DEL.replace(RCLPY, FOLDER)), "traceback on exit", "line 20"),
-        (ending(0, err=IGNORED_IN_THREADING), "traceback on exit", "main() has ended"),
+        (ending(0, err=AT_EXIT), "shutdown() after Ctrl+C", "a second shutdown()"),
+        (ending(0, err=IGNORED_IN_DEL.replace(RCLPY, FOLDER)), "exception on exit", "line 20"),
+        (ending(0, err=IGNORED_IN_THREADING), "threads waited for at exit", "main() has ended"),
         (ending(1), "non-zero exit", "exit code 1"),
         (ending(1, err=IGNORED_IN_DEL), "non-zero exit", "exit code 1"),
         (ending(2, err=TRY_SHUTDOWN_RACE), "non-zero exit", "exit code 2"),
         (ending(signal=15), "non-zero exit", "signal 15"),
-        (ending(signal=11), "non-zero exit", "signal 11"),
-        (ending(signal=11, err=FATAL), "non-zero exit", "crashes with signal 11, at node.py, line 30"),
+        (ending(signal=11), "crash on exit", "signal 11"),
+        (ending(signal=11, err=FATAL), "crash on exit", "crashes with signal 11 (node.py, line 30)"),
         (ending(143), "non-zero exit", "exit code 143"),
-        (ending(signal=6), "non-zero exit", "signal 6"),
+        (ending(signal=6), "crash on exit", "signal 6"),
         (ending(signal=6, err="terminate called without an active exception"), "thread still running", "join"),
     ],
 )

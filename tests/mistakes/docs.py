@@ -66,6 +66,8 @@ PAGE_OF = {
     "logging": "logging",
     "ending": "ending",
     "exit_codes": "ending",
+    "lasting_threads": "ending",
+    "not_ending": "ending",
     "lifetime": "ending",
     "launch": "launch",
     "attributes": "python",

@@ -7,19 +7,22 @@ from dataclasses import replace
 from functools import wraps
 from typing import Protocol
 
-from tutor.judge import causes, shutdown_steps, tracebacks
+from tutor.judge import tracebacks
 from tutor.judge.bench import Bench, Scenario
-from tutor.judge.trace import Ending, Exit, Trace
-from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+from tutor.judge.symptom import Symptom
+from tutor.judge.trace import Ending, Trace
+from tutor.judge.verdict import Verdict, failed, passed, skipped
 from tutor.judge.waiting import CPU_WAIT_SHARE
+from tutor.judge.wording import output_tail
 
 _CRASH_SIGNALS = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT
 _SPIN_WITHOUT_CONTEXT = "the given context is not valid"
 _MAX_RETRIES = 2
 """How often to restart a process whose unclean exit on Ctrl+C may have been a race outside the learner's code."""
 
-_INVALID_CONTEXT = "context is invalid", "context is not valid", "context argument is null"
-_SHUT_DOWN_TWICE = "rcl_shutdown already called", "Context must be initialized before it can be shutdown"
+SPIN_ENDINGS = ("KeyboardInterrupt", "ExternalShutdownException")
+"""The exceptions that rclpy ends a spin with on Ctrl+C."""
+
 EXPECTED = "on Ctrl+C the process ends within {limit:g} s, without a traceback, with exit code 0 or 130"
 
 
@@ -88,33 +91,17 @@ def judge_ending(trace: Trace, ending: Ending | None, *, shown_by: str) -> Verdi
         return skipped(f"not judged, because the process had ended before Ctrl+C{how}: `{shown_by}` shows why")
     expected = EXPECTED.format(limit=ending.limit_s)
     if ending.exit is None:
-        return failed(
-            expected,
-            f"still running {ending.limit_s:g} s after Ctrl+C",
-            Cause(
-                "SIGINT ignored",
-                "the process goes on after Ctrl+C",
-                shutdown_steps.allow_interrupt(trace),
-            ),
-            causes.output_tail(trace),
-        )
+        goes_on = Symptom.DOES_NOT_END.seen(trace, ending=ending, raised=None)
+        return failed(expected, f"still running {ending.limit_s:g} s after Ctrl+C", goes_on, output_tail(trace))
     seen = tracebacks.find_tracebacks(ending.output) or _find_printed_endings(ending)
     found = [each for each in seen if not _is_from_rclpy_cleanup(each, trace)]
     observed = f"ended {ending.took_s:.2f} s after Ctrl+C with {ending.exit}"
     if found and not _is_race_in_shutdown(found[-1]):
-        return failed(
-            expected, f"{observed} and a traceback", _diagnose_traceback(found[-1], trace), [found[-1].raised]
-        )
+        raised = Symptom.ENDS_BADLY.seen(trace, ending=ending, raised=found[-1])
+        return failed(expected, f"{observed} and a traceback", raised, [found[-1].raised])
     if ending.exit.code in (0, 130) or ending.exit.signal == 2 or (found and ending.exit.code == 1):
         return passed(expected, observed)
-    other = Cause(
-        "non-zero exit",
-        f"the process ended with {ending.exit}",
-        shutdown_steps.exit_with_zero(trace),
-    )
-    crash = _diagnose_crash(ending.exit, ending, trace) if _crashed(ending) else None
-    cause = causes.diagnose_torn_thread(ending.exit, ending.output) or crash or other
-    return failed(expected, observed, cause, causes.output_tail(trace))
+    return failed(expected, observed, Symptom.ENDS_BADLY.seen(trace, ending=ending, raised=None), output_tail(trace))
 
 
 def _find_printed_endings(ending: Ending) -> list[tracebacks.Traceback]:
@@ -123,16 +110,7 @@ def _find_printed_endings(ending: Ending) -> list[tracebacks.Traceback]:
     Others may be older, of exceptions that the program has dealt with: what it prints is held back in a buffer.
     """
     printed = [replace(line, stream="stderr") for line in ending.output if line.stream == "stdout"]
-    return [each for each in tracebacks.find_tracebacks(printed) if each.type.endswith(shutdown_steps.SPIN_ENDINGS)]
-
-
-def _diagnose_crash(process_exit: Exit, ending: Ending, trace: Trace) -> Cause:
-    own = tracebacks.own_frame(tracebacks.dumped_frames(ending.output), trace.folder)
-    return Cause(
-        "non-zero exit",
-        f"after Ctrl+C the process crashes with {process_exit}" + (f", at {own}" if own else ""),
-        shutdown_steps.exit_with_zero(trace),
-    )
+    return [each for each in tracebacks.find_tracebacks(printed) if each.type.endswith(SPIN_ENDINGS)]
 
 
 def _is_from_rclpy_cleanup(found: tracebacks.Traceback, trace: Trace) -> bool:
@@ -157,35 +135,3 @@ def _is_race_in_shutdown(found: tracebacks.Traceback) -> bool:
     instruction. Seen in 1 of 400 runs, more often when many processes start at once (rclpy 7.1.6).
     """
     return any(frame.function == "try_shutdown" for frame in found.frames) and "already called" in found.message
-
-
-def _diagnose_traceback(found: tracebacks.Traceback, trace: Trace) -> Cause:
-    own = found.own(trace.folder)
-    if any(words in found.message for words in _SHUT_DOWN_TWICE):
-        return Cause(
-            "shutdown() after Ctrl+C",
-            "rclpy has already shut its context down on Ctrl+C, so rclpy.shutdown() raises RCLError",
-            shutdown_steps.catch_interrupt(trace),
-        )
-    if _is_from_wait_for_threads(found):
-        return Cause(
-            "traceback on exit",
-            "main() has ended, and Python waits for the threads, where nothing catches KeyboardInterrupt",
-            shutdown_steps.wait_for_threads(trace),
-        )
-    if any(found.type.endswith(name) for name in shutdown_steps.SPIN_ENDINGS):
-        return Cause(
-            "traceback on exit",
-            f"{found.type.rsplit('.', 1)[-1]} reaches the end of the program" + (f" ({own})" if own else ""),
-            shutdown_steps.catch_interrupt(trace, found.frames),
-        )
-    known = (
-        causes.diagnose_known_exception(found, trace)
-        if not any(words in found.message for words in _INVALID_CONTEXT)
-        else None
-    )
-    return Cause(
-        "traceback on exit",
-        f"{found.raised}" + (f" ({own})" if own else ""),
-        known.hint if known and not shutdown_steps.is_raise(own) else shutdown_steps.remove_line(trace, own),
-    )

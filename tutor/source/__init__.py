@@ -6,6 +6,7 @@ from tutor.source.file import (
     called_name,
     calls_in,
     is_abstract,
+    is_endless,
     last_name,
     values_of,
 )
@@ -27,6 +28,7 @@ __all__ = [
     "fill",
     "find",
     "is_abstract",
+    "is_endless",
     "last_name",
     "match",
     "node_file",

@@ -175,6 +175,12 @@ def values_of(target: str, node: ast.AST) -> list[ast.expr]:
     return [each.value for each in assignments if any(ast.unparse(one) == target for one in each.targets)]
 
 
+def is_endless(loop: ast.While) -> bool:
+    """Whether nothing in the code of a loop ends it: no condition, and no `break`, `return` or `raise`."""
+    ends = any(isinstance(node, ast.Break | ast.Return | ast.Raise) for node in ast.walk(loop))
+    return isinstance(loop.test, ast.Constant) and bool(loop.test.value) and not ends
+
+
 def where(node: ast.stmt | ast.expr) -> str:
     """The line number and code of a syntax node, for use in a sentence."""
     return f"line {node.lineno}: {ast.unparse(node)}"

@@ -45,6 +45,8 @@ from tutor.mistakes.themes import python as python
 from tutor.mistakes.themes import logging as logging
 from tutor.mistakes.themes import ending as ending
 from tutor.mistakes.themes import exit_codes as exit_codes
+from tutor.mistakes.themes import not_ending as not_ending
+from tutor.mistakes.themes import lasting_threads as lasting_threads
 from tutor.mistakes.themes import unhandled as unhandled
 from tutor.mistakes.themes import more_symptoms as more_symptoms
 from tutor.mistakes.themes import symptoms as symptoms

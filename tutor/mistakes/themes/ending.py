@@ -1,31 +1,30 @@
-"""What keeps a program from ending cleanly on Ctrl+C."""
+"""What a program raises when Ctrl+C ends it."""
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator
 
 from tutor.judge import tracebacks
+from tutor.judge.ending import SPIN_ENDINGS
 from tutor.judge.symptom import Symptom
-from tutor.judge.tracebacks import Traceback
-from tutor.mistakes.entry import Case, Evidence, Found, found, found_at, mistake
+from tutor.judge.tracebacks import Frame, Traceback
+from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-
-SPIN_ENDINGS = ("KeyboardInterrupt", "ExternalShutdownException")
-"""The exceptions with which rclpy ends a spin on Ctrl+C."""
+from tutor.mistakes.exceptions import found_in
+from tutor.mistakes.raised import RaisedException
 
 _SHUT_DOWN_TWICE = ("rcl_shutdown already called", "Context must be initialized before it can be shutdown")
 _INVALID_CONTEXT = ("context is invalid", "context is not valid", "context argument is null")
 
 
-def _raised(case: Case) -> Traceback | None:
-    """The traceback that the process has written after Ctrl+C: the criterion's own choice."""
-    found: Traceback | None = case.about("raised")
-    return found
+def _raised(case: Case) -> RaisedException | None:
+    """The last exception that the process has raised after Ctrl+C, as the criterion chose it; None without one."""
+    last: Traceback | None = case.about("raised")
+    return next((seen for seen in case.exceptions if seen.traceback is last), None)
 
 
-def _traceback(kind: str, message: str = "") -> Traceback:
-    return Traceback(kind, message, ())
+def _example(kind: str, message: str = "", *frames: Frame) -> Traceback:
+    return Traceback(kind, message, frames)
 
 
 @mistake(
@@ -33,10 +32,9 @@ def _traceback(kind: str, message: str = "") -> Traceback:
     name="shutdown() after Ctrl+C",
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.PROCESS,
-    says="{place}rclpy has already shut down on Ctrl+C, so a second shutdown() raises RCLError",
-    do="Shut down with the function of rclpy that does so only if it is still needed.",
-    remark="{line} raises RCLError when Ctrl+C has already shut rclpy down; rclpy.try_shutdown() does not.",
-    example=in_run(Symptom.ENDS_BADLY, raised=_traceback("rclpy._rclpy_pybind11.RCLError", _SHUT_DOWN_TWICE[0])),
+    says="Ctrl+C has already shut rclpy down, so {what} raises {exception}",
+    do="Call try_shutdown in its place, which does nothing if rclpy is down already.",
+    example=in_run(Symptom.ENDS_BADLY, raised=_example("rclpy._rclpy_pybind11.RCLError", _SHUT_DOWN_TWICE[0])),
 )
 def shut_down_twice(case: Case) -> Iterator[Found]:
     """After Ctrl+C, rclpy is shut down a second time.
@@ -64,16 +62,14 @@ def shut_down_twice(case: Case) -> Iterator[Found]:
 
     Lesson: i2.3, on ending cleanly.
     """
-    raised = _raised(case)
-    if raised is not None and any(words in raised.message for words in _SHUT_DOWN_TWICE):
-        own = raised.own(case.trace.folder)
-        place = f"line {own.line}: " if own is not None else ""
-        yield found_at(own, place=place)
-    elif case.symptom is Symptom.ENDED and case.trace.exit is None:  # asked for a remark
-        for file in case.files:
-            for call in file.calls("shutdown"):
-                if ast.unparse(call) == "rclpy.shutdown()":
-                    yield found(file, call, place="")
+    seen = _raised(case)
+    if seen is not None and any(words in seen.traceback.message for words in _SHUT_DOWN_TWICE):
+        own = seen.line
+        yield found_in(
+            seen,
+            what=f"{own.code} ({own.name}, line {own.line})" if own is not None else "a second shutdown()",
+            exception=seen.name,
+        )
 
 
 @mistake(
@@ -84,7 +80,7 @@ def shut_down_twice(case: Case) -> Iterator[Found]:
     do="Join the threads in main(), and catch KeyboardInterrupt there.",
     example=in_run(
         Symptom.ENDS_BADLY,
-        raised=Traceback("KeyboardInterrupt", "", (tracebacks.Frame("/lib/threading.py", 1, "_shutdown", ""),)),
+        raised=_example("KeyboardInterrupt", "", Frame("/lib/threading.py", 1, "_shutdown", "")),
     ),
 )
 def threads_at_exit(case: Case) -> Iterator[Found]:
@@ -108,9 +104,9 @@ def threads_at_exit(case: Case) -> Iterator[Found]:
 
     See it: Ctrl+C in a terminal: "Exception ignored in: <module 'threading'".
     """
-    raised = _raised(case)
-    if raised is not None and any(
-        frame.function == "_shutdown" and frame.path.endswith("/threading.py") for frame in raised.frames
+    seen = _raised(case)
+    if seen is not None and any(
+        frame.function == "_shutdown" and frame.path.endswith("/threading.py") for frame in seen.traceback.frames
     ):
         yield Found()
 
@@ -119,9 +115,9 @@ def threads_at_exit(case: Case) -> Iterator[Found]:
     "traceback-on-exit",
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.PROCESS,
-    says="{exception} reaches the end of the program{place}",
-    do="Around the spin, catch what Ctrl+C raises there: KeyboardInterrupt and ExternalShutdownException.",
-    example=in_run(Symptom.ENDS_BADLY, raised=_traceback("KeyboardInterrupt")),
+    says="{raised} reaches the end of the {what}, and nothing catches it",
+    do="{do}",
+    example=in_run(Symptom.ENDS_BADLY, raised=_example("KeyboardInterrupt")),
 )
 def uncaught_interrupt(case: Case) -> Iterator[Found]:
     """Ctrl+C ends the program with a traceback.
@@ -144,20 +140,28 @@ def uncaught_interrupt(case: Case) -> Iterator[Found]:
 
     Lesson: i2.3, on ending cleanly.
     """
-    raised = _raised(case)
-    if raised is not None and raised.type.endswith(SPIN_ENDINGS):
-        own = raised.own(case.trace.folder)
-        name = raised.type.rpartition(".")[2]
-        yield found_at(own, exception=name, place=f" (line {own.line} of {own.name})" if own is not None else "")
+    seen = _raised(case)
+    if seen is None or not seen.name.endswith(SPIN_ENDINGS):
+        return
+    frames = [frame for frame in seen.traceback.frames if tracebacks.is_in_folder(frame.path, seen.folder)]
+    # What main() was doing; the innermost line may be in a callback, where nothing is to be caught.
+    at = next((frame for frame in frames if frame.function != "<module>"), next(iter(frames), None))
+    if any(frame.path.endswith("/threading.py") for frame in seen.traceback.frames):
+        do = "Give the thread a function of yours that spins, and catches ExternalShutdownException."
+        yield found_in(seen, what="thread", do=do)
+    else:
+        there = "the spin" if at is None or "spin" in at.code else f"line {at.line}"
+        do = f"Catch around {there} what Ctrl+C raises: KeyboardInterrupt, and from a spin ExternalShutdownException."
+        yield found_in(seen, what="program", do=do)
 
 
 @mistake(
     "used-after-shutdown",
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.PROCESS,
-    says="{exception}{place}: after Ctrl+C a node can neither publish nor log over ROS",
+    says="{raised}: after Ctrl+C a node can neither spin nor publish",
     do="Stop what uses the node before the shutdown, or do without ROS there: print() still works.",
-    example=in_run(Symptom.ENDS_BADLY, raised=_traceback("rclpy._rclpy_pybind11.RCLError", _INVALID_CONTEXT[1])),
+    example=in_run(Symptom.ENDS_BADLY, raised=_example("rclpy._rclpy_pybind11.RCLError", _INVALID_CONTEXT[1])),
 )
 def used_after_shutdown(case: Case) -> Iterator[Found]:
     """A node is used after the shutdown.
@@ -177,20 +181,18 @@ def used_after_shutdown(case: Case) -> Iterator[Found]:
 
     See it: Ctrl+C in a terminal.
     """
-    raised = _raised(case)
-    if raised is not None and any(words in raised.message for words in _INVALID_CONTEXT):
-        own = raised.own(case.trace.folder)
-        place = f" (line {own.line} of {own.name})" if own is not None else ""
-        yield found_at(own, exception=raised.raised, place=place)
+    seen = _raised(case)
+    if seen is not None and any(words in seen.traceback.message for words in _INVALID_CONTEXT):
+        yield found_in(seen)
 
 
 @mistake(
     "exception-on-exit",
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.SYMPTOM,
-    says="{exception}{place}, after Ctrl+C",
-    do="Let the program end normally after Ctrl+C, which is no error: return from main().",
-    example=in_run(Symptom.ENDS_BADLY, raised=_traceback("ValueError", "ding")),
+    says="after Ctrl+C, {raised}",
+    do="{do}",
+    example=in_run(Symptom.ENDS_BADLY, raised=_example("ValueError", "ding")),
 )
 def exception_on_exit(case: Case) -> Iterator[Found]:
     """Something raises an exception while the program ends.
@@ -210,8 +212,11 @@ def exception_on_exit(case: Case) -> Iterator[Found]:
 
     See it: Ctrl+C in a terminal, then `echo $?`.
     """
-    raised = _raised(case)
-    if raised is not None:
-        own = raised.own(case.trace.folder)
-        place = f" (line {own.line} of {own.name})" if own is not None else ""
-        yield found_at(own, exception=raised.raised, place=place)
+    for seen in case.exceptions[:1] if case.about("raised") is not None else ():
+        if seen.line is None:
+            do = "Find the line of yours that leads to it in the last lines of the output."
+        elif seen.line.code.startswith("raise"):
+            do = "Let it end there without an exception: Ctrl+C is a normal end, and no error."
+        else:
+            do = f"Change line {seen.line.line} of {seen.line.name}, where Python could not go on."
+        yield found_in(seen, do=do)

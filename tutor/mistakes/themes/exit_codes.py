@@ -1,16 +1,26 @@
-"""Programs that do not end on Ctrl+C, or end with the wrong exit code."""
+"""Programs that end on Ctrl+C with the wrong exit code."""
 
 from __future__ import annotations
 
 import ast
+import signal
 from collections.abc import Iterator
+from dataclasses import replace
 
 from tutor.judge import tracebacks
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Ending, Exit
 from tutor.mistakes.entry import Case, Evidence, Found, found, found_at, mistake
 from tutor.mistakes.examples import in_run
-from tutor.source import calls_in
+from tutor.source import NodeFile, calls_in
+
+_EXITS = ("exit", "_exit", "SystemExit")
+_CRASHES = (signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT)
+
+
+def _exit(case: Case) -> Exit | None:
+    ending: Ending | None = case.about("ending")
+    return ending.exit if ending is not None else case.trace.exit
 
 
 @mistake(
@@ -18,14 +28,14 @@ from tutor.source import calls_in
     explains=[Symptom.ENDS_BADLY],
     evidence=Evidence.RUN,
     says="after Ctrl+C the process crashes with {exit}{place}",
-    do="End whatever uses the node, such as threads, before you destroy it.",
+    do="{do}",
     example=in_run(Symptom.ENDS_BADLY, ending=Ending(Exit(None, 11, 2.0), 0.2, 5.0)),
 )
 def crash_on_exit(case: Case) -> Iterator[Found]:
     """The program crashes while it ends.
 
     Inside, rclpy's objects are C++ objects. If one is destroyed while a thread still uses it, a signal ends the
-    process, and there is no exit code of its own.
+    process, and there is no exit code of its own; os.abort() does the same.
 
     Bad:
 
@@ -39,11 +49,21 @@ def crash_on_exit(case: Case) -> Iterator[Found]:
 
     See it: Ctrl+C in a terminal, then `echo $?`: 139 is a crash.
     """
-    ending = case.about("ending")
-    if ending is not None and ending.exit is not None and ending.exit.signal in (6, 7, 11):
-        own = tracebacks.own_frame(tracebacks.dumped_frames(ending.output), case.trace.folder)
-        place = f", at line {own.line} of {own.name}" if own is not None else ""
-        yield found_at(own, exit=ending.exit, place=place)
+    ending, ended = case.about("ending"), _exit(case)
+    if ending is None or ended is None or ended.signal not in _CRASHES:
+        return
+    dumped = tracebacks.dumped_frames(ending.output)
+    own = [
+        replace(frame, code=case.program.named(frame.name).line(frame.line))
+        for frame in dumped
+        if tracebacks.is_in_folder(frame.path, case.trace.folder)
+    ]
+    aborting = next((frame for frame in own if "abort(" in frame.code), None)
+    at = aborting or next(iter(own), None)
+    do = "End whatever uses the node, such as threads, before you destroy it."
+    if aborting is not None:
+        do = "Let the program end there without aborting: Ctrl+C is a normal end, and no error."
+    yield found_at(at, exit=ended, place=f" ({at})" if at is not None else "", do=do)
 
 
 @mistake(
@@ -71,58 +91,36 @@ def nonzero_exit(case: Case) -> Iterator[Found]:
 
     See it: Ctrl+C in a terminal, then `echo $?`.
     """
-    ending = case.about("ending")
-    ended = ending.exit if ending is not None else case.trace.exit
+    ended = _exit(case)
     if ended is None:
         return
-    for file in case.files if case.symptom is Symptom.ENDS_BADLY else ():
-        for registered in file.calls("signal"):
-            handler = registered.args[1] if len(registered.args) == 2 else None
-            function = file.function(handler)
-            for call in calls_in(function, "exit", "_exit", "SystemExit"):
-                if len(call.args) == 1 and ast.unparse(call.args[0]) not in ("0", "None"):
-                    yield found(file, call, exit=ended, what=f": line {call.lineno} gives it that code")
+    for file in case.files:
+        for call in _exits(file, ended):
+            what = f", and line {call.lineno} gives it that code: {file.line(call.lineno)}"
+            yield found(file, call, exit=ended, what=what)
     yield Found({"exit": ended, "what": ""})
 
 
-@mistake(
-    "sigint-ignored",
-    name="SIGINT ignored",
-    explains=[Symptom.DOES_NOT_END],
-    evidence=Evidence.SYMPTOM,
-    says="the process goes on after Ctrl+C{what}",
-    do="Let KeyboardInterrupt end the program, with every loop and thread that it has started.",
-    example=in_run(Symptom.DOES_NOT_END),
-)
-def sigint_ignored(case: Case) -> Iterator[Found]:
-    """Ctrl+C does not end the program.
+def _exits(file: NodeFile, ended: Exit) -> Iterator[ast.Call]:
+    """The calls that may have ended a program with its exit code, those in a signal handler first."""
+    handlers = [registered.args[1] for registered in file.calls("signal") if len(registered.args) == 2]
+    inside = [handler if isinstance(handler, ast.Lambda) else file.function(handler) for handler in handlers]
+    calls = [call for function in inside for call in calls_in(function, *_EXITS)]
+    for call in (*calls, *file.calls(*_EXITS)):
+        if len(call.args) == 1 and _may_be(file, call.args[0], ended.code):
+            yield call
 
-    Ctrl+C sends the signal SIGINT, which Python turns into KeyboardInterrupt. A bare except around the spin, a loop
-    that does not ask rclpy.ok(), a thread that runs on, or a signal handler that does nothing keeps the program alive.
 
-    Bad:
-
-        while True:
-            try:
-                rclpy.spin_once(node)
-            except:
-                pass
-
-    Good:
-
-        while rclpy.ok():
-            rclpy.spin_once(node)
-
-    See it: Ctrl+C in a terminal; then end it with Ctrl+Z and kill.
-    """
-    for file in case.files:
-        for node in file.nodes:
-            match node:
-                case ast.ExceptHandler(type=None):
-                    yield found(file, node, what=f": the except in line {node.lineno} catches everything")
-                case ast.ExceptHandler(type=ast.Name(id="BaseException")):
-                    yield found(file, node, what=f": the except in line {node.lineno} catches everything")
-        for call in file.calls("signal"):
-            if len(call.args) == 2 and ast.unparse(call.args[1]).endswith("SIG_IGN"):
-                yield found(file, call, what=f": line {call.lineno} switches SIGINT off")
-    yield Found({"what": ""})
+def _may_be(file: NodeFile, given: ast.expr, code: int | None) -> bool:
+    """Whether what is given to exit() may be this exit code."""
+    match given:
+        case ast.Constant(value=str()):
+            return code == 1
+        case ast.Constant(value=value):
+            return (value or 0) == code
+        case ast.Call(func=called):
+            function = file.function(called)
+            returned = [node.value for node in ast.walk(function) if isinstance(node, ast.Return)] if function else []
+            values = [value for value in returned if value is not None]
+            return any(isinstance(value, ast.Call) or _may_be(file, value, code) for value in values)
+    return code is not None

@@ -154,13 +154,13 @@ def does_not_end(case: Case) -> Iterator[Found]:
 
     Bad:
 
-        while True:
-            time.sleep(1.0)
+        Timer(60.0, report).start()
+        rclpy.spin(node)
 
     Good:
 
-        while rclpy.ok():
-            rclpy.spin_once(node, timeout_sec=1.0)
+        node.create_timer(60.0, report)
+        rclpy.spin(node)
 
     See it: Ctrl+C in a terminal, then `ps` for what is left.
     """
