@@ -24,7 +24,7 @@ from checks.i2_1.facts import (
 )
 from checks.i2_1.failures import are_alike, show
 from tutor.judge import ending, tracebacks
-from tutor.judge.rates import TOLERANCE, Rate, describe
+from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Level, Trace
 from tutor.judge.verdict import Verdict, failed, passed, skipped
@@ -106,17 +106,18 @@ def _judge_fast(seen: ParameterStarts) -> Verdict | None:
         return None
     observed = f"with {given}: {describe(start.rate, start.messages)}, not {LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
     other = seen.slow.rate if seen.slow is not None else None
-    return failed(_EXPECTED_AT_LAUNCH, observed, _wrong_rate(start, LAUNCH_HZ, other))
+    unchanged = start.rate is not None and (start.rate.agrees_with(DEFAULT_HZ) or are_alike(start.rate, other))
+    return failed(_EXPECTED_AT_LAUNCH, observed, _wrong_rate(start, LAUNCH_HZ, unchanged=unchanged))
 
 
 def _judge_slow(seen: ParameterStarts) -> Verdict | None:
-    """Return the failure that the start with a slow rate shows."""
+    """Return the failure that the start with a slow rate shows; the one with a fast rate showed none."""
     start = seen.slow
     if start is None or (start.rate is not None and start.rate.agrees_with(SLOW_LAUNCH_HZ)):
         return None
     given = f"{RATE}:={SLOW_LAUNCH_HZ}: {describe(start.rate, start.messages)}"
     observed = f"with {given}, not {SLOW_LAUNCH_HZ} Hz ±{TOLERANCE:.0%}"
-    return failed(_EXPECTED_AT_LAUNCH, observed, _wrong_rate(start, SLOW_LAUNCH_HZ, None))
+    return failed(_EXPECTED_AT_LAUNCH, observed, _wrong_rate(start, SLOW_LAUNCH_HZ, unchanged=False))
 
 
 def _judge_disabled(seen: ParameterStarts) -> Verdict | None:
@@ -147,16 +148,15 @@ def _judge_disabled(seen: ParameterStarts) -> Verdict | None:
     )
 
 
-def _wrong_rate(start: RatedStart, asked: float, other: Rate | None) -> Observation:
-    """A start with another rate than asked for; `other`: the rate of a start that asked for another one, if known."""
-    rate = start.rate
+def _wrong_rate(start: RatedStart, asked: float, *, unchanged: bool) -> Observation:
+    """A start with another rate than asked for; `unchanged`: the same whatever is asked for."""
     return Symptom.WRONG_RATE.seen(
         start.trace,
         parameter=RATE,
         wanted_hz=asked,
-        rate=rate,
-        unchanged=rate is not None and (rate.agrees_with(DEFAULT_HZ) or are_alike(rate, other)),
-        inverted=rate is None or rate.agrees_with(1 / asked),
+        rate=start.rate,
+        unchanged=unchanged,
+        inverted=start.rate is None or start.rate.agrees_with(1 / asked),
         at_start=True,
     )
 
@@ -180,7 +180,7 @@ def judge_bad_launch(plain: PlainStart, seen: Sequence[Trace], good: ParameterSt
             why = Symptom.BAD_VALUE_ACCEPTED.seen(
                 trace, parameter=RATE, value=trace.parameters[RATE], at_start=True, warning=warning
             )
-            observed = f"with {given}: {found.raised if found else warning or 'no message about it'}"
+            observed = f"with {given}: {found.plain if found else warning or 'no message about it'}"
             return failed(expected, observed, why, output_tail(trace))
     return passed(expected, "it does", [messages_naming_rate(trace)[-1] for trace in seen])
 

@@ -20,7 +20,7 @@ def _seen(case: Case, how: str) -> Iterator[Found]:
     "does-not-resume",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
-    says="{name} stops the messages, but does not bring them back when it is set to true again",
+    says="{name} set to false stops the messages, and set to true again it does not bring them back",
     do="Let one timer run all the time, and let its callback decide whether to publish.",
     example=in_run(Symptom.CHANGE_IGNORED, parameter="ringing", how="does not resume"),
 )
@@ -215,3 +215,43 @@ def rate_changed(case: Case) -> Iterator[Found]:
     See it: `ros2 topic hz TOPIC` before and after.
     """
     return _seen(case, "rate changed")
+
+
+@CATALOGUE.mistake(
+    "only-one-change-followed",
+    explains=[Symptom.WRONG_RATE],
+    evidence=Evidence.SYMPTOM,
+    says="set to {followed:g}, {name} made a new timer; set to {wanted:g} afterwards, it did not",
+    do="Find the condition that lets only some changes of the rate reach the timer.",
+    example=in_run(
+        Symptom.WRONG_RATE, parameter="tempo", unchanged=True, at_start=False, followed_hz=10.0, wanted_hz=0.75
+    ),
+)
+def followed_once(case: Case) -> Iterator[Found]:
+    """One change of a rate is followed, and another one is not.
+
+    A new value counts whether it is higher or lower, the first or the fifth. A condition meant for something else,
+    such as a comparison with the old value, leaves some of them out.
+
+    Bad:
+
+        def follow(self, parameters):
+            if parameters[0].value > self.tempo:
+                self.replace_timer(parameters[0].value)
+
+    Good:
+
+        def follow(self, parameters):
+            if parameters[0].value != self.tempo:
+                self.replace_timer(parameters[0].value)
+
+    See it: `ros2 topic hz TOPIC` after raising the rate, and after lowering it.
+    """
+    if case.about("unchanged") and case.about("followed_hz"):
+        yield Found(
+            {
+                "name": case.about("parameter"),
+                "followed": case.about("followed_hz"),
+                "wanted": case.about("wanted_hz"),
+            }
+        )

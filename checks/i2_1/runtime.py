@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from checks.i2_1.facts import (
     DEFAULT_HZ,
     DOWN_HZ,
@@ -71,9 +73,9 @@ def _fail_silenced(seen: RuntimeChanges) -> Verdict:
     return failed(EXPECTED_CHANGES, observed, _changed(seen.trace, ENABLED, how), output_tail(seen.trace))
 
 
-def _changed(trace: Trace, parameter: str, how: str) -> Observation:
+def _changed(trace: Trace, parameter: str, how: str, **about: Any) -> Observation:
     """A change has an effect, but not the right one; `how` in words that this exercise's mistakes know."""
-    return Symptom.CHANGE_IGNORED.seen(trace, parameter=parameter, how=how)
+    return Symptom.CHANGE_IGNORED.seen(trace, parameter=parameter, how=how, **about)
 
 
 def judge_runtime(seen: RuntimeChanges, retimed: RateChanges) -> Verdict:
@@ -116,7 +118,10 @@ def _fail_if_not_as_before(seen: RuntimeChanges, expected: str, *, any_rate: boo
     if rate_is_unchanged(seen.rate, seen.base_hz, seen):
         return None
     observed = f"{actions}: {describe(seen.rate, len(texts))}, not {seen.base_hz:g} Hz ±{TOLERANCE:.0%} as before"
-    return failed(expected, observed, _changed(seen.trace, ENABLED, "rate changed"))
+    if not texts:
+        return failed(expected, observed, _changed(seen.trace, ENABLED, "does not resume"))
+    changed = _changed(seen.trace, ENABLED, "rate changed", rate=seen.rate, wanted_hz=seen.base_hz)
+    return failed(expected, observed, changed)
 
 
 def _burst_on_resume(seen: RuntimeChanges) -> list[str]:
@@ -152,6 +157,7 @@ def _wrong_rate(seen: RateChanges, asked: float, rate: Rate | None) -> Observati
     faster = seen.steps[0][1]
     left_behind = asked == DOWN_HZ and faster is not None and faster.hz > UP_HZ + DEFAULT_HZ / 2
     as_before = rate is not None and rate.agrees_with(before) and not left_behind
+    followed = asked == DOWN_HZ and faster is not None and faster.agrees_with(UP_HZ)
     same = rate is not None and rate.hz < UP_HZ and all(are_alike(rate, other) for _, other, _ in seen.steps)
     return Symptom.WRONG_RATE.seen(
         seen.trace,
@@ -161,4 +167,6 @@ def _wrong_rate(seen: RateChanges, asked: float, rate: Rate | None) -> Observati
         unchanged=as_before or same,
         inverted=rate is None or rate.agrees_with(1 / asked),
         at_start=False,
+        followed_hz=UP_HZ if followed else None,
+        earlier_hz=(DEFAULT_HZ,) if asked == UP_HZ else (DEFAULT_HZ, UP_HZ),
     )

@@ -20,7 +20,7 @@ from checks.i2_1.failures import (
 )
 from tutor.judge import tracebacks
 from tutor.judge.parameter_answers import is_from_rclpy
-from tutor.judge.rates import describe
+from tutor.judge.rates import Rate, describe
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.verdict import Verdict, failed, passed, skipped
@@ -38,7 +38,7 @@ def judge_validation(seen: BadRates, switched: RuntimeChanges) -> Verdict:
         return skipped(f"not judged, because {describe_refusal(seen.set_good)}: see `timer`")
     if not rate_is_unchanged(seen.rate, seen.base_hz, switched, seen.rate_before):
         observed = f"after the rejection: {describe(seen.rate, seen.messages)}"
-        return failed(expected, observed, _taken_over(seen.trace, "the rate changes"))
+        return failed(expected, observed, _rate_changed(seen.trace, seen.rate))
     return passed(expected, f'rejected: "{seen.rejected[0][0].reason}"; still {seen.rate}')
 
 
@@ -69,17 +69,18 @@ def _fail_if_not_refused(seen: BadRates, expected: str) -> Verdict | None:
             return fail_not_set(expected, answer, seen.trace, seen.stuck)
         if value != seen.before:
             observed = f"{bad} was rejected, but {RATE} is {show(value)} now"
-            return failed(expected, observed, _taken_over(seen.trace, "the value is another one"))
+            return failed(expected, observed, _taken_over(seen.trace, "the value changes"))
     return None
 
 
 def _fail_if_crashed(answer: SetAnswer, expected: str, trace: Trace) -> Verdict | None:
     """Fail a node that crashed because it accepted a bad rate and created a timer from it."""
     found = tracebacks.last_traceback(trace)
-    raised = found.raised if found is not None and trace.exit is not None else ""
-    if not raised.startswith("ZeroDivisionError") and "timer period must be non-negative" not in raised:
+    if found is None or trace.exit is None:
         return None
-    observed = f"{RATE} set to {answer.values[RATE]} ends the node: {raised}"
+    if found.type != "ZeroDivisionError" and "timer period must be non-negative" not in found.message:
+        return None
+    observed = f"{RATE} set to {answer.values[RATE]} ends the node: {found.plain}"
     return failed(expected, observed, _accepted(trace, answer), output_tail(trace))
 
 
@@ -90,6 +91,13 @@ def _accepted(trace: Trace, answer: SetAnswer) -> Observation:
 def _taken_over(trace: Trace, what: str) -> Observation:
     """A value was rejected, and something has changed all the same."""
     return Symptom.BAD_VALUE_ACCEPTED.seen(trace, parameter=RATE, taken_over=what)
+
+
+def _rate_changed(trace: Trace, rate: Rate | None) -> Observation:
+    """A value was rejected, and messages come at another rate, or no more."""
+    if trace.exit is not None:
+        return Symptom.ENDED.seen(trace)
+    return _taken_over(trace, "the rate changes" if rate is not None else "the messages stop")
 
 
 def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges, retimed: RateChanges) -> Verdict:
@@ -114,8 +122,8 @@ def judge_atomic(seen: AtomicRequests, switched: RuntimeChanges, retimed: RateCh
     changed = next((held for held in seen.values if held != seen.before), None)
     if changed is not None or seen.shown is not None:
         now = f'a message reads "{text_of(seen.shown)}"' if seen.shown else f"{PREFIX}, {RATE} are {changed}"
-        return failed(expected, f"rejected, but {now}", _taken_over(seen.trace, "a part of the request is applied"))
+        return failed(expected, f"rejected, but {now}", _taken_over(seen.trace, "applies a part of the request"))
     if not rate_is_unchanged(seen.rate, seen.base_hz, switched):
         observed = f"rejected, but then {describe(seen.rate, seen.messages)}"
-        return failed(expected, observed, _taken_over(seen.trace, "the timer is another one"))
+        return failed(expected, observed, _rate_changed(seen.trace, seen.rate))
     return passed(expected, f'both rejected ("{seen.answers[0].reason}"), nothing changed')

@@ -31,6 +31,13 @@ _CHAINED = (
     "The above exception was the direct cause of the following exception:",
 )
 
+_OF_NO_HELP = re.compile(
+    r"\w+\(\): incompatible function arguments.*|.*Unable to (convert|cast).*call argument.*"
+    r"|<built-in method \w+ of pybind11.*| This might be a ROS 1 message type.*"
+    r"|, at /[\w/.-]+:\d+.*| \(/[^()]*\)(?=\.|$)"
+)
+"""What bindings and libraries add to a message: signatures in C++, places in their sources, a guess about ROS 1."""
+
 
 @dataclass(frozen=True, slots=True)
 class Frame:
@@ -79,6 +86,17 @@ class Traceback:
     def raised(self) -> str:
         """The last line of the traceback, as Python prints it."""
         return f"{self.type}: {self.message}" if self.message else self.type
+
+    @property
+    def plain_message(self) -> str:
+        """The message, without what bindings and libraries add to it."""
+        return _OF_NO_HELP.sub("", self.message).strip()
+
+    @property
+    def plain(self) -> str:
+        """The exception in one line: its name without module, and its plain message."""
+        name = self.type.rpartition(".")[2]
+        return f"{name}: {self.plain_message}" if self.plain_message else name
 
     def own(self, folder: str) -> Frame | None:
         """The innermost frame in the learner's own code: the line that the learner can change."""

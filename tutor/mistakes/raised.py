@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import re
 from dataclasses import dataclass
 
 from tutor.judge.tracebacks import Frame, Traceback
@@ -11,13 +10,6 @@ from tutor.source import Program
 
 MAX_CHARACTERS = 110
 """Length to which an exception's message is cut in a sentence."""
-
-_OF_NO_HELP = re.compile(
-    r"\w+\(\): incompatible function arguments.*|.*Unable to (convert|cast).*call argument.*"
-    r"|<built-in method \w+ of pybind11.*| This might be a ROS 1 message type.*"
-    r"|, at /[\w/.-]+:\d+.*| \(/[^()]*\)(?=\.|$)"
-)
-"""What bindings and libraries add to a message: signatures in C++, places in their sources, a guess about ROS 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +31,7 @@ class RaisedException:
     @property
     def raised(self) -> str:
         """The exception in one line, without what helps nobody, and what it led to."""
-        message = _OF_NO_HELP.sub("", self.traceback.message).strip()
+        message = self.traceback.plain_message
         if len(message) > MAX_CHARACTERS:
             message = f"{message[: MAX_CHARACTERS - 3]}..."
         return f"{self.name}: {message}{self.after}" if message else f"{self.name}{self.after}"

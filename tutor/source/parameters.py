@@ -57,6 +57,18 @@ def kept_value(file: NodeFile, name: str) -> ast.Assign | ast.AnnAssign | None:
     return None
 
 
+def copied_once(file: NodeFile, name: str) -> ast.Assign | ast.AnnAssign | None:
+    """The assignment that keeps a parameter's value when the node is set up, if no other one changes that copy."""
+    kept = kept_value(file, name)
+    if kept is None or file.function_around(kept) is not file.setup or file.calls("setattr"):
+        return None
+    target = kept.targets[0] if isinstance(kept, ast.Assign) else kept.target
+    if not isinstance(target, ast.Attribute):
+        return None
+    stored = [node for node in file.nodes if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store)]
+    return kept if [node.attr for node in stored].count(target.attr) == 1 else None
+
+
 def registered_callback(file: NodeFile, kind: str) -> Function | None:
     """The function that is registered as a parameter callback of this kind, such as `ON_SET`; None if none is."""
     for call in file.calls(kind):

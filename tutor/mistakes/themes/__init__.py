@@ -30,10 +30,12 @@ from tutor.mistakes.themes import qos as qos
 from tutor.mistakes.themes import topics as topics
 from tutor.mistakes.themes import timer_periods as timer_periods
 from tutor.mistakes.themes import timer_delays as timer_delays
+from tutor.mistakes.themes import replaced_timers as replaced_timers
 from tutor.mistakes.themes import timers as timers
 from tutor.mistakes.themes import parameter_declarations as parameter_declarations
 from tutor.mistakes.themes import parameter_values as parameter_values
 from tutor.mistakes.themes import parameter_refusals as parameter_refusals
+from tutor.mistakes.themes import parameter_callback_results as parameter_callback_results
 from tutor.mistakes.themes import parameter_callbacks as parameter_callbacks
 from tutor.mistakes.themes import bad_values as bad_values
 from tutor.mistakes.themes import services as services

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
+from tutor.mistakes.themes.messages import unknown_field
 from tutor.source import NodeFile
 from tutor.source.parameters import ON_SET, POST_SET, may_refuse, registered_callback
 
@@ -35,7 +36,7 @@ def no_reason(case: Case) -> Iterator[Found]:
 
     See it: `ros2 param set NODE NAME BAD_VALUE`.
     """
-    if case.about("reason") == "":
+    if case.about("reason") == "" and next(unknown_field(case), None) is None:  # which says where the reason went
         yield Found()
 
 
@@ -72,8 +73,8 @@ def not_named(case: Case) -> Iterator[Found]:
     name="not checked at start-up",
     explains=[Symptom.BAD_VALUE_ACCEPTED],
     evidence=Evidence.RUN,
-    says="a bad {name} at start-up gives {what}, which does not tell anyone which parameter is wrong",
-    do="Check the value when the node is set up, and end with a message that names the parameter.",
+    says="a bad {name} at start-up gives {what}, so whoever typed it cannot tell which parameter is wrong",
+    do="Check the value when the node is set up, and say in a message of your own which parameter is wrong.",
     example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", at_start=True),
 )
 def at_start(case: Case) -> Iterator[Found]:
@@ -98,7 +99,7 @@ def at_start(case: Case) -> Iterator[Found]:
     """
     if case.about("at_start") and not case.about("warning"):
         crashed = any("Traceback" in line.text for line in case.trace.output)
-        what = "only a traceback" if crashed else "no message at all"
+        what = "only a traceback" if crashed else "no message about it"
         yield Found({"name": case.about("parameter", "value"), "what": what})
 
 
@@ -106,9 +107,9 @@ def at_start(case: Case) -> Iterator[Found]:
     "value-changed-all-the-same",
     explains=[Symptom.BAD_VALUE_ACCEPTED],
     evidence=Evidence.SYMPTOM,
-    says="the value is refused, but {what} all the same",
+    says="the node refuses, but {what} all the same",
     do="Look at all values before you apply any, and apply them in a post-set callback.",
-    example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", taken_over="the timer has changed"),
+    example=in_run(Symptom.BAD_VALUE_ACCEPTED, parameter="volume", taken_over="the rate changes"),
 )
 def taken_over(case: Case) -> Iterator[Found]:
     """A refused value has an effect.

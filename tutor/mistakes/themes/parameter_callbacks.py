@@ -9,7 +9,7 @@ from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.source import Function, NodeFile, argument, calls_in
-from tutor.source.parameters import ON_SET, POST_SET, PRE_SET, may_refuse, readings, registered_callback
+from tutor.source.parameters import ON_SET, POST_SET, may_refuse, readings, registered_callback
 
 _UNSEEN = (Symptom.BAD_VALUE_ACCEPTED, Symptom.WRONG_RATE, Symptom.CHANGE_IGNORED)
 
@@ -141,13 +141,29 @@ def _unregistered(file: NodeFile) -> Iterator[Found]:
             yield found(file, call, what=f"{code} calls the callback at once, and registers what it returns")
         elif around is not None and file.setup is not None and not _is_reached(file, around):
             yield found(file, call, what=f"{code} registers it in {around.name}, which nothing calls at the start")
-    if calls or file.calls(PRE_SET):
-        return
     used = {node.attr for node in file.nodes if isinstance(node, ast.Attribute)}
     used |= {node.id for node in file.nodes if isinstance(node, ast.Name)}
+    used |= {node.value for node in file.nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)}
     for function in file.functions:
-        if function.name not in used and "SetParametersResult" in ast.unparse(function):
-            yield found(file, function, what=f"nothing calls {function.name} (line {function.lineno})")
+        if function.name not in used and not function.decorator_list and _is_parameter_callback(function):
+            yield found(file, function, what=f"nothing registers {function.name} (line {function.lineno})")
+
+
+def _is_parameter_callback(function: Function) -> bool:
+    """Whether a function returns a SetParametersResult, or looks at the names and values of a list of parameters."""
+    if "SetParametersResult(" in ast.unparse(function):
+        return True
+    given = [each.arg for each in function.args.args if each.arg not in ("self", "cls")]
+    for node in ast.walk(function):
+        match node:
+            case ast.For(target=ast.Name(id=each), iter=ast.Name(id=many)) if given == [many]:
+                asked = {
+                    inner.attr
+                    for inner in ast.walk(node)
+                    if isinstance(inner, ast.Attribute) and isinstance(inner.value, ast.Name) and inner.value.id == each
+                }
+                return {"name", "value"} <= asked
+    return False
 
 
 def _is_reached(file: NodeFile, function: Function) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from tutor.judge.symptom import Symptom
@@ -66,9 +67,17 @@ def integer_parameter(case: Case) -> Iterator[Found]:
         yield _placed(case, next(iter(answer.values)))
 
 
+_NOT_SET = "not set"
+"""The type of a parameter without a value."""
+
+_WRONG_TYPE = re.compile(r"Wrong parameter type, expected 'Type\.(?P<declared>\w+)' got 'Type\.(?P<set>\w+)'")
+_TYPES = {"BOOL": "boolean"}
+"""Types of parameters that rclpy calls by another name than `ros2 param describe`."""
+
+
 @mistake(
     "wrong-parameter-type",
-    explains=(Symptom.NOT_DECLARED,),
+    explains=(Symptom.NOT_DECLARED, Symptom.REFUSED),
     evidence=Evidence.RUN,
     says="{name} is of type {given}, not {wanted}{where}: the type of the default is the type of the parameter",
     do="Give it a default of the type {wanted}.",
@@ -93,15 +102,19 @@ def wrong_parameter_type(case: Case) -> Iterator[Found]:
     See it: `ros2 param describe NODE NAME`.
     """
     name, given, wanted = case.about("parameter"), case.about("found"), case.about("type")
-    if given is not None and wanted is not None and given.type != wanted:
+    if given is not None and wanted is not None and given.type not in (wanted, _NOT_SET):
         yield _placed(case, name, given=given.type, wanted=wanted)
+    answer = case.about("answer")
+    if answer is not None and (refused := _WRONG_TYPE.search(answer.reason)):
+        declared, wanted = (_TYPES.get(each, each.lower()) for each in refused.group("declared", "set"))
+        yield _placed(case, name, given=declared, wanted=wanted)
 
 
 @mistake(
     "wrong-default",
     explains=(Symptom.NOT_DECLARED,),
     evidence=Evidence.RUN,
-    says="{name} begins as {given}, not as {wanted}{where}",
+    says="{name} begins {given}, not as {wanted}{where}",
     do="Declare it with the default that is asked for.",
     example=in_run(
         Symptom.NOT_DECLARED,
@@ -128,8 +141,12 @@ def wrong_default(case: Case) -> Iterator[Found]:
     See it: `ros2 param get NODE NAME` right after the start.
     """
     name, given, default = case.about("parameter"), case.about("found"), case.about("default")
-    if given is not None and default is not None and given.type == case.about("type") and given.value != default:
-        yield _placed(case, name, given=_shown(given.value), wanted=_shown(default))
+    if given is None or default is None:
+        return
+    if given.type == _NOT_SET:
+        yield _placed(case, name, given="without a value", wanted=_shown(default))
+    elif given.type == case.about("type") and given.value != default:
+        yield _placed(case, name, given=f"as {_shown(given.value)}", wanted=_shown(default))
 
 
 def _shown(value: object) -> str:

@@ -177,38 +177,3 @@ def parameter_object(case: Case) -> Iterator[Found]:
             first = next(iter(constants([call])), None)
             if isinstance(around, ast.Assign | ast.FormattedValue) and first == _name(case):
                 yield found(file, call)
-
-
-@mistake(
-    "read-only-parameter",
-    name="read-only parameter",
-    explains=(Symptom.REFUSED, Symptom.CHANGE_IGNORED),
-    says="{line} makes a parameter read-only, so it keeps its first value: {code}",
-    do="Leave out read_only if the value should change at run time.",
-)
-def read_only(case: Case) -> Iterator[Found]:
-    """A parameter is declared read-only.
-
-    A descriptor with read_only=True fixes the value at start-up; every later set is refused by rclpy itself.
-
-    Bad:
-
-        self.declare_parameter('volume', 7, ParameterDescriptor(read_only=True))
-
-    Good:
-
-        self.declare_parameter('volume', 7)
-
-    See it: `ros2 param describe NODE NAME` says "Read only: true".
-    """
-    for file in case.files:
-        for node in file.nodes:
-            match node:
-                case ast.keyword(arg="read_only", value=ast.Constant(value=True) as value):
-                    yield found(file, value)
-                case ast.Assign(targets=[ast.Attribute(attr="read_only")], value=ast.Constant(value=True)):
-                    yield found(file, node)
-                case ast.arguments(args=given, defaults=defaults) if defaults:
-                    for each, default in zip(given[-len(defaults) :], defaults, strict=True):
-                        if each.arg == "read_only" and isinstance(default, ast.Constant) and default.value is True:
-                            yield found(file, default)

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from functools import partial
 
 from tutor.judge.symptom import Symptom
-from tutor.mistakes.entry import Case, Evidence, Found, mistake
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
+from tutor.source.parameters import ON_SET, copied_once, registered_callback
 
 symptom = partial(mistake, evidence=Evidence.SYMPTOM, says="{says}", do="{do}")
 
@@ -70,6 +71,12 @@ def no_answer(case: Case) -> Iterator[Found]:
 
     See it: `ros2 param list NODE` gets no answer, though `ros2 node list` shows the node.
     """
+    if case.answers:
+        return in_words(
+            case,
+            f"{case.nodes} spins, as it has answered before, but this request got no answer",
+            "Look for a callback that does not return: a loop, a sleep, or a wait for something that cannot come.",
+        )
     return in_words(
         case,
         f"{case.nodes} is up, but answers no request",
@@ -169,9 +176,13 @@ def wrong_rate(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic hz TOPIC`, at two settings of the rate.
     """
+    rate, wanted_hz = case.about("rate"), case.about("wanted_hz")
+    known = rate is not None and wanted_hz is not None
     return in_words(
         case,
-        "the rate is not what was asked for",
+        f"messages come at {rate.hz:.2g} Hz, not at {wanted_hz:g} Hz"
+        if known
+        else "the rate is not what was asked for",
         "Follow the value of the rate from the parameter to the timer that uses it, and measure again in Live.",
     )
 
@@ -199,7 +210,19 @@ def parameter_ignored(case: Case) -> Iterator[Found]:
     See it: `ros2 param set NODE NAME VALUE`, then `ros2 param get NODE NAME`, and what the node does.
     """
     name = case.about("parameter", "the parameter")
-    return in_words(
+    if case.about("at_start"):
+        yield from in_words(
+            case,
+            f"{name} is given at start-up, and has no effect",
+            "See what the node uses in its place: a value from the code, or one that was read before.",
+        )
+    for file in case.files:
+        if not case.seen.says and (kept := copied_once(file, name)) is not None:
+            code = file.line(kept.lineno)
+            says = f"line {kept.lineno} copies {name} once, and nothing brings the copy up to date: {code}"
+            do = "Read the parameter again where it is used, or update the copy in a parameter callback."
+            yield found(file, kept, says=says, do=do)
+    yield from in_words(
         case,
         f"{name} is set, but has no effect",
         "Find the line that uses its value, and see when that value is read.",
@@ -223,10 +246,9 @@ def parameter_not_declared(case: Case) -> Iterator[Found]:
 
     See it: `ros2 param list NODE`, and `ros2 param describe NODE NAME` for its type.
     """
-    name = case.about("parameter", "the parameter")
     return in_words(
         case,
-        f"the node does not have the parameter {name} as it should be",
+        f"the node has no parameter {case.about('parameter', 'of that name')}",
         "Declare it where the node is set up, with a default of the right type.",
     )
 
@@ -250,11 +272,16 @@ def good_value_refused(case: Case) -> Iterator[Found]:
 
     See it: `ros2 param set NODE NAME VALUE` prints the reason.
     """
-    name = case.about("parameter", "the parameter")
-    return in_words(
+    name, value = case.about("parameter", "the parameter"), case.about("value", "a good value")
+    shown = str(value).lower() if isinstance(value, bool) else str(value)
+    for file in case.files:
+        if (callback := registered_callback(file, ON_SET)) is not None and not case.seen.says:
+            says = f"{callback.name} (line {callback.lineno}) does not let {name} be set to {shown}"
+            yield found(file, callback, says=says, do="Find the condition there that does not hold for this value.")
+    yield from in_words(
         case,
-        f"{name} cannot be set to a good value",
-        "Read the reason for the refusal, find where it comes from, and let the value through there.",
+        f"{name} cannot be set to {shown}: the node refuses it",
+        "Find where that reason comes from, and let good values through there.",
     )
 
 

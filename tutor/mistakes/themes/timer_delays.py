@@ -132,7 +132,7 @@ def _set_by_services(file: NodeFile) -> list[str]:
     explains=[Symptom.WRONG_RATE],
     evidence=Evidence.RUN,
     says="{name} {wanted:g} is treated as {hz:.0f}",
-    do="Keep the rate's decimals all the way from the parameter to the timer.",
+    do="Find what makes it a whole number between the parameter and the timer: int(), //, round() or a limit.",
     example=in_run(Symptom.WRONG_RATE, parameter="tempo", wanted_hz=1.5, rate=Rate(1.0, 5, 4.0)),
 )
 def whole_rate(case: Case) -> Iterator[Found]:

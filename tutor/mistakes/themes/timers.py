@@ -18,61 +18,6 @@ _TOO_FEW = (Symptom.NO_MESSAGES, Symptom.WRONG_RATE, Symptom.STANDS_STILL, Sympt
 
 
 @mistake(
-    "old-timer-kept",
-    explains=(*_TOO_MANY, Symptom.CHANGE_IGNORED),
-    says="{what}, so both go on",
-    do="Cancel the old timer before you make the new one.",
-    example=in_run(Symptom.WRONG_RATE),
-)
-def old_timer_kept(case: Case) -> Iterator[Found]:
-    """A timer that is replaced runs on until it is cancelled.
-
-    The node keeps every timer that it has made; giving the name to another timer does not stop the first. Their
-    messages add up: a forgotten 1 Hz timer beside a new one of 10 Hz measures 11 Hz.
-
-    Bad:
-
-        class Lamp(Node):
-            def __init__(self):
-                self.timer = self.create_timer(1.0, self.blink)
-                self.add_post_set_parameters_callback(self.follow)
-
-            def follow(self, parameters):
-                self.timer = self.create_timer(1.0 / parameters[0].value, self.blink)
-
-    Good:
-
-        class Lamp(Node):
-            def __init__(self):
-                self.timer = self.create_timer(1.0, self.blink)
-                self.add_post_set_parameters_callback(self.follow)
-
-            def follow(self, parameters):
-                self.timer.cancel()
-                self.timer = self.create_timer(1.0 / parameters[0].value, self.blink)
-
-    See it: `ros2 topic hz TOPIC` after lowering the rate: the old beat goes on beside the new one.
-    """
-    if case.symptom is Symptom.BAD_VALUE_ACCEPTED and not case.about("taken_over"):
-        return
-    for file in case.files:
-        for registration in file.calls("add_on_set_parameters_callback", "add_post_set_parameters_callback"):
-            function = file.function(argument(registration, "callback"))
-            inside = file.reachable_from(function) if function is not None else []
-            ends = file.calls("cancel", "destroy_timer", "destroy")
-            if any(file.function_around(call) in inside for call in ends):
-                continue
-            for call in file.timers:
-                if file.function_around(call) in inside:
-                    what = f"line {call.lineno} makes a new timer, but nothing cancels the one before it"
-                    yield found(file, call, what=what)
-    rate, wanted_hz = case.about("rate"), case.about("wanted_hz")
-    faster = rate is not None and not case.about("unchanged") and rate.hz > wanted_hz
-    if faster and case.about("at_start") is False:
-        yield Found({"what": f"{rate.hz:.1f} Hz is more than {wanted_hz:g} Hz: an older timer also publishes"})
-
-
-@mistake(
     "two-timers",
     explains=(*_TOO_MANY, Symptom.STANDS_STILL),
     says="{line} makes a timer, and line {other} another with the same callback, so both call it",
