@@ -236,7 +236,7 @@ def _not_logged(found: NameProbes) -> Observation:
         (each.trace for each in found.probes if not each.trace.logs and not each.trace.samples_on(TOPIC)), None
     )
     if silent is not None and any(each.topic == TOPIC for each in silent.graph.publishers):
-        return Symptom.NO_MESSAGES.seen(silent, topic=TOPIC, type=TYPE)
+        return Symptom.NO_MESSAGES.seen(silent, answers=found.declared is not None, topic=TOPIC, type=TYPE)
     if found.declared is None and not any(_is_printed(probe) for probe in found.probes):
         return Symptom.NOT_DECLARED.seen(found.probes[0].trace, **_NAME_MISSING)
     names = {parameter.name for parameter in found.declared or ()}

@@ -10,7 +10,8 @@ from tutor.judge.randomness import Pattern
 from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Catalogue, Evidence, Found, found
 from tutor.mistakes.examples import in_run
-from tutor.source import NodeFile
+from tutor.mistakes.themes.messages import field_values, narrow_float
+from tutor.source import NodeFile, last_name
 
 CATALOGUE = Catalogue()
 
@@ -22,15 +23,15 @@ _DRAWING = ("uniform", "random", "randint", "randrange", "gauss", "normalvariate
     name="an int in a float field",
     explains=[Symptom.WRONG_VALUES],
     evidence=Evidence.RUN,
-    says="a field that takes a float is given something else, such as an int, whose bits are then read wrongly",
-    do="Make it a Python float before it goes into the message.",
+    says="{what}, whose field is a float: rclpy reads its bits as those of a float, which gives numbers near 0",
+    do="Make it a float before it goes into the message.",
     example=in_run(Symptom.WRONG_VALUES, wrong=(4e-323,)),
 )
 def int_in_float(case: Case) -> Iterator[Found]:
-    """A float field is given something that is not a float.
+    """A float field gets an int.
 
-    Without assertions, as in the wheels that ros-tutor brings, rclpy reads an int, or numpy's float32, as if it were
-    the bits of a float, and sends a number close to 0. A ROS with assertions stops with "must be of type 'float'".
+    Without assertions, as in the wheels that ros-tutor brings, rclpy reads an int as if it were the bits of a float, and
+    sends a number close to 0. A ROS with assertions stops with "must be of type 'float'".
 
     Bad:
 
@@ -43,8 +44,30 @@ def int_in_float(case: Case) -> Iterator[Found]:
     See it: `ros2 topic echo TOPIC` shows something like 1.2e-322.
     """
     wrong = case.about("wrong") or case.about("drawn", ())
-    if wrong and all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
-        yield Found()
+    if not wrong or not all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
+        return
+    if next(narrow_float(case), None) is not None:  # which says what else it is
+        return
+    for file in case.files:
+        for value, given in field_values(file):
+            if _is_int(given):
+                yield found(
+                    file, value, what=f"line {value.lineno} puts an int ({ast.unparse(given)}) into the message"
+                )
+    yield Found({"what": "something that is no Python float, such as an int, is put into the message"})
+
+
+def _is_int(value: ast.expr) -> bool:
+    """Whether an expression is surely an int."""
+    match value:
+        case ast.Constant(value=number):
+            return type(number) is int
+        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult() | ast.Mod() | ast.FloorDiv(), right=right):
+            return _is_int(left) and _is_int(right)
+        case ast.Call(func=function, args=args):
+            name = last_name(function)
+            return name in ("int", "len", "randint", "randrange") or (name == "round" and len(args) == 1)
+    return False
 
 
 @CATALOGUE.mistake(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from tutor.judge.symptom import Observation, Symptom
@@ -20,19 +20,20 @@ def in_run(
     exit: Exit | None = None,
     stuck_at: Callable[[str], Sequence[Frame]] | None = None,
     answers: bool = True,
+    files: Mapping[str, str] | None = None,
     **about: Any,
 ) -> Callable[[str], Observation]:
     """A function that makes, of an example's source, the observation in which its mistake is found.
 
     `output`: lines on stderr. `logs`: texts logged at the level INFO. `stuck_at`: the stack dump of a node with this
-    source. The example is the file "node.py" in the folder "/ws".
+    source. `files`: the texts of others beside it. The example is the file "node.py" in the folder "/ws".
     """
 
     def observe(source: str) -> Observation:
         trace = Trace(
             "node.py",
             "/ws",
-            sources={"node.py": source},
+            sources={"node.py": source, **(files or {})},
             graph=graph or Graph(("/node",)),
             output=tuple(OutputLine("stderr", line, 0.0) for line in output),
             logs=tuple(LogRecord(20, "node", text, 0.0, 0.0) for text in logs),

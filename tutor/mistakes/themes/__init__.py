@@ -7,6 +7,7 @@ Among entries with the same kind of evidence, the earlier one is asked first.
 from tutor.mistakes.themes import clients as clients
 from tutor.mistakes.themes import answers as answers
 from tutor.mistakes.themes import missing_attributes as missing_attributes
+from tutor.mistakes.themes import hidden_modules as hidden_modules
 from tutor.mistakes.themes import responses as responses
 from tutor.mistakes.themes import known_exceptions as known_exceptions
 from tutor.mistakes.themes import process as process

@@ -114,27 +114,32 @@ def narrow_float(case: Case) -> Iterator[Found]:
     See it: `ros2 topic echo TOPIC` shows numbers close to 0.
     """
     for file in case.files:
-        for value in _field_values(file):
-            around = file.function_around(value) or file.tree
-            for given in values_of(value.id, around) if isinstance(value, ast.Name) else [value]:
-                if (kind := _narrow(given)) is not None:
-                    yield found(file, value, kind=kind)
+        for value, given in field_values(file):
+            if (kind := _narrow(given)) is not None:
+                yield found(file, value, kind=kind)
 
 
-def _field_values(file: NodeFile) -> Iterator[ast.expr]:
-    """What is assigned to a field `data`, or given to a constructor by that name."""
+def field_values(file: NodeFile) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """What is given to a field `data`, each with itself, or with each value assigned to that variable or attribute."""
     for node in file.nodes:
         match node:
-            case ast.keyword(arg="data", value=value):
-                yield value
-            case ast.Assign(targets=[ast.Attribute(attr="data")], value=value):
-                yield value
+            case ast.keyword(arg="data", value=value) | ast.Assign(targets=[ast.Attribute(attr="data")], value=value):
+                around = (file.function_around(value) or file.tree) if isinstance(value, ast.Name) else file.tree
+                kept = values_of(ast.unparse(value), around) if isinstance(value, ast.Name | ast.Attribute) else []
+                yield from ((value, given) for given in kept or [value])
 
 
 def _narrow(value: ast.expr) -> str | None:
+    """The numpy type of an expression that is surely narrower than a Python float, such as "float32"."""
     match value:
         case ast.Call(func=ast.Attribute(attr="astype"), args=[kind]) if last_name(kind) in _NARROW:
             return last_name(kind)
         case ast.Call(func=function) if last_name(function) in _NARROW:
             return last_name(function)
+        case ast.Call(keywords=keywords):
+            given = [keyword.value for keyword in keywords if keyword.arg == "dtype"]
+            names = [str(each.value) if isinstance(each, ast.Constant) else last_name(each) for each in given]
+            return next((name for name in names if name in _NARROW), None)
+        case ast.BinOp(left=left, right=right):
+            return _narrow(left) or _narrow(right)
     return None

@@ -104,7 +104,10 @@ def _reassignment(file: NodeFile, name: str) -> ast.Assign | None:
         function = file.function_around(node)
         same = function is file.function_around(kept)
         later = node.lineno > kept.lineno if same else function is not None and function is not file.setup
-        guarded = any(isinstance(each, ast.If) and target in ast.unparse(each.test) for each in file.ancestors(node))
+        guarded = any(
+            isinstance(each, ast.ExceptHandler) or (isinstance(each, ast.If) and target in ast.unparse(each.test))
+            for each in file.ancestors(node)
+        )
         if ast.unparse(node.targets[0]) == target and later and not guarded:  # replacing a bad value is fine
             return node
     return None
