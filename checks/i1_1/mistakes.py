@@ -10,7 +10,7 @@ from tutor.judge.randomness import Pattern
 from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Catalogue, Evidence, Found, found
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.messages import field_values, narrow_float
+from tutor.mistakes.themes.messages import field_values, narrow_float, unknown_field
 from tutor.source import NodeFile, last_name
 
 CATALOGUE = Catalogue()
@@ -145,7 +145,8 @@ def out_of_range(case: Case) -> Iterator[Found]:
 
 def _pattern(case: Case, *names: str) -> Iterator[Found]:
     pattern = case.about("pattern")
-    if pattern is not None and pattern.name in names:
+    elsewhere = (*unknown_field(case), *narrow_float(case))  # the value that was drawn is not the one that is sent
+    if pattern is not None and pattern.name in names and not elsewhere:
         yield from _places(case, pattern)
         yield Found({"text": pattern.text})
 

@@ -304,8 +304,8 @@ def test_a_suffix_is_added_to_the_topic() -> None:
 @pytest.mark.parametrize(
     ("command_lines", "declares", "cause"),
     [
-        (["talker --ros-args -r chatter:=chatter"], ("topik", "namespace"), "wrong argument name"),
-        (["talker --ros-args"], ("namespace",), "wrong argument name"),
+        (["talker --ros-args -r chatter:=chatter"], ("topik", "namespace"), "no such launch argument"),
+        (["talker --ros-args"], ("namespace",), "no such launch argument"),
         (["talker --ros-args -r chatter:=my_topic"], ("topic",), "argument without effect"),
         (["talker --ros-args -r topic:=news"], ("topic",), "remapping without effect"),
         (["talker --ros-args -r news:=chatter"], ("topic",), "remapping the wrong way round"),
@@ -388,7 +388,7 @@ def test_no_node_has_the_namespace() -> None:
 
 def test_the_namespace_argument_has_the_wrong_name() -> None:
     seen = in_robot1(pair("/chatter"), command_lines=["talker --ros-args"], declares=("topic", "ns"))
-    assert_failed(judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, seen, BOTH), "wrong argument name", "ns")
+    assert_failed(judges.judge_namespace(DEFAULT_RUN, OTHER_TOPIC, seen, BOTH), "no such launch argument", "ns")
 
 
 def test_a_name_that_starts_with_the_namespace_is_not_under_it() -> None:

@@ -26,6 +26,7 @@ from tutor.mistakes.themes import launch_names as launch_names
 from tutor.mistakes.themes import launch_effects as launch_effects
 from tutor.mistakes.themes import launch_nodes as launch_nodes
 from tutor.mistakes.themes import nodes as nodes
+from tutor.mistakes.themes import parentheses as parentheses
 from tutor.mistakes.themes import messages as messages
 from tutor.mistakes.themes import qos as qos
 from tutor.mistakes.themes import topics as topics

@@ -106,6 +106,7 @@ def twice(case: Case) -> Iterator[Found]:
 
 @mistake(
     "wrong-argument-name",
+    name="no such launch argument",
     explains=_NAMES,
     evidence=Evidence.RUN,
     says="{argument}:= changes nothing, since what the launch file declares is {declared}",
@@ -132,7 +133,8 @@ def argument_name(case: Case) -> Iterator[Found]:
     if argument is not None and argument not in declared and reaches_no_node(case):
         calls = {each.argument(0, "name").strip("'"): each for each in launch_file(case).calls("DeclareLaunchArgument")}
         meant = next(iter(get_close_matches(argument, calls)), "")
-        yield at_call(case, calls.get(meant), argument=argument, declared=", ".join(declared) or "no argument")
+        known = f"only {', '.join(declared)}" if declared else "no argument"
+        yield at_call(case, calls.get(meant), argument=argument, declared=known)
 
 
 @mistake(
