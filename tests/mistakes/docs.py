@@ -44,6 +44,7 @@ PAGE_OF = {
     "nodes": "nodes",
     "process": "nodes",
     "setting_up": "nodes",
+    "replaced_timers": "timers",
     "timer": "timers",
     "creation": "topics",
     "messages": "topics",
@@ -71,11 +72,14 @@ PAGE_OF = {
     "lifetime": "ending",
     "launch": "launch",
     "attributes": "python",
+    "hidden_modules": "python",
     "imports": "python",
+    "parentheses": "python",
     "python": "python",
     "syntax": "python",
     "unhandled": "python",
     "more_symptoms": "symptoms",
+    "parameter_symptoms": "symptoms",
     "symptoms": "symptoms",
 }
 """On which page a module of `tutor.mistakes.themes`, or a table of known exceptions, is, by the start of its name."""
