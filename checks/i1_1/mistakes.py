@@ -10,8 +10,8 @@ from tutor.judge.randomness import Pattern
 from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Catalogue, Evidence, Found, found
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.messages import field_values, narrow_float, unknown_field
-from tutor.source import NodeFile, last_name
+from tutor.mistakes.themes.messages import field_values, is_int, narrow_float, unknown_field
+from tutor.source import NodeFile
 
 CATALOGUE = Catalogue()
 
@@ -30,8 +30,8 @@ _DRAWING = ("uniform", "random", "randint", "randrange", "gauss", "normalvariate
 def int_in_float(case: Case) -> Iterator[Found]:
     """A float field gets an int.
 
-    Without assertions, as in the wheels that ros-tutor brings, rclpy reads an int as if it were the bits of a float, and
-    sends a number close to 0. A ROS with assertions stops with "must be of type 'float'".
+    Without assertions, as in the wheels that ros-tutor brings, rclpy reads an int as if it were the bits of a float,
+    and sends a number close to 0. A ROS with assertions stops with "must be of type 'float'".
 
     Bad:
 
@@ -44,30 +44,16 @@ def int_in_float(case: Case) -> Iterator[Found]:
     See it: `ros2 topic echo TOPIC` shows something like 1.2e-322.
     """
     wrong = case.about("wrong") or case.about("drawn", ())
-    if not wrong or not all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong):
-        return
-    if next(narrow_float(case), None) is not None:  # which says what else it is
+    tiny = all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong)
+    if not wrong or not tiny or any(narrow_float(case)):  # the last says what else it is
         return
     for file in case.files:
         for value, given in field_values(file):
-            if _is_int(given):
+            if is_int(given):
                 yield found(
                     file, value, what=f"line {value.lineno} puts an int ({ast.unparse(given)}) into the message"
                 )
     yield Found({"what": "something that is no Python float, such as an int, is put into the message"})
-
-
-def _is_int(value: ast.expr) -> bool:
-    """Whether an expression is surely an int."""
-    match value:
-        case ast.Constant(value=number):
-            return type(number) is int
-        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult() | ast.Mod() | ast.FloorDiv(), right=right):
-            return _is_int(left) and _is_int(right)
-        case ast.Call(func=function, args=args):
-            name = last_name(function)
-            return name in ("int", "len", "randint", "randrange") or (name == "round" and len(args) == 1)
-    return False
 
 
 @CATALOGUE.mistake(
@@ -157,8 +143,7 @@ def _places(case: Case, pattern: Pattern) -> Iterator[Found]:
         reached = file.reachable_from(tick) if tick is not None else []
         for call in file.calls("seed", *_DRAWING):
             seeded = getattr(call.func, "attr", "") == "seed" and file.function_around(call) in reached
-            once = file.function_around(call) is file.setup and not _draws_in(file, reached)
-            if seeded or once:
+            if seeded or (file.function_around(call) is file.setup and not _draws_in(file, reached)):
                 yield found(file, call, text=pattern.text)
 
 

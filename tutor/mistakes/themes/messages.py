@@ -129,6 +129,19 @@ def field_values(file: NodeFile) -> Iterator[tuple[ast.expr, ast.expr]]:
                 yield from ((value, given) for given in kept or [value])
 
 
+def is_int(value: ast.expr) -> bool:
+    """Whether an expression is surely an int."""
+    match value:
+        case ast.Constant(value=number):
+            return type(number) is int
+        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult() | ast.Mod() | ast.FloorDiv(), right=right):
+            return is_int(left) and is_int(right)
+        case ast.Call(func=function, args=args):
+            name = last_name(function)
+            return name in ("int", "len", "randint", "randrange") or (name == "round" and len(args) == 1)
+    return False
+
+
 def _narrow(value: ast.expr) -> str | None:
     """The numpy type of an expression that is surely narrower than a Python float, such as "float32"."""
     match value:
