@@ -153,5 +153,5 @@ def tell_roots_once(criteria: Sequence[CriterionResult]) -> tuple[CriterionResul
 
 
 def _root(verdict: Verdict) -> tuple[str, str]:
-    """What makes two failures the same: the name of the mistake, and its root or place, or its words without numbers."""
+    """What makes two failures the same: the mistake's name, and its root or place, or its words without numbers."""
     return verdict.cause.partition(":")[0], verdict.root or verdict.place or _NUMBER.sub("", verdict.cause)
