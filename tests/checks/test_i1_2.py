@@ -1432,7 +1432,7 @@ def test_a_count_of_one_fewer_is_undecided_where_the_node_may_have_lost_that_mes
     assert_failed(judges.judge_slow_count(steady_trial, with_delays(jump_trial, 100, cpu_wait_s=0.02)), "off by one")
     starved = with_delays(jump_trial, 100, cpu_wait_s=0.1)
     assert_undecided(judges.judge_slow_count(steady_trial, starved))
-    always = steady(CountsOneTooFew()), with_delays(jump(CountsOneTooFew()), 100, cpu_wait_s=0.1)
+    always = [with_delays(run(CountsOneTooFew()), n, cpu_wait_s=0.1) for run, n in ((steady, 3), (jump, 100))]
     assert_failed(judges.judge_slow_count(*always), "off by one")
 
 
