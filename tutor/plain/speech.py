@@ -88,17 +88,11 @@ def headline(criterion: CriterionResult) -> str:
 def diagnosis(criterion: CriterionResult) -> list[str]:
     """Return the diagnosis of a criterion that was not passed."""
     found = [detail for detail in details(criterion.verdict) if detail[0] != "more"]
-    code = [line for label, text in found if label == "next step" for line in text.split("\n")[1:]]
-    spoken = [(label.capitalize(), _spoken_detail(label, text)) for label, text in found]
+    spoken = [(label.capitalize(), one_line(text, 1000).replace("`", "")) for label, text in found]
     if criterion.verdict.status is Status.SKIPPED:  # one fault can skip many: one line each
         return [" ".join([headline(criterion), *(f"{text[:1].upper()}{text[1:]}." for _, text in spoken)])]
     lines = [f"{label}: {text}" for label, text in spoken]
-    return [headline(criterion), f"The criterion: {criterion.text}.", *lines, *code]
-
-
-def _spoken_detail(label: str, text: str) -> str:
-    """Return a part of a diagnosis on one line, without the code of a next step, which is said separately."""
-    return one_line(text.split("\n")[0] if label == "next step" else text, 1000).replace("`", "")
+    return [headline(criterion), f"The criterion: {criterion.text}.", *lines]
 
 
 def remarks(result: ExerciseResult) -> list[str]:

@@ -67,7 +67,7 @@ CANCEL = Command("cancel", ("c", "f9", "escape"), "Cancel", "Cancel the running 
 WATCH = Command("watch", ("w",), "Watch", "Check on each save: on or off")
 FIRST_FAILURE = Command("first_failure", ("F",), "First failure", "End checks at the first failure: on or off")
 EVIDENCE = Command("evidence", ("i",), "Evidence", "Show or hide the evidence")
-EXPLAIN = Command("explain", ("x",), "Explain", "Explain the mistake, with an example", footer=True)
+EXPLAIN = Command("explain", ("x",), "Why", "Explain the mistake, with an example", footer=True)
 ATTEMPTS = Command("attempts", ("a",), "Attempts", "Show your attempts over time")
 HINT = Command("hint", ("h",), "Hint", "Show the next hint", footer=True)
 

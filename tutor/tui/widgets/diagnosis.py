@@ -79,6 +79,7 @@ class Diagnosis(VerticalScroll):
             border-left: outer $accent;
             &.-filled { display: block; }
         }
+        &.-tight > #diagnosis-step { dock: bottom; max-height: 50%; margin: 0; }
     }
     """
 
@@ -239,6 +240,21 @@ class Diagnosis(VerticalScroll):
         self._show_head()
         self._show_evidence()
         self.scroll_home(animate=False)
+        self._keep_step_visible()
+
+    def on_resize(self) -> None:
+        """Arrange for the new size."""
+        self._keep_step_visible()
+
+    def _keep_step_visible(self) -> None:
+        """Keep the next step at the bottom, whatever is above it, if it would be out of sight otherwise."""
+        self.remove_class("-tight")
+        self.call_after_refresh(self._dock_step)
+
+    def _dock_step(self) -> None:
+        step = self.query_one("#diagnosis-step")
+        if step.display and step.virtual_region.bottom > self.scrollable_content_region.height:
+            self.add_class("-tight")
 
     def _show(self, selector: str, text: Content) -> None:
         """Show a text in one of the parts without a name, or hide the part if there is none."""
