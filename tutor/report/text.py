@@ -77,7 +77,7 @@ def _exercise(exercise: ExerciseResult) -> Iterator[RenderableType]:
         yield ""
         yield Text(REMARKS_HEADING, "bold yellow")
         for line, remark in zip(remark_lines(exercise), exercise.remarks, strict=True):
-            yield _row("", Text(line))
+            yield _row("remark", Text(line))
             yield _row("more", Text(command("explain", remark.mistake), "dim"))
     yield ""
 
