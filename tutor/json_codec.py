@@ -41,16 +41,19 @@ def write_document(schema: str, **members: Any) -> str:
     return json.dumps({"schema": schema, **msgspec.to_builtins(members)}, ensure_ascii=False, indent=1) + "\n"
 
 
-def read_document(text: str, schema: str) -> dict[str, Any]:
-    """Return the members of a document from `write_document`, to be passed to `convert_to`. Raises ValueError."""
+def read_document(text: str, schema: str, *former: str) -> dict[str, Any]:
+    """Return the members of a document from `write_document`, to be passed to `convert_to`. Raises ValueError.
+
+    `former`: earlier versions of the schema that the caller understands, too; the member `schema` says which it is.
+    """
     try:
         document = json.loads(text)
         found = document["schema"]
     except (KeyError, TypeError, ValueError, RecursionError) as error:
         raise ValueError("it is damaged") from error
-    if found != schema:
-        family, _, version = str(found).rpartition("/")
-        newer = family == schema.rpartition("/")[0] and version.isdecimal() and int(version) > 1
+    if found not in (schema, *former):
+        (family, _, version), (ours, _, current) = str(found).rpartition("/"), schema.rpartition("/")
+        newer = family == ours and version.isdecimal() and int(version) > int(current)
         raise ValueError("a newer ros-tutor wrote it" if newer else "it is damaged")
     return {str(key): value for key, value in document.items()}
 

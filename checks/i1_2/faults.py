@@ -29,10 +29,10 @@ def ended(trial: Trial, what: str) -> Observation:
 
 
 def in_words(totals: range) -> str:
-    """The totals that would be true: "30", "30 or 31", "between 50 and 59"."""
+    """The totals that would be true: "30", "30 or 31", "50 to 59"."""
     if len(totals) < 3:
         return " or ".join(map(str, totals))
-    return f"between {totals[0]} and {totals[-1]}"
+    return f"{totals[0]} to {totals[-1]}"
 
 
 def find_wrong_count(summary: Summary, trial: Trial) -> Fault:

@@ -2080,7 +2080,7 @@ def test_a_comparison_of_texts_explains_a_silent_reset() -> None:
 
 
 @pytest.mark.parametrize(
-    ("totals", "words"), [(range(30, 31), "30"), (range(30, 32), "30 or 31"), (range(50, 60), "between 50 and 59")]
+    ("totals", "words"), [(range(30, 31), "30"), (range(30, 32), "30 or 31"), (range(50, 60), "50 to 59")]
 )
 def test_possible_totals_in_words(totals: range, words: str) -> None:
     assert in_words(totals) == words

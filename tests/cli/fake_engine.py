@@ -9,7 +9,7 @@ from tutor.content import Course
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
 from tutor.judge.submission import Submission
-from tutor.judge.verdict import Cause, Verdict, failed, passed
+from tutor.judge.verdict import Status, Verdict, passed
 from tutor.workspace import digests_of
 from tutor.workspace.given_code import given_criteria
 
@@ -71,4 +71,12 @@ class FakeEngine:
         return result
 
 
-FAILURE = failed("5 messages", "0 messages", Cause("no spin", "no callback ran", "call rclpy.spin(node)"), ["a line"])
+FAILURE = Verdict(
+    Status.FAILED,
+    "5 messages",
+    "0 messages",
+    "no spin: no callback ran",
+    "call rclpy.spin(node)",
+    ("a line",),
+    mistake="no-spin",
+)

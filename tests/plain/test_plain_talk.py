@@ -75,6 +75,12 @@ def test_lesson_check_hints_and_checklist_through_a_pipe(tmp_path: Path, env: di
             "check 2",
             "check first",
             "why rate",
+            "explain",
+            "x rate",
+            "x old-timer-kept",
+            "explain bells",
+            "check",
+            "check",
         ),
         *("solution", "no", "2", "next", "i1.1", "chek", "9", "checklist", "tick 1 timers", "untick 2", "tick 99"),
         *("export html", "export pdf", "", "help"),
@@ -109,9 +115,14 @@ def test_lesson_check_hints_and_checklist_through_a_pipe(tmp_path: Path, env: di
         "publishes: passed.",
         "rate: failed.",
         "i1.1 Sensor Publisher: not passed yet. 5 of 6 passed, bonus 1 of 1, after 1.0 s.",
-        "Cause: no spin: no callback ran",
+        "Why: no spin: no callback ran",
         "Next step: call rclpy.spin(node)",
         "a line",  # the evidence
+        "why rate reads the evidence, explain reads about the mistake, with an example, hint the next hint.",
+        "Bad example, 5 lines of code:",
+        "old timer kept: A timer that is replaced runs on until it is cancelled.",
+        "There is no mistake bells. Those of the last check are of rate.",
+        "Your last 3 checks failed for this same reason: explain reads about it.",
         "Command: solution",
         "You have not passed this lesson yet. Type yes to read our solution: no",
         "You are at i1.2 Message Counter and Statistics, medium, not started.",
@@ -126,10 +137,12 @@ def test_lesson_check_hints_and_checklist_through_a_pipe(tmp_path: Path, env: di
         "tick NUMBER: tick an item of the checklist.",
     ):
         assert f"{line}\n" in output, line
-    assert output.count("aiting for the first message") == 1  # though every criterion waits for it
-    assert output.count("/node is up, but silent") == 1
+    assert output.count("aiting for the first message") == 3  # once for each check, though every criterion waits for it
+    assert output.count("/node is up, but silent") == 3
+    assert output.count("no spin: Nothing spins the node.") == 2
+    assert output.count("explain reads about it") == 1
     assert (
-        "rate: failed.\nCause: no spin: no callback ran\nsensor-name: passed." in output
+        "rate: failed.\nWhy: no spin: no callback ran\nsensor-name: passed." in output
     )  # at once, not only at the end
     assert re.search(r"^1: not ticked: .* Evidence: i1\.1 .*passed with hints, today\.$", output, re.MULTILINE)
     assert re.search(r"^Hint 1 of 3: \w", output, re.MULTILINE)
@@ -137,7 +150,7 @@ def test_lesson_check_hints_and_checklist_through_a_pipe(tmp_path: Path, env: di
     progress = Workspace(tmp_path / "ros_tutor_ws").progress().read()
     assert len(progress.ticks) == 1
     assert progress.of("i1.1").hints == 1
-    assert len(progress.of("i1.1").attempts) == 1
+    assert len(progress.of("i1.1").attempts) == 3
     assert "<html" in (tmp_path / "ros_tutor_ws" / "checklist.html").read_text()
 
 

@@ -64,13 +64,14 @@ def assert_duration(value: Any) -> None:
 
 JUNIT = {
     "testsuites": ({"name", "time", "tests", "failures", "errors"}, {"testsuite"}),
-    "testsuite": ({"name", "time", "tests", "failures", "errors", "skipped"}, {"properties", "testcase"}),
+    "testsuite": ({"name", "time", "tests", "failures", "errors", "skipped"}, {"properties", "testcase", "system-out"}),
     "properties": (set(), {"property"}),
     "property": ({"name", "value"}, set()),
     "testcase": ({"name", "classname", "time"}, {"failure", "error", "skipped"}),
     "failure": ({"type", "message"}, set()),
     "error": ({"type", "message"}, set()),
     "skipped": ({"message"}, set()),
+    "system-out": (set(), set()),
 }
 """Element -> (attributes, children): the part of Jenkins's junit-10.xsd that GitLab and GitHub's reporters read."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import pytest
@@ -11,17 +12,25 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.report.shape import assert_junit, assert_report_shape
-from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
-from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed, skipped
+from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Remark, Report
+from tutor.judge.verdict import Status, Verdict, fault, passed, skipped
 from tutor.report import FORMATS, render
 
 ENVIRONMENT = Environment(ros_distro="jazzy", ros="bundled", rmw="rmw_fastrtps_cpp", ros_tutor="0.1.0")
 
-RATE = failed(
+RATE = Verdict(
+    Status.FAILED,
     "2.0 Hz ±20 % with publish_rate:=2.0",
     "0.5 Hz over 5 samples",
-    Cause("rate used as a period", "the timer fires every 2.0 s", "create the timer with 1.0 / rate"),
-    ["[INFO] [node]: a | b", '  File "my_node.py", line 3, in <module>'],
+    "rate used as a period: the timer fires every 2.0 s",
+    "create the timer with 1.0 / rate",
+    ("[INFO] [node]: a | b", '  File "my_node.py", line 3, in <module>'),
+    mistake="rate-used-as-a-period",
+)
+SAME = replace(RATE, cause="for the same reason as `rate`", step="", same_as="rate", evidence=())
+REMARKS = (
+    Remark("shutdown-after-ctrl-c", "line 61 raises RCLError", "temperature_publisher.py", 61),
+    Remark("some-other", "an integer is declared: <b>*5.0*</b> ends the node", "temperature_publisher.py", 14),
 )
 
 
@@ -233,3 +242,55 @@ def test_no_text_from_a_learner_breaks_a_format(text: str, line: str, status: St
         assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", rendered)
     assert_report_shape(json.loads(render(hostile, "json")))
     assert_junit(ElementTree.fromstring(render(hostile, "junit")))
+
+
+def test_a_root_is_told_once_in_every_format() -> None:
+    told = report(criterion("rate", RATE), criterion("echo", SAME))
+    for format in FORMATS:
+        text = render(told, format)
+        assert text.count("the timer fires every 2.0 s") == (2 if format == "junit" else 1)  # in junit a message, too
+        assert "for the same reason as" in text
+    rate, echo = json.loads(render(told, "json"))["exercises"][0]["criteria"]
+    assert (rate["mistake"], rate["same_as"]) == ("rate-used-as-a-period", None)
+    assert (echo["mistake"], echo["same_as"], echo["step"]) == ("rate-used-as-a-period", "rate", "")
+    text = render(told, "text")
+    assert text.count("ros-tutor explain rate-used-as-a-period") == 1
+
+
+def test_remarks_follow_a_pass_in_every_format_and_change_no_verdict() -> None:
+    good = report(criterion("publishes", passed("messages", "5 messages")))
+    remarked = replace(good, exercises=(replace(good.exercises[0], remarks=REMARKS),))
+    assert remarked.verdict is Status.PASSED
+
+    text = render(remarked, "text")
+    assert "PASSED" in text
+    assert re.search(r"^This works, but …$", text, re.MULTILINE)
+    assert "Line 61 raises RCLError" in text
+    assert "Line 14: an integer is declared" in text
+    assert "ros-tutor explain shutdown-after-ctrl-c" in text
+
+    document = json.loads(render(remarked, "json"))
+    assert_report_shape(document)
+    assert document["verdict"] == "passed"
+    assert document["exercises"][0]["remarks"][0] == {
+        "mistake": "shutdown-after-ctrl-c",
+        "text": "line 61 raises RCLError",
+        "file": "temperature_publisher.py",
+        "line": 61,
+    }
+
+    root = ElementTree.fromstring(render(remarked, "junit"))
+    assert_junit(root)
+    assert (root.get("failures"), root.get("errors")) == ("0", "0")
+    assert "This works, but …\nLine 61 raises RCLError" in (root[0].findtext("system-out") or "")
+
+    markdown = render(remarked, "markdown")
+    assert "**This works, but …**" in markdown
+    assert "- Line 61 raises RCLError More: `ros-tutor explain shutdown-after-ctrl-c`" in markdown
+    assert "<b>" not in markdown
+
+    several = replace(remarked.exercises[0], submission=("a.py", "temperature_publisher.py"))
+    text = render(replace(remarked, exercises=(several,)), "text")
+    assert "temperature_publisher.py: line 61 raises RCLError" in text
+    for format in FORMATS:
+        assert "This works, but" not in render(good, format)

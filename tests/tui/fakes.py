@@ -14,8 +14,8 @@ from textual.pilot import Pilot
 
 from tutor.content import Checklist, Course, CriterionText, Difficulty, Lesson, LessonFile
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress, encode
-from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
-from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped
+from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Remark, Report
+from tutor.judge.verdict import Status, Verdict, passed, skipped
 from tutor.session import Session, run_options
 from tutor.session.node_command import NodeCommand
 from tutor.tui.app import TutorApp
@@ -202,15 +202,15 @@ class FakeEngine:
 
 
 GOOD = passed("values from 20.0 to 30.0", "54 values from 20.03 to 29.87")
-BAD = failed(
+BAD = Verdict(
+    Status.FAILED,
     "publish_rate 5.0 gives 5.0 Hz (within 20 %)",
     "0.20 Hz over 3 messages in 10.1 s",
-    Cause(
-        "rate used as a period",
-        "a period of 5.0 s is a rate of 0.2 Hz",
-        "Give create_timer 1.0 / rate: it wants seconds.",
-    ),
-    ["[INFO] [thermometer]: rate is 5.0", "line 18: self.create_timer(self.rate, self.tick)"],
+    "rate used as a period: a period of 5.0 s is a rate of 0.2 Hz",
+    "Give create_timer 1.0 / rate: it wants seconds.",
+    ("[INFO] [thermometer]: rate is 5.0", "line 18: self.create_timer(self.rate, self.tick)"),
+    mistake="rate-used-as-a-period",
+    place="thermometer.py:18",
 )
 
 
@@ -226,15 +226,22 @@ def progress_event(criterion: str, fraction: float, text: str, exercise: str = "
     return Progress(exercise, criterion, fraction, text, so_far)
 
 
-def final_events(rate: Verdict, exercise: str = "i1.1", shutdown: Verdict | None = None) -> list[Event]:
-    """The remaining events of a check in which `rate` and `shutdown` get these verdicts, and the rest passes."""
+def final_events(
+    rate: Verdict,
+    exercise: str = "i1.1",
+    shutdown: Verdict | None = None,
+    *,
+    range: Verdict = GOOD,
+    remarks: Sequence[Remark] = (),
+) -> list[Event]:
+    """The remaining events of a check in which these criteria get these verdicts, and the rest passes."""
     judged = (
         result("publishes", GOOD),
-        result("range", GOOD),
+        result("range", range),
         result("rate", rate),
         result("shutdown", shutdown or (GOOD if rate.passed else skipped("rate did not pass")), bonus=True),
     )
-    done = ExerciseResult(exercise, "Sensor Publisher", ("thermometer.py",), judged, 4.2)
+    done = ExerciseResult(exercise, "Sensor Publisher", ("thermometer.py",), judged, 4.2, remarks=tuple(remarks))
     report = Report(Environment("jazzy", "bundled", "rmw_fastrtps_cpp", "0.1.0"), (done,), 4.2)
     return [*(CriterionJudged(exercise, c) for c in judged), ExerciseJudged(done), CheckFinished(report)]
 

@@ -62,7 +62,7 @@ async def test_a_failure_is_shown_with_its_diagnosis_and_then_a_pass_is_celebrat
     async with learner(size) as me:
         await me.start_check()
         await me.engine_emits(*fakes.final_events(fakes.BAD))
-        await me.sees("✗ rate  ", "Expected", "Observed", "Cause", "Next step", "2 of 3 passed")
+        await me.sees("✗ rate  ", "Expected", "Observed", "Why", "Next step", "2 of 3 passed")
         await me.sees("0.20 Hz over 3 messages", "rate used as a period")
         assert "line 18" not in me.diagnosis()  # the evidence is folded
         await me.press("i")
@@ -312,7 +312,7 @@ async def test_after_a_restart_the_last_report_is_shown_with_its_time_and_whethe
     session.record(replace(done.result, digests=digests_of({path.name: path})))
     async with open_app(session) as me:
         await me.sees("Checked today", "your code is the same", "✓ publishes", "✗ rate  ", "2 of 3 passed")
-        await me.sees("Next step  Give create_timer", "Cause", "Expected", "0.20 Hz over 3 messages")
+        await me.sees("Next step  Give create_timer", "Why", "Expected", "0.20 Hz over 3 messages")
         await me.press("5", "i")
         await me.until(lambda: "line 18" in me.diagnosis(), "the evidence")
         await me.press("up")
@@ -330,7 +330,7 @@ async def test_after_a_restart_the_last_report_is_shown_with_its_time_and_whethe
 
     # A damaged one is set aside: what is left is which criteria were met.
     kept = session.workspace.last_checks().path_of("i1.1")
-    assert '"ros-tutor/last-check/1"' in kept.read_text()
+    assert '"ros-tutor/last-check/2"' in kept.read_text()
     kept.write_text("{")
     async with open_app(session) as me:
         await me.sees("the last check of i1.1 could not be read")
@@ -392,11 +392,11 @@ async def test_the_selection_stays_where_the_learner_has_put_it(learner: Any, si
 LONG = replace(
     fakes.BAD,
     expected="a rate that can be set: " + "words " * 20,
-    hint="Change this " + "and that in the same place " * 11 + "and then check again.",
+    step="Change this " + "and that in the same place " * 6 + "and then check again.",
 )
 
 
-async def test_the_criteria_are_one_line_until_checked_and_then_the_next_step_comes_first(learner: Any) -> None:
+async def test_the_criteria_are_one_line_until_checked_and_then_the_next_step_is_in_sight(learner: Any) -> None:
     async with learner() as me:
         whole = "Float64 messages arrive on /sensor/temperature"
         await me.sees("○ Criteria  publishes, range, rate, 1 bonus", "5 opens")
@@ -410,13 +410,13 @@ async def test_the_criteria_are_one_line_until_checked_and_then_the_next_step_co
         await me.press("1")
         await me.start_check()
         await me.engine_emits(*fakes.final_events(LONG))
-        await me.sees("✗ rate", "Next step  Change this", "then check again.", "Cause")
+        await me.sees("✗ rate", "Next step  Change this", "then check again.", "Why")
 
         # No notification covers the next step.
         me.main.say("A note that is as long as notes are. " * 5)
-        await me.sees("A note that", "Next step  Change this", "check again.", "Cause")
+        await me.sees("A note that", "Next step  Change this", "check again.", "Why")
         lines = me.screen().split("\n")
-        step, cause = (next(n for n, line in enumerate(lines) if word in line) for word in ("Next step", "Cause"))
-        assert step < cause
+        labels = [next(n for n, line in enumerate(lines) if word in line) for word in ("Observed", "Why", "Next step")]
+        assert labels == sorted(labels)
         assert "✗ failed" not in me.screen()
         assert "passed  " not in me.criterion("publishes")

@@ -10,7 +10,7 @@ from rich.cells import cell_len
 
 from tests.tui import fakes
 from tutor.content import LessonFile
-from tutor.judge.verdict import Cause, failed
+from tutor.judge.verdict import Status, Verdict
 from tutor.live.protocol import Ready, Update, WatcherError
 from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
@@ -127,7 +127,7 @@ async def test_hostile_text_in_the_code_the_log_the_terminal_a_verdict_and_the_a
         await me.sees("2Jbcde")  # the rest has moved the cursor and cleared the screen, which is this terminal's own
         assert_harmless(me)
 
-        verdict = failed(ALL, ALL, Cause(ALL, ALL, ALL), [*HOSTILE, ALL])
+        verdict = Verdict(Status.FAILED, ALL, ALL, f"{ALL}: {ALL}", ALL, (*HOSTILE, ALL), "no-spin")
         await me.press("f9")
         await me.engine_emits(*fakes.started_events(), fakes.progress_event("rate", 0.5, ALL.replace("\ud800", "")))
         await me.press("5")

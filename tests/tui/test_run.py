@@ -160,7 +160,7 @@ async def test_the_log_is_filtered_paused_and_cleared_and_a_save_restarts_the_no
         assert "bye" not in me.text("#log-view")
         await me.press("space")
         await me.until(lambda: "bye" in me.text("#log-view"))
-        await me.press("x")
+        await me.press("C")
         await me.sees("0 of 5 lines")
 
         await me.press("W")

@@ -51,6 +51,7 @@ def test_the_first_paint_waits_for_no_module_that_it_does_not_need(tmp_path: Pat
         "tutor.cli.parser",
         "tutor.content.lint",
         "tutor.judge.trace",
+        "tutor.mistakes",
         "tutor.process",
         "tutor.ros.stale_segments",
         "tutor.session.node",
@@ -61,7 +62,7 @@ def test_the_first_paint_waits_for_no_module_that_it_does_not_need(tmp_path: Pat
 
 
 def test_the_lesson_waits_for_no_page_that_is_not_open(tmp_path: Path) -> None:
-    late = {"rclpy", "tutor.live.protocol", "tutor.tui.live.pane", "tutor.tui.terminal.pane"}
+    late = {"rclpy", "tutor.live.protocol", "tutor.mistakes", "tutor.tui.live.pane", "tutor.tui.terminal.pane"}
     assert modules_after("import sys, tutor.tui.screens.main", tmp_path) & late == set()
 
 

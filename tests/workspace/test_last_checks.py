@@ -7,12 +7,21 @@ from pathlib import Path
 
 import pytest
 
-from tutor.judge.result import CriterionResult, ExerciseResult
-from tutor.judge.verdict import Cause, Status, failed, fault, passed
+from tutor.judge.result import CriterionResult, ExerciseResult, Remark
+from tutor.judge.verdict import Status, Verdict, fault, passed
 from tutor.workspace import LastCheck, Workspace, record
 
 CRITERIA = {"i1.1": ("publishes", "rate")}
-BAD = failed("5 Hz", "0.2 Hz", Cause("rate used as a period", "1 / rate", "Divide."), ["line 3: é"])
+BAD = Verdict(
+    Status.FAILED,
+    "5 Hz",
+    "0.2 Hz",
+    "rate used as a period: é",
+    "Divide.",
+    ("line 3: é",),
+    "rate-used-as-a-period",
+    "a:3",
+)
 RESULT = ExerciseResult(
     "i1.1",
     "Sensor Publisher",
@@ -23,6 +32,7 @@ RESULT = ExerciseResult(
     ),
     2.5,
     digests={"a.py": "12ab"},
+    remarks=(Remark("shutdown-after-ctrl-c", "line 9", "a.py", 9),),
 )
 
 
@@ -70,8 +80,9 @@ def test_findings_that_a_later_check_made_untrue_are_not_current(workspace: Work
     ("text", "reason"),
     [
         ("{", "it is damaged"),
-        ('{"schema": "ros-tutor/last-check/1", "at": 3}', "it is damaged"),
-        ('{"schema": "ros-tutor/last-check/2"}', "a newer ros-tutor wrote it"),
+        ('{"schema": "ros-tutor/last-check/2", "at": 3}', "it is damaged"),
+        ('{"schema": "ros-tutor/last-check/0"}', "it is damaged"),
+        ('{"schema": "ros-tutor/last-check/3"}', "a newer ros-tutor wrote it"),
     ],
 )
 def test_a_damaged_file_is_set_aside(workspace: Workspace, text: str, reason: str) -> None:
@@ -83,6 +94,32 @@ def test_a_damaged_file_is_set_aside(workspace: Workspace, text: str, reason: st
     (aside,) = path.parent.glob("*.damaged-*")
     assert aside.read_text() == text
     assert said == [f"the last check of i1.1 could not be read ({reason}); the file is kept as {aside}"]
+
+
+FORMER = """{
+ "schema": "ros-tutor/last-check/1",
+ "at": "2026-01-02T03:04:05Z",
+ "result": {"id": "i1.1", "title": "Sensor Publisher", "submission": ["a.py"], "duration_s": 2.5, "criteria": [
+  {"id": "rate", "text": "It has a rate", "bonus": false, "duration_s": 2.5, "verdict": {
+   "status": "failed", "expected": "5 Hz", "observed": "0.2 Hz", "cause": "rate used as a period: it is",
+   "hint": "line 3 becomes:\\n    1 / rate", "evidence": ["line 3"], "spins": true}}],
+  "unjudged": [], "digests": {"a.py": "12ab"}, "given": [], "lookup": null, "not_shown": []}
+}"""
+
+
+def test_a_file_of_the_former_schema_is_read_without_its_steps(workspace: Workspace) -> None:
+    path = workspace.last_checks().path_of("i1.1")
+    path.parent.mkdir(parents=True)
+    path.write_text(FORMER)
+    said: list[str] = []
+    found = read(workspace, said)
+    assert said == []
+    assert found is not None
+    (rate,) = found.result.criteria
+    assert rate.verdict == Verdict(
+        Status.FAILED, "5 Hz", "0.2 Hz", "rate used as a period: it is", evidence=("line 3",), spins=True
+    )
+    assert [each.name for each in path.parent.iterdir()] == ["i1.1.json"]
 
 
 def test_a_check_of_another_exercise_is_not_shown(workspace: Workspace) -> None:

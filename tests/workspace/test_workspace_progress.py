@@ -326,3 +326,14 @@ def test_an_invalid_value_is_reported_as_damaged(text: str, replacement: str) ->
     assert text in EARLIER_FILE
     with pytest.raises(ValueError, match="damaged"):
         decode(EARLIER_FILE.replace(text, replacement))
+
+
+def test_checks_in_a_row_that_failed_by_a_mistake_are_counted_from_the_last() -> None:
+    def attempt(*mistakes: str) -> Attempt:
+        return Attempt("2026-01-02T03:04:06Z", Status.FAILED, (), mistakes=mistakes)
+
+    attempts = (attempt("a"), attempt("b"), attempt("a", "b"), attempt("a"))
+    progress = ExerciseProgress(attempts=attempts)
+    assert [progress.in_a_row(mistake) for mistake in ("a", "b", "c")] == [2, 0, 0]
+    assert ExerciseProgress().in_a_row("a") == 0
+    assert ExerciseProgress(attempts=(Attempt("", Status.PASSED, ("rate",)),)).in_a_row("") == 0

@@ -103,6 +103,8 @@ def _make_completer(name: str, action: argparse.Action, commands: list[str]) -> 
             return complete_from_course(_criterion_ids)
         case "ITEM":
             return complete_from_course(lambda course, _: [item.id for item in course.checklist.items])
+        case "MISTAKE":
+            return complete_from_course(_mistakes)
         case "FILE" if name == "run":
             return complete_from_course(
                 lambda course, given: [Path(file.name).stem for file in course.find(given.exercise).files]
@@ -110,6 +112,16 @@ def _make_completer(name: str, action: argparse.Action, commands: list[str]) -> 
         case "COMMAND" if name == "help":
             return lambda **_: commands
     return None
+
+
+def _mistakes(course: Course, given: argparse.Namespace) -> dict[str, str]:
+    """Return the ids of all mistakes, with what zsh and fish show beside them; none after the first word."""
+    from tutor.engine.modules import load_catalogues
+    from tutor.mistakes import pages
+
+    if given.words:
+        return {}
+    return {id: entry.summary for id, entry in pages.every_mistake(load_catalogues(course)).items()}
 
 
 def _criterion_ids(course: Course, given: argparse.Namespace) -> list[str]:

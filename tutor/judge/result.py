@@ -72,6 +72,11 @@ class ExerciseResult:
         return self.criteria[0].verdict.cause if self.criteria and not self.submission else ""
 
     @property
+    def mistakes(self) -> tuple[str, ...]:
+        """The mistakes by which required criteria failed, each once, in the order of the criteria."""
+        return tuple(dict.fromkeys(c.verdict.mistake for c in self.criteria if c.verdict.mistake and not c.bonus))
+
+    @property
     def verdict(self) -> Status:
         """`PASSED` if every required criterion passed; `ERROR` if one could not be judged and none failed.
 

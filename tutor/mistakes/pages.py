@@ -4,9 +4,44 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from tutor.mistakes.entry import CATALOGUE, Catalogue, Mistake
+
+_HEADING = re.compile(r"(Bad|Good|See it|Lesson):(?: |$)")
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A part of a page under one heading ("" before the first): a paragraph on one line, or lines of `code`."""
+
+    heading: str
+    text: str
+    code: bool = False
+
+
+def sections_of(entry: Mistake) -> Iterator[Section]:
+    """Yield the parts of a page below its first line: paragraphs and items of lists, and whole examples of code."""
+    heading, lines, code = "", list[str](), False
+
+    def ended() -> Iterator[Section]:
+        text = "\n".join(lines).strip("\n") if code else " ".join(line.strip() for line in lines).strip()
+        lines.clear()
+        if text:
+            yield Section(heading, text, code)
+
+    for line in entry.page.splitlines()[1:]:
+        if code and not line.strip():
+            lines.append("")
+            continue
+        found, indented = _HEADING.match(line), line.startswith("    ")
+        if not line.strip() or found or line.startswith("- ") or indented != code:
+            yield from ended()
+        code = indented
+        heading = found[1] if found else heading
+        lines.append(line[found.end() :] if found else line.removeprefix("    "))
+    yield from ended()
 
 
 def every_mistake(catalogues: Sequence[Catalogue] = ()) -> Mapping[str, Mistake]:

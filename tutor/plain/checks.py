@@ -12,7 +12,8 @@ from tutor.judge.wording import counted
 from tutor.plain import speech
 from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.report.plain import one_line
-from tutor.workspace import find_submission
+from tutor.session.explaining import CHECKS_IN_A_ROW, find_mistakes
+from tutor.workspace import ExerciseProgress, find_submission
 
 
 class Checks:
@@ -28,6 +29,13 @@ class Checks:
                 "check", "check your node by what it does; check first ends at the first failure", self.check
             ),
             DialogCommand("why", "read the diagnosis of a criterion again, with the evidence", self.why, "CRITERION"),
+            DialogCommand(
+                "explain",
+                "read about the mistake that a check has found, with an example",
+                self.explain,
+                "[CRITERION]",
+                aliases=("x",),
+            ),
         )
 
     async def check(self, words: list[str]) -> None:
@@ -51,7 +59,7 @@ class Checks:
             self._results[result.id] = result
             self._report_result(result)
             try:
-                session.record(result)
+                self._offer_explanation(result, session.record(result).of(result.id))
             except StorageError as error:
                 self._conversation.say(f"This check is not in your progress: {error}")
 
@@ -71,11 +79,11 @@ class Checks:
                 self._say_first_cause(event.result)
 
     def _say_first_cause(self, result: CriterionResult) -> None:
-        """Say the cause of the first failed required criterion at once; the other causes follow at the end."""
+        """Say why the first required criterion failed at once; the others follow at the end."""
         if self._first_cause_said or result.bonus or result.verdict.status is not Status.FAILED:
             return
         self._first_cause_said = True
-        self._conversation.say(f"Cause: {one_line(result.verdict.cause, 1000)}".replace("`", ""))
+        self._conversation.say(f"Why: {one_line(result.verdict.cause, 1000)}".replace("`", ""))
 
     def _report_result(self, result: ExerciseResult) -> None:
         self._conversation.say(speech.outcome(result))
@@ -83,12 +91,52 @@ class Checks:
         for criterion in unmet:
             for line in speech.diagnosis(criterion):
                 self._conversation.say(line)
+        for line in speech.remarks(result):
+            self._conversation.say(line)
+        if unmet or result.remarks:
+            named = [criterion.id for criterion in unmet if criterion.verdict.mistake]
+            more = ["explain reads about the mistake, with an example"] if named or result.remarks else []
+            more = [f"why {unmet[0].id} reads the evidence", *more, "hint the next hint"] if unmet else more
+            self._conversation.say(f"{', '.join(more)}.")
         if unmet:
-            self._conversation.say(f"why {unmet[0].id} reads the evidence, hint the next hint.")
-        elif self._conversation.lesson is not self._conversation.session.lessons[-1]:
+            return
+        if self._conversation.lesson is not self._conversation.session.lessons[-1]:
             self._conversation.say("Well done. next goes to the next lesson, checklist to what you can do by now.")
         else:
             self._conversation.say("Well done: this was the last lesson. checklist goes to what you can do by now.")
+
+    def _offer_explanation(self, result: ExerciseResult, progress: ExerciseProgress) -> None:
+        """Name the command that explains a mistake, at the last of several checks in a row that failed by it."""
+        mistake = next(iter(result.mistakes), "")
+        if mistake and (count := progress.in_a_row(mistake)) == CHECKS_IN_A_ROW:
+            self._conversation.say(f"Your last {count} checks failed for this same reason: explain reads about it.")
+
+    async def explain(self, words: list[str]) -> None:
+        """Read the page of the mistake of a criterion, or of the first that failed; of the remarks after a pass.
+
+        The name of a mistake does instead of a criterion's id.
+        """
+        session, lesson = self._conversation.session, self._conversation.lesson
+        result = self._results.get(lesson.id)
+        mistakes = {} if result is None else {c.id: c.verdict.mistake for c in result.criteria if c.verdict.mistake}
+        remarked = () if result is None else tuple(remark.mistake for remark in result.remarks)
+        if words:
+            wanted = ["-".join(words).lower()]
+            wanted = [mistakes.get(wanted[0], wanted[0])]
+        else:
+            wanted = [*(() if result is None else result.mistakes[:1]), *remarked] or [*mistakes.values()][:1]
+        if not wanted:
+            raise CommandRefused("There is no mistake to explain: check names one if a criterion fails.")
+        try:
+            found = find_mistakes(wanted, session.course, lesson)
+        except EngineError as error:
+            raise CommandRefused(f"{error}. {error.hint}") from error
+        if not found:
+            known = f" Those of the last check are of {speech.listed(mistakes)}." if mistakes else ""
+            raise CommandRefused(f"There is no mistake {wanted[0]}.{known}")
+        for mistake in found:
+            for line in speech.page(mistake):
+                self._conversation.say(line)
 
     async def why(self, words: list[str]) -> None:
         """Say the diagnosis and evidence of one criterion of the last check."""

@@ -5,13 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from tutor.content.plain_text import without_markup
+from tutor.invocation import with_program_name
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
 from tutor.judge.wording import counted
-from tutor.report.plain import details, evidence_lines, one_line, seconds, tally
+from tutor.report.plain import details, evidence_lines, one_line, remark_lines, seconds, tally
 from tutor.terminal_text import printable
+
+if TYPE_CHECKING:
+    from tutor.mistakes import Mistake
 
 _STATUS_WORDS = {
     Status.PASSED: "passed",
@@ -82,18 +87,33 @@ def headline(criterion: CriterionResult) -> str:
 
 def diagnosis(criterion: CriterionResult) -> list[str]:
     """Return the diagnosis of a criterion that was not passed."""
-    found = details(criterion.verdict)
-    code = [line for label, text in found if label == "next step" for line in text.split("\n")[1:]]
-    spoken = [(label.capitalize(), _spoken_detail(label, text)) for label, text in found]
+    found = [detail for detail in details(criterion.verdict) if detail[0] != "more"]
+    spoken = [(label.capitalize(), one_line(text, 1000).replace("`", "")) for label, text in found]
     if criterion.verdict.status is Status.SKIPPED:  # one fault can skip many: one line each
         return [" ".join([headline(criterion), *(f"{text[:1].upper()}{text[1:]}." for _, text in spoken)])]
     lines = [f"{label}: {text}" for label, text in spoken]
-    return [headline(criterion), f"The criterion: {criterion.text}.", *lines, *code]
+    return [headline(criterion), f"The criterion: {criterion.text}.", *lines]
 
 
-def _spoken_detail(label: str, text: str) -> str:
-    """Return a part of a diagnosis on one line, without the code of a next step, which is said separately."""
-    return one_line(text.split("\n")[0] if label == "next step" else text, 1000).replace("`", "")
+def remarks(result: ExerciseResult) -> list[str]:
+    """Return what works but will bite, one line each."""
+    return [f"This works, but: {one_line(line, 1000)}".replace("`", "") for line in remark_lines(result)]
+
+
+def page(mistake: Mistake) -> Iterator[str]:
+    """Yield the page of a mistake. A paragraph becomes one line; code stays as it is, between two lines."""
+    from tutor.mistakes.pages import sections_of  # late, since it loads the catalogue
+
+    yield f"{mistake.title}: {without_markup(mistake.summary)}"
+    for section in sections_of(mistake):
+        if not section.code:
+            heading = f"{section.heading}: " if section.heading else ""
+            yield f"{heading}{without_markup(with_program_name(section.text))}"
+            continue
+        lines = code(section.text)
+        yield f"{section.heading} example, {counted(len(lines), 'line')} of code:"
+        yield from lines
+        yield "End of code."
 
 
 def evidence(criterion: CriterionResult) -> list[str]:

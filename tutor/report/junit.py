@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.report.plain import details, evidence_lines, missing_lines, one_line
+from tutor.report.plain import REMARKS_HEADING, details, evidence_lines, missing_lines, one_line, remark_lines
 
 _MAX_LENGTH = 2000
 _COUNT_ATTRIBUTES = (("failures", "failure"), ("errors", "error"), ("skipped", "skipped"))
@@ -43,6 +43,9 @@ def _add_suite(root: Element, exercise: ExerciseResult, report: Report) -> None:
         SubElement(properties, "property", name=name, value=one_line(value))
     for criterion in exercise.criteria:
         _add_case(suite, exercise, criterion)
+    if exercise.remarks:
+        lines = [REMARKS_HEADING, *(one_line(line, _MAX_LENGTH) for line in remark_lines(exercise))]
+        SubElement(suite, "system-out").text = "\n".join(lines)
     suite.set("tests", str(len(exercise.criteria)))
     for attribute, tag in _COUNT_ATTRIBUTES:
         suite.set(attribute, str(len(suite.findall(f"testcase/{tag}"))))

@@ -6,10 +6,12 @@ import re
 from collections.abc import Iterator, Sequence
 from html import escape as escape_html
 
+from tutor.invocation import command
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
 from tutor.report.plain import (
     MARKS,
+    REMARKS_HEADING,
     describe,
     details,
     evidence_lines,
@@ -90,10 +92,10 @@ def _exercise(exercise: ExerciseResult) -> Iterator[str]:
             yield from _diagnosis(criterion)
     if exercise.remarks:
         yield ""
-        yield "It works, but will bite:"
+        yield f"**{REMARKS_HEADING}**"
         yield ""
-        for line in remark_lines(exercise):
-            yield f"- {escape(line)}"
+        for line, remark in zip(remark_lines(exercise), exercise.remarks, strict=True):
+            yield f"- {escape(line)} More: `{command('explain', remark.mistake)}`"
 
 
 def _diagnosis(criterion: CriterionResult) -> Iterator[str]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
+
 from tutor.invocation import command
-from tutor.judge.result import Environment, ExerciseResult, Report
+from tutor.judge.result import Environment, ExerciseResult, Remark, Report
 from tutor.judge.verdict import Status, Verdict
 from tutor.terminal_text import printable
 
@@ -46,9 +48,19 @@ def details(verdict: Verdict) -> list[tuple[str, str]]:
     return [(label, printable(text).strip()) for label, text in pairs if text.strip()]
 
 
+REMARKS_HEADING = "This works, but …"
+
+
 def remark_lines(exercise: ExerciseResult) -> list[str]:
-    """Return a line for each remark: what works, but will bite."""
-    return [printable(f"{remark.file}, line {remark.line}: {remark.text}") for remark in exercise.remarks]
+    """Return a line for each remark: where, and what. The heading is `REMARKS_HEADING`."""
+    several = len(exercise.submission) > 1
+    return [printable(_describe(remark, several=several)) for remark in exercise.remarks]
+
+
+def _describe(remark: Remark, *, several: bool) -> str:
+    line = f"line {remark.line}"
+    text = remark.text if re.search(rf"\b{line}\b", remark.text) or not remark.line else f"{line}: {remark.text}"
+    return f"{remark.file}: {text}" if several else f"{text[:1].upper()}{text[1:]}"
 
 
 def missing_lines(exercise: ExerciseResult) -> list[str]:

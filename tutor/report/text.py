@@ -10,9 +10,20 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from tutor.invocation import command
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Status
-from tutor.report.plain import MARKS, describe, details, isolation_lines, missing_lines, remark_lines, seconds, tally
+from tutor.report.plain import (
+    MARKS,
+    REMARKS_HEADING,
+    describe,
+    details,
+    isolation_lines,
+    missing_lines,
+    remark_lines,
+    seconds,
+    tally,
+)
 from tutor.terminal_text import printable
 
 STYLES = {Status.PASSED: "green", Status.FAILED: "red", Status.SKIPPED: "yellow", Status.ERROR: "magenta"}
@@ -62,8 +73,12 @@ def _exercise(exercise: ExerciseResult) -> Iterator[RenderableType]:
             yield from _diagnosis(criterion)
             if criterion.verdict.status is not Status.SKIPPED:
                 yield ""
-    for line in remark_lines(exercise):
-        yield Padding(Group(Text("it works, but will bite", "yellow"), Text(line)), (1, 0, 0, 2))
+    if exercise.remarks:
+        yield ""
+        yield Text(REMARKS_HEADING, "bold yellow")
+        for line, remark in zip(remark_lines(exercise), exercise.remarks, strict=True):
+            yield _row("remark", Text(line))
+            yield _row("more", Text(command("explain", remark.mistake), "dim"))
     yield ""
 
 

@@ -67,6 +67,7 @@ CANCEL = Command("cancel", ("c", "f9", "escape"), "Cancel", "Cancel the running 
 WATCH = Command("watch", ("w",), "Watch", "Check on each save: on or off")
 FIRST_FAILURE = Command("first_failure", ("F",), "First failure", "End checks at the first failure: on or off")
 EVIDENCE = Command("evidence", ("i",), "Evidence", "Show or hide the evidence")
+EXPLAIN = Command("explain", ("x",), "Why", "Explain the mistake, with an example", footer=True)
 ATTEMPTS = Command("attempts", ("a",), "Attempts", "Show your attempts over time")
 HINT = Command("hint", ("h",), "Hint", "Show the next hint", footer=True)
 
@@ -88,7 +89,7 @@ RESET = Command("reset", ("Z",), "Reset", "Start again (keeps a backup)")
 LEVEL = Command("level", ("m",), "Level", "Choose the lowest log level to show")
 FILTER = Command("filter", ("slash",), "Filter", "Show only lines that contain a given text")
 PAUSE = Command("pause", ("space",), "Pause", "Pause the log, or follow it again")
-CLEAR = Command("clear", ("x",), "Clear", "Clear the log")
+CLEAR = Command("clear", ("C",), "Clear", "Clear the log")
 GO_TO_ERROR = Command("go_to_error", ("g",), "Go to error", "Go to the last error in your code")
 
 # Getting around
@@ -121,7 +122,7 @@ QUIT = Command(
 
 GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
     ("Your node", (RUN, STOP, RESTART, PARTNER, OTHER_FILE, OPTIONS, RESTART_ON_SAVE)),
-    ("The check", (CHECK, CANCEL, WATCH, FIRST_FAILURE, EVIDENCE, ATTEMPTS, HINT)),
+    ("The check", (CHECK, CANCEL, WATCH, FIRST_FAILURE, EVIDENCE, EXPLAIN, ATTEMPTS, HINT)),
     (
         "Your code",
         (START, EDIT, SAVE, FIND, FIND_NEXT, OWN_EDITOR, NEXT_FILE, SKELETON, CHANGES, SOLUTION, AGAINST, RESET),

@@ -9,6 +9,7 @@ from pathlib import Path
 from textual.message import Message
 
 from tutor.judge.events import Event
+from tutor.judge.result import ExerciseResult
 from tutor.session.check_process import CheckEnded
 from tutor.session.node import NodeState
 from tutor.workspace import LastCheck, Progress
@@ -110,6 +111,13 @@ class ProgressRead(Message):
 
     progress: Progress
     versions: Mapping[str, str]
+
+
+@dataclass
+class AttemptRecorded(Message):
+    """A check was recorded; the progress with it has been posted before."""
+
+    result: ExerciseResult
 
 
 @dataclass

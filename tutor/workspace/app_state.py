@@ -30,7 +30,8 @@ class RunOptions:
 class AppState:
     """The saved state. An empty text means that nothing was saved yet. `runs` maps exercise ids to run options.
 
-    `first_failure`: a check ends at its first failure.
+    `first_failure`: a check ends at its first failure. `explained`: the mistakes whose page was opened unasked, each
+    after the id of the exercise, as in "i2.1 old-timer-kept".
     """
 
     lesson: str = ""
@@ -43,6 +44,7 @@ class AppState:
     restart_on_save: bool = False
     side_by_side: bool = True
     runs: Mapping[str, RunOptions] = field(default_factory=dict)
+    explained: tuple[str, ...] = ()
 
     def run_of(self, exercise: str) -> RunOptions:
         """Return the run options of one exercise; empty if there are none."""

@@ -14,7 +14,8 @@ from tutor.workspace.damaged import set_aside
 from tutor.workspace.progress import Progress
 from tutor.workspace.regular import read_text
 
-SCHEMA = "ros-tutor/last-check/1"
+SCHEMA, FORMER_SCHEMA = "ros-tutor/last-check/2", "ros-tutor/last-check/1"
+"""In the former one, the steps were changes to the code, under another name, and no mistake had an id."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +37,11 @@ def encode(last: LastCheck) -> str:
 
 
 def decode(text: str) -> LastCheck:
-    """Decode the output of `encode`. Raises ValueError with a description of the problem."""
-    return convert_to(LastCheck, read_document(text, SCHEMA))
+    """Decode the output of `encode`. Raises ValueError with a description of the problem.
+
+    A check of the former schema is read without its steps.
+    """
+    return convert_to(LastCheck, read_document(text, SCHEMA, FORMER_SCHEMA))
 
 
 class LastChecks:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from enum import StrEnum
+from itertools import takewhile
 
 from tutor.json_codec import convert_to, read_document, write_document
 from tutor.judge.result import ExerciseResult
@@ -33,7 +34,7 @@ class Attempt:
     are then in `judged`, which is empty otherwise. `errors` holds the ids of those that could not be judged. `version`
     identifies the content of the files (empty if unknown), `given` the criteria that they meet by the skeleton's code,
     `not_shown` the checklist items of which they show nothing, and `help` is what the learner had seen before (None if
-    unknown).
+    unknown). `mistakes` holds those by which required criteria failed.
     """
 
     at: str
@@ -46,6 +47,7 @@ class Attempt:
     given: tuple[str, ...] = ()
     help: Help | None = None
     not_shown: tuple[str, ...] = ()
+    mistakes: tuple[str, ...] = ()
 
     @property
     def is_pass(self) -> bool:
@@ -98,6 +100,10 @@ class ExerciseProgress:
         """The latest attempt."""
         return self.attempts[-1] if self.attempts else None
 
+    def in_a_row(self, mistake: str) -> int:
+        """Return how many of the latest attempts, up to the last one, failed by this mistake one after another."""
+        return sum(1 for _ in takewhile(lambda attempt: mistake in attempt.mistakes, reversed(self.attempts)))
+
 
 @dataclass(frozen=True, slots=True)
 class Progress:
@@ -142,6 +148,7 @@ class Progress:
             result.given,
             before.help,
             result.not_shown,
+            result.mistakes,
         )
         best = result.verdict if whole and not before.is_passed else before.best
         attempts = _without_oldest((*before.attempts, attempt), before.first_pass)

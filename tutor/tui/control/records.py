@@ -41,7 +41,11 @@ class Records:
 
     def record_attempt(self, result: ExerciseResult) -> None:
         """Record one attempt."""
-        self._start_change(self._host.model.session.record, result)
+        self._host.start_worker(self._record_attempt, result, group="progress")
+
+    async def _record_attempt(self, result: ExerciseResult) -> None:
+        await self.change(self._host.model.session.record, result)
+        self._host.post_message(messages.AttemptRecorded(result))
 
     def hint(self) -> None:
         """Show the hint for the failed criterion, if any, and the general hints seen so far (else the first)."""

@@ -46,7 +46,7 @@ class TopicsPanel(Vertical):
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("space", "pause", "Pause", show=False),
-        Binding("x", "clear", "Clear", show=False),
+        Binding("C", "clear", "Clear", show=False),
         Binding("y", "next_field", "Field", show=False),
         Binding("plus,equals_sign", "zoom(1)", "Longer", show=False),
         Binding("minus", "zoom(-1)", "Shorter", show=False),
@@ -157,7 +157,7 @@ class TopicsPanel(Vertical):
         zoom: tuple[Action, ...] = (("+", "Longer", "zoom(1)"), ("-", "Shorter", "zoom(-1)")) if view.fields else ()
         return (
             ("Space", "Go on" if view.paused else "Pause", "pause"),
-            ("x", "Clear", "clear"),
+            ("C", "Clear", "clear"),
             *field_action,
             *zoom,
             ("Del", "Unfollow", "unfollow"),

@@ -30,6 +30,7 @@ from tutor.tui.control.nodes import Nodes
 from tutor.tui.control.pages import Pages
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
+from tutor.tui.control.reports import Reports
 from tutor.tui.control.terminal import Terminal
 from tutor.tui.control.views import Views
 from tutor.tui.model import AppModel
@@ -37,7 +38,6 @@ from tutor.tui.palette import Actions, LessonText
 from tutor.tui.widgets.code_body import CodeBody
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
-from tutor.tui.widgets.diagnosis import Diagnosis
 from tutor.tui.widgets.editor import CodeEditor
 from tutor.tui.widgets.key_footer import KeyFooter
 from tutor.tui.widgets.lesson_list import LessonList, LessonRow
@@ -68,6 +68,7 @@ class MainScreen(HostScreen):
         self.nodes = Nodes(self, self.files, self.preferences)
         self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
         self.checklist = ChecklistController(self, self.records)
+        self.reports = Reports(self, self.pages, self.preferences)
         Logs(self, log)
         self.terminal = Terminal(self, self.pages)
         self.register(commands.NEXT, partial(self._step, 1))
@@ -75,7 +76,6 @@ class MainScreen(HostScreen):
         self.register(commands.THEME, self._switch_theme)
         self.register(commands.HELP, self._show_help)
         self.register(commands.QUIT, lambda: self.app.run_action("quit"))
-        self.register(commands.EVIDENCE, self._toggle_evidence)
         self._framed_panels: tuple[Widget, ...] = ()
         self._was_shown = False
         self._phases: list[tuple[str, Phase]] = []
@@ -111,6 +111,10 @@ class MainScreen(HostScreen):
 
     # --- commands ---
 
+    def action_show_criterion(self, id: str) -> None:
+        """Show the report of one criterion."""
+        self.query_one(CriteriaPanel).choose(id)
+
     def action_show_file(self, index: int) -> None:
         """Show the lesson's file at this index."""
         self.files.show(index)
@@ -123,15 +127,6 @@ class MainScreen(HostScreen):
         from tutor.tui.dialogs.help import HelpScreen
 
         self.app.push_screen(HelpScreen())
-
-    def _toggle_evidence(self) -> None:
-        diagnosis = self.query_one(Diagnosis)
-        if not diagnosis.has_evidence:
-            self.say("There is no evidence here: choose a criterion that was checked.")
-            return
-        if self.pages.folded and self.page != "criteria":
-            self.show_page("criteria")
-        diagnosis.toggle_evidence()
 
     # --- lessons ---
 
@@ -153,6 +148,7 @@ class MainScreen(HostScreen):
         await criteria.show_lesson(model.findings[lesson.id], lessons[place] if place < len(lessons) else None)
         criteria.show_attempts(lesson, model.progress.of(lesson.id))
         await self.query_one(LessonView).show_lesson(lesson)
+        self.reports.findings_changed()
         self.refresh_bindings()
 
     def _count_passed(self) -> None:
@@ -247,6 +243,11 @@ class MainScreen(HostScreen):
     def _last_checks_read(self, message: messages.LastChecksRead) -> None:
         self.checks.restore(message.last)
         self.query_one(CriteriaPanel).show_findings(self.model.findings[self.model.lesson.id])
+        self.reports.findings_changed()
+
+    @on(messages.AttemptRecorded)
+    def _attempt_recorded(self, message: messages.AttemptRecorded) -> None:
+        self.reports.attempt_recorded(message.result)
 
     @on(messages.Started)
     def _started(self, message: messages.Started) -> None:
@@ -336,6 +337,7 @@ class MainScreen(HostScreen):
     def _show_findings(self, found: Findings) -> None:
         if found.exercise == self.model.lesson.id:
             self.query_one(CriteriaPanel).show_findings(found)
+            self.reports.findings_changed()
         self.query_one(StatusBar).show_check(found)
         self.query_one(Tabs).query_one("#tab-criteria").set_class(found.checking, "-busy")
 

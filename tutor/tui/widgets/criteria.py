@@ -171,6 +171,12 @@ class CriteriaPanel(Container):
             if self._findings is not None:
                 self.border_subtitle = _headline(self._findings, typing=typing)
 
+    def choose(self, id: str) -> None:
+        """Select a criterion, as the learner does, and show its diagnosis."""
+        for place, row in enumerate(self.rows):
+            if row.finding.id == id:
+                self._list.moved, self._list.index = True, place
+
     @property
     def chosen(self) -> Finding | None:
         """The criterion whose diagnosis is shown."""
@@ -202,7 +208,8 @@ class CriteriaPanel(Container):
     def _show_result(self) -> None:
         """After a check, show the first failure, or the good news if all passed.
 
-        What the learner has selected stays selected, and so does a failure that is being read.
+        What the learner has selected stays selected, and so does a failure that is being read, unless another explains
+        it.
         """
         found, listed, chosen = self._findings, self._list, self.chosen
         if listed.moved and chosen is not None:
@@ -210,6 +217,8 @@ class CriteriaPanel(Container):
                 self._show_diagnosis(chosen)
             return
         if self.has_class("-detail") and chosen is not None and _is_failed(chosen):
+            if found is not None and chosen.verdict is not None and (root := chosen.verdict.same_as):
+                listed.index = [finding.id for finding in found.criteria].index(root)
             return
         listed.index = None
         self.remove_class("-detail")

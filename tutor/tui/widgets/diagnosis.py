@@ -1,4 +1,4 @@
-"""The diagnosis of one criterion: the next step first, then cause, expected, observed and evidence."""
+"""The diagnosis of one criterion: what was expected and observed, why, the next step, and where to read more."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from rich.cells import cell_len
 from textual.app import ComposeResult
 from textual.containers import Horizontal, VerticalScroll
 from textual.content import Content
+from textual.style import Style
 from textual.widgets import Static
 
 from tutor.content import Lesson
 from tutor.judge.result import ExerciseResult
-from tutor.judge.verdict import Status
-from tutor.report.plain import one_line
+from tutor.judge.verdict import Status, Verdict
+from tutor.report.plain import REMARKS_HEADING, one_line, remark_lines
 from tutor.session.findings import Finding, Findings
 from tutor.tui import wording
 from tutor.tui.widgets.wrapped import WrappedText
@@ -60,6 +61,15 @@ class Diagnosis(VerticalScroll):
         background: $surface;
         & > #diagnosis-news { height: auto; display: none; &.-filled { display: block; } }
         & > #diagnosis-head { height: auto; }
+        & > #diagnosis-remarks {
+            display: none;
+            height: auto;
+            margin: 1 0;
+            padding: 0 1;
+            background: $panel;
+            border-left: outer $warn;
+            &.-filled { display: block; }
+        }
         & > #diagnosis-step {
             display: none;
             height: auto;
@@ -69,22 +79,20 @@ class Diagnosis(VerticalScroll):
             border-left: outer $accent;
             &.-filled { display: block; }
         }
+        &.-tight > #diagnosis-step { dock: bottom; max-height: 50%; margin: 0; }
     }
     """
-
-    PARTS = (
-        ("cause", "Cause"),
-        ("expected", "Expected"),
-        ("observed", "Observed"),
-        ("evidence", "Evidence"),
-    )
 
     def compose(self) -> ComposeResult:
         yield Static(id="diagnosis-news")
         yield WrappedText(id="diagnosis-head")
+        yield WrappedText(id="diagnosis-remarks", hang=2)
+        yield Part("Expected", id="part-expected")
+        yield Part("Observed", id="part-observed")
+        yield Part("Why", id="part-why")
         yield WrappedText(id="diagnosis-step")
-        for key, name in self.PARTS:
-            yield Part(name, id=f"part-{key}", hang=2 if key == "evidence" else 0)
+        yield Part("More", id="part-more")
+        yield Part("Evidence", id="part-evidence", hang=2)
 
     def __init__(self, id: str) -> None:
         super().__init__(id=id)
@@ -93,8 +101,9 @@ class Diagnosis(VerticalScroll):
         self._typing = False
         self._head = partial(Content)
         """Rebuilds the head, which names other keys while letters are typed."""
-        self._news = partial(Content)
-        """Rebuilds the news, likewise."""
+        self._news, self._remarked = partial(Content), partial(Content)
+        """Rebuild the news and the remarks, likewise."""
+        self._mistake = ""
 
     @property
     def has_evidence(self) -> bool:
@@ -116,16 +125,11 @@ class Diagnosis(VerticalScroll):
 
     def show_finding(self, finding: Finding, findings: Findings, following: Lesson | None) -> None:
         """Show one criterion, its evidence folded; above it the check's outcome, if the criterion does not tell it."""
-        verdict = finding.verdict
         self._unfolded = False
         self._fill(
             partial(self._finding_head, finding, findings),
+            finding.verdict,
             news=partial(self._outcome, finding, findings, following),
-            step=verdict.step if verdict else "",
-            expected=verdict.expected if verdict else "",
-            observed=verdict.observed if verdict else "",
-            cause=verdict.cause if verdict else "",
-            evidence=verdict.evidence if verdict else (),
         )
 
     def _outcome(self, finding: Finding, findings: Findings, following: Lesson | None) -> Content:
@@ -172,7 +176,7 @@ class Diagnosis(VerticalScroll):
     def show_passed(self, result: ExerciseResult, following: Lesson | None, *, all_passed: bool) -> None:
         """Show the good news and what comes next; `all_passed` if every exercise of the course is passed."""
         self._unfolded = False
-        self._fill(partial(self._passed_head, result, following, all_passed))
+        self._fill(partial(self._passed_head, result, following, all_passed), remarks=partial(self._remarks, result))
 
     def _passed_head(self, result: ExerciseResult, following: Lesson | None, all_passed: bool) -> Content:
         missed = [c.id for c in result.criteria if c.bonus and c.verdict.status is not Status.PASSED]
@@ -184,46 +188,87 @@ class Diagnosis(VerticalScroll):
             command, key, where = "next", "n", f"{wording.label(following)} {following.title}"
         else:
             command, key, where = "lessons", "l", "the list of lessons"
+        gap = "" if result.remarks else "\n"  # the remarks below need the room
         return Content.assemble(
             (line, "bold $good"),
             "\n",
             ("━" * cell_len(line), "$good"),
-            "\n\nWell done: your node does all that was asked for.\n",
+            f"\n{gap}Well done: your node does all that was asked for.\n",
             "Every exercise is passed now.\n" if all_passed else "",
             bonus,
-            "\nNext: press ",
+            f"{gap}Next: press ",
             (wording.key_hint(key, typing=self._typing), "bold $accent"),
             " for ",
             Content.from_markup(f"[@click=screen.do('{command}')]$where[/]", where=where),
-            ".\n",
-            ("Choose a criterion to see what was measured.", "$quiet"),
+            ", ",
+            ("V", "bold $accent"),
+            " to ",
+            Content.from_markup("[@click=screen.do('against')]compare your code with our solution[/]"),
+            ".",
+            ("" if result.remarks else "\nChoose a criterion to see what was measured.", "$quiet"),
         )
+
+    def _remarks(self, result: ExerciseResult) -> Content:
+        if not result.remarks:
+            return Content("")
+        parts: list[Content | str | tuple[str, str]] = [(REMARKS_HEADING, "bold $warn"), "\n"]
+        for line in remark_lines(result):
+            parts += [("- ", "$warn"), line, "\n"]
+        return Content.assemble(*parts, self._explain_link("why"))
+
+    def _explain_link(self, what: str) -> Content:
+        key = wording.key_hint("x", typing=self._typing)
+        return Content.from_markup("[@click=screen.do('explain')]$key explains $what[/]", key=key, what=what)
 
     def _fill(
         self,
         head: partial[Content],
+        verdict: Verdict | None = None,
         *,
         news: partial[Content] | None = None,
-        step: str = "",
-        evidence: tuple[str, ...] = (),
-        **texts: str,
+        remarks: partial[Content] | None = None,
     ) -> None:
-        self._head, self._news = head, news or partial(Content)
+        verdict = verdict or Verdict(Status.SKIPPED)
+        self._head, self._news, self._remarked = head, news or partial(Content), remarks or partial(Content)
+        self._mistake = verdict.mistake
+        self.query_one("#part-expected", Part).show(Content(verdict.expected))
+        self.query_one("#part-observed", Part).show(Content(verdict.observed))
+        self.query_one("#part-why", Part).show(_why(verdict))
+        step = Content.assemble(("Next step  ", "bold $accent"), verdict.step) if verdict.step else Content("")
+        self._show("#diagnosis-step", step)
+        self._evidence = verdict.evidence
         self._show_head()
-        step_box = self.query_one("#diagnosis-step", WrappedText)
-        step_box.set_class(bool(step), "-filled")
-        step_box.update(Content.assemble(("Next step  ", "bold $accent"), step))
-        for key, _ in self.PARTS[:-1]:
-            self.query_one(f"#part-{key}", Part).show(Content(texts.get(key, "")))
-        self._evidence = evidence
         self._show_evidence()
         self.scroll_home(animate=False)
+        self._keep_step_visible()
+
+    def on_resize(self) -> None:
+        """Arrange for the new size."""
+        self._keep_step_visible()
+
+    def _keep_step_visible(self) -> None:
+        """Keep the next step at the bottom, whatever is above it, if it would be out of sight otherwise."""
+        self.remove_class("-tight")
+        self.call_after_refresh(self._dock_step)
+
+    def _dock_step(self) -> None:
+        step = self.query_one("#diagnosis-step")
+        if step.display and step.virtual_region.bottom > self.scrollable_content_region.height:
+            self.add_class("-tight")
+
+    def _show(self, selector: str, text: Content) -> None:
+        """Show a text in one of the parts without a name, or hide the part if there is none."""
+        part = self.query_one(selector, Static)
+        part.update(text)
+        part.set_class(bool(text.plain), "-filled")
 
     def _show_head(self) -> None:
+        """Show all that names keys."""
         self.query_one("#diagnosis-head", WrappedText).update(self._head())
-        news = self._news()
-        self.query_one("#diagnosis-news", Static).update(news)
-        self.query_one("#diagnosis-news", Static).set_class(bool(news.plain), "-filled")
+        self._show("#diagnosis-news", self._news())
+        self._show("#diagnosis-remarks", self._remarked())
+        more = self._explain_link("this mistake") if self._mistake else Content("")
+        self.query_one("#part-more", Part).show(more)
 
     def _show_evidence(self) -> None:
         count = len(self._evidence)
@@ -235,3 +280,15 @@ class Diagnosis(VerticalScroll):
         )
         text = Content("\n").join([link, *(Content(line) for line in self._evidence)]) if self._unfolded else link
         self.query_one("#part-evidence", Part).show(text if count else Content(""))
+
+
+def _why(verdict: Verdict) -> Content:
+    """The cause, with the mistake's name in bold; or a link to the criterion where it is told."""
+    if verdict.same_as:
+        link = Style.from_meta({"@click": f"screen.show_criterion({verdict.same_as!r})"})
+        root = Content(verdict.same_as).stylize(link)
+        return Content.assemble("for the same reason as ", root)
+    title, colon, text = verdict.cause.partition(": ")
+    if not verdict.mistake or not colon:
+        return Content(verdict.cause)
+    return Content.assemble((title, "bold"), colon, text)

@@ -214,7 +214,7 @@ class LogPane(Vertical):
             ("m", "level", level),
             ("/", "filter", f"'{self.text}'" if self.text else "filter"),
             ("Space", "pause", "paused: go on" if self.paused else following),
-            ("x", "clear", "clear"),
+            ("C", "clear", "clear"),
         ):
             on = (name == "pause" and self.paused) or (name == "filter" and self.text)
             link = Content.from_markup(f"[@click=screen.do('{name}')]$text[/]", text=text)

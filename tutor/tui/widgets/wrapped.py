@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Self
 
 from rich.cells import cell_len
 from textual.content import Content
@@ -21,6 +22,11 @@ class WrappedText(Static):
     def __init__(self, id: str | None = None, classes: str | None = None, *, hang: int = 0) -> None:
         super().__init__(id=id, classes=classes, markup=False)
         self._hang = hang
+
+    def with_text(self, text: Content) -> Self:
+        """Show this text; return the widget."""
+        self.update(text)
+        return self
 
     @property
     def text(self) -> Content:
