@@ -8,9 +8,12 @@ from collections.abc import Iterator, Sequence
 from tutor.source import Function, Program, SourceFile
 
 
-def find_truth_test(function: Function) -> ast.expr | None:
-    """A variable that is tested for its truth value, and with which the function also compares or computes."""
-    inside = list(ast.walk(function))
+def find_truth_test(function: Function, program: Program) -> ast.expr | None:
+    """A variable that is tested for its truth value, and with which the function also compares or computes.
+
+    Of a count of messages, 0 is rightly none.
+    """
+    inside, counters = list(ast.walk(function)), _find_counters(program)
     used = {
         ast.unparse(each)
         for node in inside
@@ -23,7 +26,7 @@ def find_truth_test(function: Function) -> ast.expr | None:
         tests += node.values if isinstance(node, ast.BoolOp) else []
         for test in tests:
             tested = test.operand if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not) else test
-            if isinstance(tested, ast.Name | ast.Attribute) and ast.unparse(tested) in used:
+            if isinstance(tested, ast.Name | ast.Attribute) and ast.unparse(tested) in used - counters:
                 return tested
     return None
 

@@ -143,10 +143,10 @@ async def test_our_own_errors_are_not_the_learners_failures(scene: Scene) -> Non
     }
     judge, scenario, machine = (c.verdict for c in result.criteria[:3])
     assert "ZeroDivisionError" in judge.cause
-    assert "not of your code" in judge.hint
+    assert "not of your code" in judge.step
     assert __file__.rpartition("/")[2] in judge.evidence[0]
     assert "KeyError: 'oops'" in scenario.cause
-    assert (machine.cause, machine.hint) == ("no room", "make room")
+    assert (machine.cause, machine.step) == ("no room", "make room")
     assert result.verdict is Status.ERROR
 
 

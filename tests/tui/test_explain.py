@@ -10,6 +10,7 @@ import pytest
 
 from tests.tui import fakes
 from tests.tui.conftest import open_app
+from tutor.judge.events import CriterionJudged
 from tutor.judge.result import Remark
 from tutor.judge.verdict import Verdict
 from tutor.tui.dialogs.explanation import ExplanationScreen
@@ -77,7 +78,7 @@ async def test_criteria_with_the_same_root_point_to_it_and_it_is_selected_first(
     async with learner(size) as me:
         # The criterion that fails first during the check is not the one that shows the root.
         await me.start_check()
-        await me.engine_emits(fakes.CriterionJudged("i1.1", fakes.result("rate", fakes.BAD)))
+        await me.engine_emits(CriterionJudged("i1.1", fakes.result("rate", fakes.BAD)))
         await me.until(lambda: me.main.chosen_criterion == "rate")
         await me.engine_emits(*fakes.final_events(SAME, range=fakes.BAD))
         await me.sees("1 of 3 passed", "✗ range  ", "rate used as a period")

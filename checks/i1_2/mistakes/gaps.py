@@ -259,7 +259,7 @@ def tested_for_truth(case: Case) -> Iterator[Found]:
     See it: `python3 -c "print(bool(0))"`.
     """
     for function in _callbacks(case, ZERO):
-        if (tested := comparing.find_truth_test(function)) is not None:
+        if (tested := comparing.find_truth_test(function, case.program)) is not None:
             yield found(case.program.holding(tested), tested, tested=ast.unparse(tested))
 
 

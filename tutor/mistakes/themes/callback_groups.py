@@ -271,6 +271,8 @@ def deadlock_by_await(case: Case) -> Iterator[Found]:
     for file in case.files:
         if file.calls("ReentrantCallbackGroup"):
             continue
+        creators = ("create_timer", "create_subscription", "create_service")
+        functions = [function for creator in creators for function in case.program.callbacks(creator)]
         for node in file.nodes:
-            if isinstance(node, ast.Await):
+            if isinstance(node, ast.Await) and file.function_around(node) in functions:
                 yield found(file, node)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
 from difflib import get_close_matches
@@ -203,9 +204,14 @@ def wrong_place(case: Case) -> Iterator[Found]:
             given = node.named.get(keyword, "")
             if keyword != right and _is_used(file, argument, given) and ":=" not in given:
                 yield at_call(case, node, keyword=keyword, given=_short(given), why=effect)
-            elif keyword == right and given and not _is_used(file, argument, given) and reaches_no_node(case):
+            elif keyword == right and _is_fixed(given) and reaches_no_node(case):
                 why = f"is a fixed text, and not the value of {argument}"
                 yield at_call(case, node, keyword=keyword, given=_short(given), why=why)
+
+
+def _is_fixed(code: str) -> bool:
+    """Whether nothing in an argument's code is worked out when the file is executed."""
+    return bool(code) and not any(isinstance(each, ast.Name | ast.Call) for each in ast.walk(ast.parse(code)))
 
 
 def _short(code: str) -> str:

@@ -99,37 +99,6 @@ def one_side(case: Case) -> Iterator[Found]:
 
 
 @mistake(
-    "waits-for-a-simulator",
-    name="simulated time",
-    explains=[Symptom.NOT_CONNECTED],
-    evidence=Evidence.RUN,
-    says="{node} has use_sim_time set, so its timers wait for a simulator's /clock, and there is none",
-    do="Leave use_sim_time off where no simulator runs.",
-    example=in_run(Symptom.NOT_CONNECTED, graph=Graph(("/bell",), (), (TopicEndpoint("/clock", "t", "/bell"),))),
-)
-def simulator(case: Case) -> Iterator[Found]:
-    """A node waits for the clock of a simulation.
-
-    With use_sim_time, a node takes its time from the topic /clock. While nobody publishes there, no timer is ever due.
-
-    Bad:
-
-        Node(package='house', executable='bell', parameters=[{'use_sim_time': True}])
-
-    Good:
-
-        Node(package='house', executable='bell')
-
-    See it: `ros2 topic info -v /clock`.
-    """
-    graph = case.trace.graph
-    if not any(endpoint.topic == "/clock" for endpoint in graph.publishers):
-        for endpoint in graph.subscriptions:
-            if endpoint.topic == "/clock":
-                yield Found({"node": endpoint.node})
-
-
-@mistake(
     "different-topics",
     name="wrong topic",
     explains=[Symptom.NOT_CONNECTED],

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.source import values_of
+from tutor.source import last_name, values_of
 
 _VALUES = (
     Symptom.WRONG_VALUES,
@@ -175,8 +175,19 @@ def shared_object(case: Case) -> Iterator[Found]:
     for file in case.files:
         for node in file.nodes:
             match node:
-                case ast.Assign(targets=[_, _, *_], value=ast.Dict() | ast.List() | ast.Set() | ast.Call()):
+                case ast.Assign(targets=[_, _, *_], value=value) if _can_be_changed(value):
                     yield found(file, node, names=" and ".join(map(ast.unparse, node.targets)))
+
+
+def _can_be_changed(value: ast.expr) -> bool:
+    """Whether a value is a container, or an object of a class: what functions return is mostly a number or a text."""
+    match value:
+        case ast.Dict() | ast.List() | ast.Set():
+            return True
+        case ast.Call(func=function):
+            name = last_name(function)
+            return name[:1].isupper() or name in ("dict", "list", "set", "deque", "defaultdict")
+    return False
 
 
 @mistake(

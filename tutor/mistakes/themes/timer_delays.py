@@ -223,8 +223,8 @@ def rate_ignored(case: Case) -> Iterator[Found]:
 
 @mistake(
     "simulated-time",
-    explains=_NEVER_DUE,
-    says="{line} sets use_sim_time, so timers wait for a simulator's /clock, and there is none",
+    explains=(*_NEVER_DUE, Symptom.NOT_CONNECTED),
+    says="{what} use_sim_time set, so timers wait for a simulator's /clock, and there is none",
     do="Leave use_sim_time off where no simulator runs.",
 )
 def simulated_time(case: Case) -> Iterator[Found]:
@@ -243,10 +243,14 @@ def simulated_time(case: Case) -> Iterator[Found]:
 
     See it: `ros2 param get NODE use_sim_time`, `ros2 topic echo /clock`.
     """
+    graph = case.trace.graph
+    if any(endpoint.topic == "/clock" for endpoint in graph.publishers):
+        return
     for file in case.files:
         for name in file.nodes:
             if isinstance(name, ast.Constant) and name.value == "use_sim_time" and _is_set(file, name):
-                yield found(file, name)
+                yield found(file, name, what=f"line {name.lineno} has")
+    yield from (Found({"what": f"{each.node} has"}) for each in graph.subscriptions if each.topic == "/clock")
 
 
 def _is_set(file: NodeFile, name: ast.Constant) -> bool:

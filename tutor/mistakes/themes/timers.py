@@ -90,6 +90,8 @@ def several_timers(case: Case) -> Iterator[Found]:
         function = file.function_around(timer)
         within = takewhile(lambda around, end=function: around is not end, file.ancestors(timer))  # type: ignore[misc]
         for loop in within:
+            if isinstance(loop, ast.If):  # in one of the rounds, such as that of the rate among parameters
+                break
             if isinstance(loop, ast.For):
                 yield found(file, timer, loop=loop.lineno)
 

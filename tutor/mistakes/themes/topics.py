@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import difflib
 from collections.abc import Iterator, Sequence
 
@@ -9,6 +10,7 @@ from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.ros_model import Graph, TopicEndpoint
+from tutor.source import NodeFile
 
 _MISSING = (Symptom.NO_MESSAGES, Symptom.NOTHING_RECEIVED)
 
@@ -246,5 +248,17 @@ def unused_publisher(case: Case) -> Iterator[Found]:
         for call in file.calls("create_publisher", "create_lifecycle_publisher"):
             if not case.program.calls("publish"):
                 yield found(file, call, what="nothing calls its publish()")
-            elif not case.program.calls("create_timer") and not case.program.calls("create_subscription"):
+            elif not case.program.calls("create_timer", "create_subscription") and not _publishes_again(file):
                 yield found(file, call, what="no timer calls what publishes")
+
+
+def _publishes_again(file: NodeFile) -> bool:
+    """Whether a call of publish() stands in a loop, or in a function that something uses."""
+    for call in file.calls("publish"):
+        around = file.function_around(call)
+        used = {each.id if isinstance(each, ast.Name) else getattr(each, "attr", "") for each in file.nodes}
+        if any(isinstance(each, ast.While | ast.For | ast.AsyncFor) for each in file.ancestors(call)):
+            return True
+        if around is not None and around.name != "main" and around.name in used:
+            return True
+    return False
