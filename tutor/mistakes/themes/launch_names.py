@@ -106,8 +106,7 @@ def twice(case: Case) -> Iterator[Found]:
 
 
 @mistake(
-    "wrong-argument-name",
-    name="no such launch argument",
+    "no-such-launch-argument",
     explains=_NAMES,
     evidence=Evidence.RUN,
     says="{argument}:= changes nothing, since what the launch file declares is {declared}",
