@@ -70,7 +70,7 @@ def test_the_verdict_of_a_report_follows_from_its_exercises(statuses: list[Statu
 
 def test_constructors_of_each_kind_of_verdict() -> None:
     assert passed("e", "o", ["1"]) == Verdict(P, "e", "o", evidence=("1",))
-    assert failed("e", "o", Cause("n", "t", "h"), iter("12")) == Verdict(F, "e", "o", "n: t", "h", ("1", "2"))
+    assert failed("e", "o", Cause("n", "t", "h"), iter("12")) == Verdict(F, "e", "o", "n: t", "h", ("1", "2"), "n")
     assert skipped("because") == Verdict(S, cause="because")
     assert fault("what", "do this", ["1"]) == Verdict(E, cause="what", step="do this", evidence=("1",))
     assert [Verdict(status).passed for status in Status] == [True, False, False, False]
