@@ -26,12 +26,38 @@ def pytest_configure() -> None:
 # A quarter of the test time went into garbage collection over Textual's widgets.
 gc.set_threshold(50_000, 20, 50)
 
-ENGINE_TESTS = Path(__file__).with_name("engine")
+TESTS = Path(__file__).parent
+ENGINE_TESTS = TESTS / "engine"
+LONGEST_FIRST = [
+    "tui/test_lessons_live.py",
+    "tui/test_whole_lessons.py",
+    "tui/test_check.py",
+    "tui/test_live.py",
+    "tui/test_killed.py",
+    "tui/test_run.py",
+    "tui/test_terminal.py",
+    "tui/test_terminal_ros.py",
+    "tui/test_edit.py",
+    "tui/test_navigation.py",
+    "tui/test_checklist.py",
+    "tui/test_typeahead.py",
+    "tui/test_foreign_text.py",
+    "cli/test_cli_author.py",
+    "engine/test_ros_run.py",
+    "engine/test_isolate_option.py",
+]
+"""The files that take longest: pytest-xdist would begin with those of many tests, and wait for these at the end."""
 
 
 def pytest_collection_finish() -> None:
     """No test module imports rclpy, not even indirectly: the engine's tests must prepare the environment first."""
     assert "rclpy" not in sys.modules, "a test module imports rclpy: import it in another process"
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the files that take longest, so that no process is left alone with one at the end."""
+    places = {TESTS / name: place for place, name in enumerate(LONGEST_FIRST)}
+    items.sort(key=lambda item: places.get(item.path, len(places)))
 
 
 @pytest.hookimpl(wrapper=True)

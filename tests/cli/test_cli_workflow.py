@@ -254,7 +254,7 @@ sys.exit(main(sys.argv[1:]))
     node = home / FILE
     arguments = [sys.executable, "-c", program]
     subprocess.run([*arguments, "start", "i1.1"], check=True, capture_output=True)
-    node.write_text("import sys, time\nprint(*sys.argv[1:], flush=True)\ntime.sleep(60)\n")
+    node.write_text("import sys, time\nprint(*sys.argv[1:], flush=True)\nwhile True: time.sleep(0.1)\n")
     process = subprocess.Popen(
         [*arguments, "run", "i1.1", "--", "a", "--b"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
     )

@@ -27,6 +27,7 @@ PACKAGE = {
     "pack/broken.py": "import nothing_of_this_name",
 }
 MODULES = ("pack.other", "pack.broken", "no_such_module", "numpy", "tempfile", "yaml")
+FOREVER = "while True:\n    time.sleep(0.1)"  # a signal that comes just before a sleep is only handled after it
 
 _ADDRESS = re.compile(r"0x[0-9a-f]{6,}|(?<=started )\d+")
 
@@ -205,7 +206,7 @@ async def test_a_forked_program_does_what_one_does_that_python_starts(programs: 
 
 
 async def test_ctrl_c_ends_a_forked_program_by_its_signal_or_is_handled(programs: Programs) -> None:
-    wait = "os.write(1, b'ready\\n')\ntime.sleep(600)"
+    wait = f"os.write(1, b'ready\\n')\n{FOREVER}"
     waits = f"import atexit, os, time\natexit.register(print, 'bye')\n{wait}"
     handled = waits.replace(wait, "try:\n    time.sleep(0)\n    " + wait.replace("\n", "\n    "))
     handled += "\nexcept KeyboardInterrupt:\n    print('handled')"
@@ -321,7 +322,7 @@ async def test_programs_start_without_a_server_that_is_gone_or_hangs(
 ) -> None:
     programs.server = ForkServerLink(Path(sys.executable), programs.env, ["yaml"])
     file = programs.folder / "long.py"
-    file.write_text("import os, time\nos.write(1, b'ready\\n')\ntime.sleep(600)")
+    file.write_text(f"import os, time\nos.write(1, b'ready\\n')\n{FOREVER}")
     assert await programs.texts("print(1)") == ["1"]  # it has been started
     async with await programs.start(file, fork=True, env={}) as process:
         monkeypatch.setattr(fork_link, "_FORK_LIMIT_S", 0.3)

@@ -390,7 +390,14 @@ async def test_wait_works_with_and_without_a_limit(bench: Any) -> None:
 
 
 async def test_a_program_on_a_terminal_can_be_interrupted(bench: Any) -> None:
-    script = "os.isatty(0) and print('terminal', flush=True); sys.stdin.readline(); forever()"
+    # Polled: Ctrl+C right before a `readline` would set a flag of Python's and leave it to wait for a line, as on any
+    # terminal.
+    script = """
+import select
+os.isatty(0) and print('terminal', flush=True)
+while not select.select([0], [], [], 0.1)[0]: pass
+print('input', repr(sys.stdin.readline()))
+"""
     learner = await bench.start(script, terminal=True)
     await bench.until(lambda: texts(learner) == ["terminal"], "the terminal to be seen")
     learner.interrupt()

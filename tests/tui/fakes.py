@@ -38,16 +38,15 @@ self.publisher = self.create_publisher(Float64, "/sensor/temperature", 10)
 
 # A node as far as the app can tell: it logs like rclpy, and exits with code 0 on Ctrl+C.
 NODE = """\
-import signal, sys, threading
+import signal, sys
 
-done = threading.Event()
-signal.signal(signal.SIGINT, lambda *_: done.set())
+signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # until `sigwait`, which misses none
 log = lambda level, text: print(f"[{level}] [1763716000.125000000] [thermometer]: {text}", file=sys.stderr, flush=True)
 log("INFO", "ready")
 log("WARN", "the sensor is warm")
 print("a printed line", flush=True)
 log("INFO", "a long line " + "x" * 200)
-done.wait()
+signal.sigwait([signal.SIGINT])
 log("INFO", "bye")
 """
 
@@ -134,16 +133,18 @@ class FakeSession(Session):
 
 
 ENGINE = """\
-import os, signal, sys, time
+import os, signal, sys, threading
 from pathlib import Path
 
 folder = Path(sys.argv[1])
 
-def stop(*_):
+def stop():
+    signal.sigwait([signal.SIGINT])
     (folder / "cleaned-up").write_text("yes")
-    sys.exit(130)
+    os._exit(130)
 
-signal.signal(signal.SIGINT, stop)
+signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+threading.Thread(target=stop, daemon=True).start()  # a handler would wait for the end of a read that has just begun
 (folder / "engine.pid").write_text(str(os.getpid()))
 with open(folder / "engine.fifo") as script:
     for line in script:

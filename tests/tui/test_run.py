@@ -31,7 +31,8 @@ async def test_the_log_of_a_running_node_is_shown_with_its_levels_and_followed(l
     async with learner(size) as me:
         await me.press("r")
         await me.sees("running", "INFO", "ready", "WARN", "the sensor is warm", "print", "a printed line", "r Stop")
-        assert me.text("#log-view").replace("\n        ", "").count("x") >= 200  # the long line is wrapped, not cut
+        # The long line is wrapped, not cut.
+        await me.until(lambda: me.text("#log-view").replace("\n        ", "").count("x") >= 200, "the long line")
         await me.press("r")
         await me.sees("ended", "stopped", "bye", "r Run")
 
@@ -197,6 +198,8 @@ async def test_a_server_and_its_client_run_side_by_side(learner: Any) -> None:
         await me.sees("client.py")
         await me.press("r")
         await me.sees("● running  client.py", "running server.py and client.py")
+        client = me.main.nodes.by_path[me.file]
+        await me.until(lambda: len(client.state.lines) == 4, "what the client says at its start")
         await me.press("r")
         await me.sees("■ ended  client.py", "running server.py")
 

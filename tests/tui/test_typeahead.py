@@ -36,7 +36,8 @@ async def test_keys_typed_after_a_command_go_where_it_leads_into_a_dialog_too(le
         await me.press("2")
         await me.until(lambda: me.main.query_one(CodeBody).has_focus)
         await me.sees("1  import signal")
-        editor, expected = me.editor, fakes.NODE.replace("import", "rcqimport", 1).replace("ing\n", "ingx\n", 1)
+        editor, (first, rest) = me.editor, fakes.NODE.split("\n", 1)
+        expected = f"rcq{first}x\n{rest}"
         type_ahead(me, "e", *"rcq", "escape", *"1", "n", "p", "3", "2", "e", "end", *"x")
         await me.until(lambda: editor.text == expected)
         assert me.main.page == "code"

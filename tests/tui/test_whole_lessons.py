@@ -19,8 +19,8 @@ from tutor.tui.live.request_form import FieldRow
 from tutor.workspace import AppState, Workspace
 
 pytestmark = pytest.mark.timeout(300)
-CHECK_S = 60.0
-"""Time limit for a check, generous for a busy machine."""
+CHECK_S = 140.0
+"""Longest wait for the end of a check, which has limits of its own: one of 19 s takes 64 s beside six busy loops."""
 
 
 @asynccontextmanager
@@ -36,6 +36,11 @@ async def solving(session: Session, exercise: str, size: tuple[int, int] = (120,
         yield me
 
 
+async def check_is_over(me: Learner) -> None:
+    """Wait for the end of a check that has been started, whatever it says."""
+    await me.until(lambda: me.main.checks.running is None, "the end of the check", limit_s=CHECK_S)
+
+
 def ready_engines() -> list[int]:
     """The pids of the engines that wait for a check."""
     children = [each.pid for each in descendants(os.getpid()) if each.parent == os.getpid()]
@@ -47,8 +52,14 @@ async def test_a_failure_is_fixed_and_the_pass_is_evidence_in_the_checklist(sess
         correct = me.file.read_text()
         me.file.write_text(correct.replace("request.a - request.b", "request.b - request.a"))
         await me.press("c")
-        await me.until(lambda: "✗ operations  " in me.screen(), "a failure", limit_s=CHECK_S)
-        await me.sees("Expected   /subtract: ", "Observed   -", "wrong result: the operands are the", "3 of 4 passed")
+        await check_is_over(me)
+        await me.sees(
+            "✗ operations  ",
+            "Expected   /subtract: ",
+            "Observed   -",
+            "wrong result: the operands are the",
+            "3 of 4 passed",
+        )
 
         await me.until(lambda: len(ready_engines()) == 1, "an engine ready for the next check")
         (engine,) = ready_engines()
@@ -62,7 +73,8 @@ async def test_a_failure_is_fixed_and_the_pass_is_evidence_in_the_checklist(sess
         me.paste("request.a - request.b")
         await me.press("ctrl+s")
         await me.until(lambda: len(descendants(engine)) > 1, "a node beside the fork server", limit_s=CHECK_S)
-        await me.until(lambda: "I1.3 Calculator Service passed" in me.screen(), "a pass", limit_s=CHECK_S)
+        await check_is_over(me)
+        await me.sees("I1.3 Calculator Service passed")
         assert me.file.read_text() == correct
         await me.sees("Next: press Esc, then n for", "4 of 4 passed")
 
@@ -113,4 +125,5 @@ async def test_a_course_from_another_folder_is_played(tmp_path: Path, session: S
     mine = Session(load_course(course), Workspace(tmp_path / "ws"), course)
     async with solving(mine, "h1.1", (80, 24)) as me:
         await me.press("c")
-        await me.until(lambda: "H1.1 Greeter passed" in me.screen(), "a pass", limit_s=CHECK_S)
+        await check_is_over(me)
+        await me.sees("H1.1 Greeter passed")
