@@ -37,7 +37,7 @@ def no_spin_for_answer(case: Case) -> Iterator[Found]:
     """A client waits for an answer, but nothing spins.
 
     Answers arrive through the executor, like everything that reaches a node. A loop that only checks whether the future
-    is done, or a call() in the only thread, waits for an answer that nothing takes in.
+    is done, an await in asyncio's own loop, or a call() in the only thread, waits for an answer that nothing takes in.
 
     Bad:
 
@@ -57,7 +57,9 @@ def no_spin_for_answer(case: Case) -> Iterator[Found]:
     for file in case.files if in_silence(case) else ():
         spins = any(last_name(node) in _SPINS for each in {file, case.file} for node in each.nodes)
         if not spins and requests(file):
-            waits = [*file.calls("done"), *(call for call in requests(file) if called_name(call) == "call")]
+            awaits = [node for node in file.nodes if isinstance(node, ast.Await)]
+            awaited = [each for each in awaits if any(call in ast.walk(each) for call in requests(file))]
+            waits = [*awaited, *file.calls("done"), *(call for call in requests(file) if called_name(call) == "call")]
             yield from (found(file, call) for call in waits)
 
 

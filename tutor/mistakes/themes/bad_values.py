@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.themes.messages import unknown_field
-from tutor.source import NodeFile
+from tutor.source import NodeFile, argument
 from tutor.source.parameters import ON_SET, POST_SET, may_refuse, registered_callback
 
 
@@ -170,6 +171,11 @@ def no_validation(case: Case) -> Iterator[Found]:
     """
     name, value = case.about("parameter", "the parameter"), case.about("value", "a bad value")
     for file in case.files:
+        for call in file.calls("FloatingPointRange", "IntegerRange"):
+            low, high = (_number(argument(call, end)) for end in ("from_value", "to_value"))
+            if low is not None and high is not None and isinstance(value, int | float) and low <= value <= high:
+                why = f"the range in line {call.lineno} goes from {low:g} to {high:g}, and both ends are allowed"
+                yield found(file, call, name=name, why=why)
         checker, later = registered_callback(file, ON_SET), registered_callback(file, POST_SET)
         if checker is not None:
             where = f"{checker.name} (line {checker.lineno})"
@@ -180,6 +186,16 @@ def no_validation(case: Case) -> Iterator[Found]:
             why = f"{later.name} (line {later.lineno}) is called when the value is already stored, and cannot refuse it"
             yield found(file, later, name=name, why=why)
     yield Found({"name": name, "why": f"nothing checks a new value of {name} before it is stored"})
+
+
+def _number(given: ast.expr | None) -> float | None:
+    """The number that an argument is; None if that shows only when it runs."""
+    match given:
+        case ast.Constant(value=bool()):
+            return None
+        case ast.Constant(value=int() | float() as number):
+            return float(number)
+    return None
 
 
 def _mentions_failure(file: NodeFile, function: str) -> bool:

@@ -64,6 +64,64 @@ def exit_in_callback(case: Case) -> Iterator[Found]:
 
 
 @mistake(
+    "exception-caught-outside-spin",
+    explains=WHILE_A_NODE_RUNS,
+    evidence=Evidence.PROCESS,
+    says="{ended}: an exception leaves a callback, and with it the spin; {line} catches it outside, which is too late: "
+    "{code}",
+    do="Handle it in the callback, so that the callback returns and the node goes on.",
+    example=in_run(Symptom.NO_ANSWER, exit=Exit(1, None, 4.2), logs=["ding"]),
+)
+def caught_outside_spin(case: Case) -> Iterator[Found]:
+    """An exception is caught around the spin, when the node has already stopped.
+
+    rclpy does not catch what a callback raises: the exception comes out of rclpy.spin(), and no other callback is
+    called any more. An except clause there keeps the traceback from being shown, but not the node from ending.
+
+    Bad:
+
+        def ring(self, request, response):
+            raise ValueError('the bell is broken')
+
+        def main():
+            rclpy.init()
+            try:
+                rclpy.spin(Doorbell())
+            except ValueError as error:
+                print(error)
+
+    Good:
+
+        def ring(self, request, response):
+            try:
+                self.bell.ring()
+            except ValueError as error:
+                self.get_logger().error(str(error))
+            return response
+
+        def main():
+            rclpy.init()
+            rclpy.spin(Doorbell())
+
+    See it: the node is gone from `ros2 node list` after the first call.
+    """
+    if (ended := ended_by_itself(case)) is None or ended.code is None:
+        return
+    for file in case.files:
+        for call in file.calls("spin"):
+            for around in file.ancestors(call):
+                for handler in around.handlers if isinstance(around, ast.Try) else ():
+                    if not _is_for_the_end(handler):
+                        yield found(file, handler, ended=how_it_ended(ended))
+
+
+def _is_for_the_end(handler: ast.ExceptHandler) -> bool:
+    """Whether a handler catches only what ends a spin in any case, such as Ctrl+C."""
+    caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
+    return all(last_name(each) in ("KeyboardInterrupt", "ExternalShutdownException", "SystemExit") for each in caught)
+
+
+@mistake(
     "exit-at-once",
     explains=WHILE_A_NODE_RUNS,
     evidence=Evidence.PROCESS,

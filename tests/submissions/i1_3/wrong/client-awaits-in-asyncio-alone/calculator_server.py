@@ -1,0 +1,1 @@
+../../right/plain-class/calculator_server.py
