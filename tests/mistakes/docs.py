@@ -46,6 +46,7 @@ PAGE_OF = {
     "setting_up": "nodes",
     "replaced_timers": "timers",
     "timer": "timers",
+    "loops": "timers",
     "creation": "topics",
     "messages": "topics",
     "qos": "topics",

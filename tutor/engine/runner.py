@@ -125,17 +125,17 @@ class Runner:
             not_shown=items_not_shown(self._lesson, sources, results),
         )
         if result.verdict is Status.PASSED and not unjudged:
-            result = replace(result, remarks=self._remarks())
+            result = replace(result, remarks=self._remarks(results))
         self._on_event(ExerciseJudged(result))
         return result
 
-    def _remarks(self) -> tuple[Remark, ...]:
+    def _remarks(self, results: Sequence[CriterionResult]) -> tuple[Remark, ...]:
         from tutor.mistakes import remarks  # late, as in `explain`
 
         sources: dict[str, str] = {}
         for path in self._submission.files.values():
             sources |= read_sources(path)
-        return remarks(sources, self._check)
+        return remarks(sources, self._check, [each.verdict.mistake for each in results])
 
     async def _judge_shown(self) -> tuple[Sequence[CriterionResult], tuple[str, ...]]:
         """Judge the criteria to show; return their results, and the ids of those skipped at the first failure."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from tutor.judge.check import Check
@@ -96,13 +96,16 @@ def _root(found: Diagnosis, seen: Observation) -> str:
     return "the program" if found.evidence is Evidence.PROCESS and not found.line else ""
 
 
-def remarks(sources: Mapping[str, str], check: Check) -> tuple[Remark, ...]:
-    """What works in these files (name to text), but will bite: at most `MAX_REMARKS`, in the catalogue's order."""
+def remarks(sources: Mapping[str, str], check: Check, known: Collection[str] = ()) -> tuple[Remark, ...]:
+    """What works in these files (name to text), but will bite: at most `MAX_REMARKS`, in the catalogue's order.
+
+    `known`: the mistakes that a bonus criterion has told already.
+    """
     told: list[Remark] = []
     for name in sources:
-        case = Case(Symptom.ENDED.seen(Trace(name, sources={name: sources[name]})))
+        case = Case(Symptom.ENDED.seen(Trace(name, sources={name: sources[name]}), passed=True))
         for entry in (entry for catalogue in catalogues_of(check) for entry in catalogue.entries.values()):
-            if not entry.remark or any(remark.mistake == entry.id for remark in told):
+            if not entry.remark or entry.id in (*known, *(remark.mistake for remark in told)):
                 continue
             for occurrence in entry.find(case):
                 words = {"line": f"line {occurrence.line}", "code": occurrence.code, **occurrence.words}

@@ -64,6 +64,11 @@ class Case:
         """What else was seen, such as "topic"; `default` if the criterion does not say."""
         return self.seen.about.get(name, default)
 
+    @property
+    def passed(self) -> bool:
+        """Whether everything passed: nothing went wrong, and only a remark is asked for."""
+        return bool(self.about("passed"))
+
     @cached_property
     def program(self) -> Program:
         """All files of the learner's program."""
@@ -133,8 +138,9 @@ class Mistake:
     one sentence. Both have placeholders: `{line}` ("line 12", or "helper.py, line 12"), `{code}` (that line), and the
     words of what was found. `explains`: the symptoms for which it is asked. `find`: yields its occurrences; its
     docstring is the page. `slip`: a misspelled name, missing parentheses and the like, whose step may hold one line of
-    code. `remark`: what to say of it where everything passed; "" if it is no remark. `example`: the observation in
-    which the page's bad example is found, if its source alone does not show it.
+    code. `remark`: what to say of it where everything passed, after its file and line (see `Case.passed`); "" if it is
+    no remark. `example`: the observation in which the page's bad example is found, if its source alone does not show
+    it.
     """
 
     id: str

@@ -51,6 +51,7 @@ from tutor.mistakes.themes import ending as ending
 from tutor.mistakes.themes import exit_codes as exit_codes
 from tutor.mistakes.themes import not_ending as not_ending
 from tutor.mistakes.themes import lasting_threads as lasting_threads
+from tutor.mistakes.themes import loops as loops
 from tutor.mistakes.themes import unhandled as unhandled
 from tutor.mistakes.themes import more_symptoms as more_symptoms
 from tutor.mistakes.themes import parameter_symptoms as parameter_symptoms

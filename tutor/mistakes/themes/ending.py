@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from tutor.judge import tracebacks
 from tutor.judge.ending import SPIN_ENDINGS
 from tutor.judge.symptom import Symptom
 from tutor.judge.tracebacks import Frame, Traceback
-from tutor.mistakes.entry import Case, Evidence, Found, mistake
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.exceptions import found_in
 from tutor.mistakes.raised import RaisedException
+from tutor.mistakes.themes.spinning import SPINS
+from tutor.source import NodeFile, calls_in
 
 _SHUT_DOWN_TWICE = ("rcl_shutdown already called", "Context must be initialized before it can be shutdown")
 _INVALID_CONTEXT = ("context is invalid", "context is not valid", "context argument is null")
@@ -34,6 +37,7 @@ def _example(kind: str, message: str = "", *frames: Frame) -> Traceback:
     evidence=Evidence.PROCESS,
     says="Ctrl+C has already shut rclpy down, so {what} raises {exception}",
     do="Call try_shutdown in its place, which does nothing if rclpy is down already.",
+    remark="after Ctrl+C rclpy is shut down already, and this raises RCLError; try_shutdown does not.",
     example=in_run(Symptom.ENDS_BADLY, raised=_example("rclpy._rclpy_pybind11.RCLError", _SHUT_DOWN_TWICE[0])),
 )
 def shut_down_twice(case: Case) -> Iterator[Found]:
@@ -62,6 +66,8 @@ def shut_down_twice(case: Case) -> Iterator[Found]:
 
     Lesson: i2.3, on ending cleanly.
     """
+    if case.passed:
+        yield from (found(case.file, call) for call in _bare_shutdowns(case.file))
     seen = _raised(case)
     if seen is not None and any(words in seen.traceback.message for words in _SHUT_DOWN_TWICE):
         own = seen.line
@@ -70,6 +76,42 @@ def shut_down_twice(case: Case) -> Iterator[Found]:
             what=f"{own.code} ({own.name}, line {own.line})" if own is not None else "a second shutdown()",
             exception=seen.name,
         )
+
+
+def _bare_shutdowns(file: NodeFile) -> Iterator[ast.Call]:
+    """The calls of rclpy.shutdown() that follow a spin which Ctrl+C ends, with nothing that asks or catches."""
+    if any(isinstance(node, ast.Name) and node.id == "SignalHandlerOptions" for node in file.nodes):
+        return  # then Ctrl+C does not shut rclpy down
+    for call in file.calls("shutdown"):
+        if ast.unparse(call) != "rclpy.shutdown()" or _is_guarded(file, call):
+            continue
+        function = file.function_around(call)
+        tries = [node for node in file.nodes if isinstance(node, ast.Try) and file.function_around(node) is function]
+        if any(_is_reached(each, call) for each in tries if calls_in(ast.Module(each.body, []), *SPINS)):
+            yield call
+
+
+def _is_guarded(file: NodeFile, call: ast.Call) -> bool:
+    """Whether a shutdown is done only if rclpy is up, or what it raises is caught."""
+    for node in file.ancestors(call):
+        if isinstance(node, ast.If) and calls_in(node.test, "ok"):
+            return True
+        if isinstance(node, ast.Try) and node.handlers and any(call in ast.walk(each) for each in node.body):
+            return True
+        if isinstance(node, ast.With) and any(calls_in(item.context_expr, "suppress") for item in node.items):
+            return True
+    return False
+
+
+def _is_reached(spinning: ast.Try, call: ast.Call) -> bool:
+    """Whether a call is reached after Ctrl+C has ended the spin in this block."""
+    if any(call in ast.walk(each) for each in spinning.finalbody):
+        return True
+    catching = [each for each in spinning.handlers if each.type is None or SPIN_ENDINGS[0] in ast.unparse(each.type)]
+    if any(call in ast.walk(each) for each in catching):
+        return True
+    leaves = any(isinstance(node, ast.Raise | ast.Return) for each in catching for node in ast.walk(each))
+    return bool(catching) and not leaves and call.lineno > (spinning.end_lineno or 0)
 
 
 @mistake(

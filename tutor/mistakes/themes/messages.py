@@ -37,7 +37,7 @@ def _fields() -> Mapping[str, tuple[str, ...]]:
     slip=True,
     says="{line}: {type} has no field {given}, which is dropped without a word: {code}",
     do="{step}",
-    remark="{line} gives {type} a field {given}, which it does not have and which is dropped without a word.",
+    remark="{type} has no field {given}: it is dropped without a word.",
 )
 def unknown_field(case: Case) -> Iterator[Found]:
     """The constructor of a message is given a field that it does not have.

@@ -13,6 +13,7 @@ from tutor.ros_model import Parameter
 from tutor.source import NodeFile, argument, called_name, values_of
 from tutor.source.parameters import DECLARE, constants
 
+_RATE = r"(?i)rate|freq|hz\b|hertz"
 _START = (Symptom.CHANGE_IGNORED, Symptom.WRONG_RATE, Symptom.NOT_LOGGED)
 
 
@@ -37,8 +38,13 @@ def _placed(case: Case, name: object, **words: object) -> Found:
     evidence=Evidence.RUN,
     says="{name} is an integer, since its default is a whole number{where}, and takes no value with decimals",
     do="Give it a default with a decimal point.",
+    remark="{name} is an integer, as its default is one: {name}:=5.0 ends the node at its start. "
+    "Give it a default with a decimal point.",
     example=in_run(
-        Symptom.NOT_DECLARED, parameter="volume", type="double", found=Parameter("/node", "volume", "integer", 7)
+        Symptom.NOT_DECLARED,
+        parameter="blink_rate",
+        type="double",
+        found=Parameter("/node", "blink_rate", "integer", 2),
     ),
 )
 def integer_parameter(case: Case) -> Iterator[Found]:
@@ -49,22 +55,44 @@ def integer_parameter(case: Case) -> Iterator[Found]:
 
     Bad:
 
-        self.declare_parameter('volume', 7)
+        self.declare_parameter('blink_rate', 2)
 
     Good:
 
-        self.declare_parameter('volume', 7.0)
+        self.declare_parameter('blink_rate', 2.0)
 
     See it: `ros2 param describe NODE NAME`.
 
     Lesson: i2.1, on the types of parameters.
     """
+    if case.passed:
+        yield from _integer_rates(case.file)
     name, given, wanted = case.about("parameter"), case.about("found"), case.about("type")
     if given is not None and (wanted, given.type) == ("double", "integer"):
         yield _placed(case, name)
     answer = case.about("answer")
     if answer is not None and "expected 'Type.INTEGER' got 'Type.DOUBLE'" in answer.reason:
         yield _placed(case, next(iter(answer.values)))
+
+
+def _integer_rates(file: NodeFile) -> Iterator[Found]:
+    """The parameters that are declared as integers, and are rates by their names."""
+    declared = [
+        (call, argument(call, "name"), argument(call, "value"))
+        for call in file.calls("declare_parameter")
+        if argument(call, "descriptor") is None
+    ]
+    for call in file.calls("declare_parameters"):
+        for node in ast.walk(call):
+            match node:
+                case ast.Tuple(elts=[name, value]) | ast.List(elts=[name, value]):
+                    declared.append((call, name, value))
+    for call, name, value in declared:
+        given = [value] if not isinstance(value, ast.Name) else values_of(value.id, file.tree)
+        is_rate = isinstance(name, ast.Constant) and re.search(_RATE, str(name.value)) is not None
+        # True is an int as well, but no number.
+        if is_rate and given and all(isinstance(each, ast.Constant) and type(each.value) is int for each in given):
+            yield found(file, value or call, name=name.value)
 
 
 _NOT_SET = "not set"

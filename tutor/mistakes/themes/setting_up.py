@@ -133,6 +133,7 @@ def _is_mentioned(case: Case, file: NodeFile, function: Function) -> bool:
     evidence=Evidence.RUN,
     says="{line} waits for {service}, which nobody offers, before it goes on: {code}",
     do="Make everything else first, and wait for the service only where it is needed, with a time limit.",
+    remark="without a timeout_sec, this waits for ever and says nothing while nobody offers the service.",
     example=in_run(
         Symptom.NO_MESSAGES,
         graph=Graph(("/bell",), clients=(ServiceEndpoint("/open_door", "std_srvs/srv/Trigger", "/bell"),)),
@@ -141,12 +142,12 @@ def _is_mentioned(case: Case, file: NodeFile, function: Function) -> bool:
 def waits_for_service(case: Case) -> Iterator[Found]:
     """A node waits for a service that nobody offers.
 
-    A loop around wait_for_service() ends once the service is there. While nobody offers it, the program stays in that
-    loop, and nothing below it is made.
+    Without a timeout_sec, wait_for_service() returns once the service is there, and a loop around it ends then. While
+    nobody offers it, the program stays there, and nothing below it is made.
 
     Bad:
 
-        while not self.door.wait_for_service(timeout_sec=1.0):
+        while not self.door.wait_for_service():
             self.get_logger().info('waiting')
 
     Good:
@@ -158,10 +159,17 @@ def waits_for_service(case: Case) -> Iterator[Found]:
     """
     offered = {*(server.name for server in case.trace.graph.servers), *case.about("services", ())}
     awaited = sorted({client.name for client in case.trace.graph.clients if client.name not in offered})
-    for file in case.files if awaited else ():
-        for loop in (node for node in file.nodes if isinstance(node, ast.While)):
-            if calls_in(loop.test, "wait_for_service", "service_is_ready"):
-                yield found(file, loop, service=awaited[0])
+    for file in case.files if awaited or case.passed else ():
+        unlimited = [call for call in file.calls("wait_for_service") if _is_unlimited(call)]
+        loops = [node for node in file.nodes if isinstance(node, ast.While)]
+        asking = [loop for loop in loops if calls_in(loop.test, "wait_for_service", "service_is_ready")]
+        for node in unlimited if case.passed else (*unlimited, *asking):
+            yield found(file, node, service=next(iter(awaited), "a service"))
+
+
+def _is_unlimited(wait: ast.Call) -> bool:
+    given = [*wait.args, *(keyword.value for keyword in wait.keywords)]
+    return all(isinstance(value, ast.Constant) and value.value is None for value in given)
 
 
 @mistake(

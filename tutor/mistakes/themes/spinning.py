@@ -248,13 +248,13 @@ def untimed_spin_once(case: Case) -> Iterator[Found]:
                 ):
                     continue
                 is_while = isinstance(loop, ast.While)
-                if is_while and not (file.timers or file.calls("create_subscription")) and _publishes(file, loop):
+                if is_while and not (file.timers or file.calls("create_subscription")) and publishes(file, loop):
                     yield found(file, call, why="and without a timer there is none")
                 elif isinstance(loop, ast.For) and call.args and ast.unparse(loop.target) in map(ast.unparse, given):
                     yield found(file, call, why="and until then none of the other nodes gets a turn")
 
 
-def _publishes(file: NodeFile, loop: ast.AST) -> bool:
+def publishes(file: NodeFile, loop: ast.AST) -> bool:
     """Whether a loop publishes, itself or in a function that it calls."""
     functions = [function for call in calls_in(loop) if (function := file.function(call.func)) is not None]
     reached = [inner for function in functions for inner in file.reachable_from(function)]
