@@ -28,7 +28,6 @@ class Expected:
     - `either`: criteria that may have any verdict but an error
     - `bonus_failed`: bonus criteria that fail
     - `causes`: maps a criterion ("" stands for all that fail) to texts, one of which its cause contains
-    - `steps`: the same for its next step
     - `gone`: a text that is in no process's command line afterwards
     - `ros`: the only kind of ROS for which this holds, unless empty
     - `exit`: the exit code of `ros-tutor check`, if given; with 3, criteria may end in an error
@@ -43,7 +42,6 @@ class Expected:
     either: tuple[str, ...] = ()
     bonus_failed: tuple[str, ...] = ()
     causes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    steps: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     gone: str = ""
     ros: str = ""
     exit: int | None = None
@@ -96,7 +94,6 @@ def read_expected(file: Path) -> Expected:
         either=fields.texts("either", optional=True),
         bonus_failed=fields.texts("bonus_failed", optional=True),
         causes=_texts_by_criterion(fields, "cause"),
-        steps=_texts_by_criterion(fields, "step"),
         gone=fields.text("gone", optional=True),
         ros=fields.text("ros", optional=True),
         exit=None if (code := fields.number("exit")) is None else int(code),
