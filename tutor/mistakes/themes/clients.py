@@ -21,6 +21,9 @@ from tutor.ros_model import Graph, ServiceEndpoint
 from tutor.source import NodeFile, called_name, calls_in
 
 _CALLS = (Symptom.CALLS_MISSING,)
+_PATIENT_S = 8.0
+"""A client that has waited for so long, in seconds, has given its services time to come up."""
+
 _WAITS = ("wait_for_service", "service_is_ready", "server_is_ready", "get_service_names_and_types", "wait_for_services")
 _EXITS = ("exit", "_exit", "quit", "SystemExit")
 _ASKING = Graph(("/bell",), clients=(ServiceEndpoint("/opendoor", "std_srvs/srv/Trigger", "/bell"),))
@@ -224,7 +227,7 @@ def waits_too_short(case: Case) -> Iterator[Found]:
     See it: start the client first, the server a second later.
     """
     ended = case.trace.exit
-    if ended is None or case.about("calls") != 0 or not in_silence(case):
+    if ended is None or ended.after_s > _PATIENT_S or case.about("calls") != 0 or not in_silence(case):
         return
     for file in case.files if any(map(requests, case.files)) else ():
         for call in file.calls(*_WAITS):
