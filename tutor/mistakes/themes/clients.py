@@ -21,9 +21,7 @@ from tutor.ros_model import Graph, ServiceEndpoint
 from tutor.source import NodeFile, called_name, calls_in
 
 _CALLS = (Symptom.CALLS_MISSING,)
-_PATIENT_S = 8.0
-"""A client that has waited for so long, in seconds, has given its services time to come up."""
-
+_PATIENT_S = 8.0  # a client that has waited for so long has given its services time to come up
 _WAITS = ("wait_for_service", "service_is_ready", "server_is_ready", "get_service_names_and_types", "wait_for_services")
 _EXITS = ("exit", "_exit", "quit", "SystemExit")
 _ASKING = Graph(("/bell",), clients=(ServiceEndpoint("/opendoor", "std_srvs/srv/Trigger", "/bell"),))
@@ -84,11 +82,8 @@ def needs_arguments(case: Case) -> Iterator[Found]:
 
 
 def _ends(test: ast.If) -> bool:
-    return any(
-        isinstance(branch[-1], ast.Return | ast.Raise) or bool(calls_in(branch[-1], *_EXITS))
-        for branch in (test.body, test.orelse)
-        if branch
-    )
+    last = [branch[-1] for branch in (test.body, test.orelse) if branch]
+    return any(isinstance(each, ast.Return | ast.Raise) or bool(calls_in(each, *_EXITS)) for each in last)
 
 
 @mistake(
