@@ -28,7 +28,7 @@ def judge_client(seen: ClientRun) -> Verdict:
     if seen.exit is None:
         waits_in_vain = seen.watched_s < CLIENT_S
         state = (
-            f"after {seen.watched_s:.1f} s it waits for nothing that could still come"
+            f"after {seen.watched_s:.1f} s it still runs, and nothing more comes from it"
             if waits_in_vain
             else f"still running after {CLIENT_S:g} s"
         )

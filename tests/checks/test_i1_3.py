@@ -559,7 +559,7 @@ def test_a_client_that_waits_in_vain_is_reported_with_the_time_that_it_was_watch
     hanging = demonstration(SERVED[:1], None)
     assert "still running after 15 s" in judge_client(hanging).observed
     assert (
-        "after 6.2 s it waits for nothing that could still come; called "
+        "after 6.2 s it still runs, and nothing more comes from it; called "
         in judge_client(replace(hanging, watched_s=6.2)).observed
     )
 

@@ -54,6 +54,8 @@ def _asked(case: Case, catalogues: Sequence[Catalogue]) -> Iterator[Mistake]:
 def describe(entry: Mistake, occurrence: Found, case: Case) -> Diagnosis:
     """The mistake in words, with the learner's own names."""
     code = occurrence.code
+    if code.count("(") > code.count(")"):  # the rest of the call is on the next lines
+        code = f"{code} …"
     if len(code) > MAX_CODE_CHARACTERS:
         code = f"{code[: MAX_CODE_CHARACTERS - 3]}..."
     words = {

@@ -45,7 +45,9 @@ from tutor.mistakes.themes import wrong_answers as wrong_answers
 from tutor.mistakes.themes import callback_groups as callback_groups
 from tutor.mistakes.themes import threads as threads
 from tutor.mistakes.themes import attributes as attributes
+from tutor.mistakes.themes import clocks as clocks
 from tutor.mistakes.themes import python as python
+from tutor.mistakes.themes import log_options as log_options
 from tutor.mistakes.themes import logging as logging
 from tutor.mistakes.themes import ending as ending
 from tutor.mistakes.themes import exit_codes as exit_codes

@@ -101,7 +101,7 @@ def lost_with_group(case: Case) -> Iterator[Found]:
     "set-after-the-node",
     explains=_NAMES,
     says="{line} comes after the Node in line {node}, but affects only what comes after it: {code}",
-    do="Put it above the nodes that it is meant for.",
+    do="Put it before the nodes that it is meant for, in the list that launch works through.",
     example=_example,
 )
 def too_late(case: Case) -> Iterator[Found]:

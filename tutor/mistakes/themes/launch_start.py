@@ -68,7 +68,7 @@ def output_of(*lines: str) -> dict[str, Any]:
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
     says="{what}",
-    do="Declare the argument, under this name, at the start of the launch description.",
+    do="{do}",
     example=in_run(Symptom.NOT_LAUNCHED, **output_of("launch configuration 'sound' does not exist")),
 )
 def not_declared(case: Case) -> Iterator[Found]:
@@ -103,15 +103,17 @@ def not_declared(case: Case) -> Iterator[Found]:
             what = (
                 f"line {call.line} asks for the value of {name} while the launch is only described: there is none yet"
             )
-            yield at_call(case, call, what=what)
+            yield at_call(case, call, what=what, do="Leave it to launch to ask for the value when it runs.")
     for call in file.calls("DeclareLaunchArgument"):
         if call.argument(0, "name") == f"'{name}'":
             late = f"the argument {name} is declared (line {call.line}) after what reads it"
             left_out = f"line {call.line} makes the argument {name}, but it is not in the launch description"
-            yield at_call(case, call, what=left_out if call.kept and not file.uses(call.kept) else late)
+            first = "Put the arguments at the start of the launch description, before what reads them."
+            yield at_call(case, call, what=left_out if call.kept and not file.uses(call.kept) else late, do=first)
     others = [call.argument(0, "name") for call in file.calls("DeclareLaunchArgument")]
     more = f"; those declared are {', '.join(others)}" if others else ""
-    yield Found({"what": f"the value of {name} is read, but no argument {name} is declared{more}"})
+    first = "Declare the argument, under this name, at the start of the launch description."
+    yield Found({"what": f"the value of {name} is read, but no argument {name} is declared{more}", "do": first})
 
 
 @mistake(
@@ -176,7 +178,7 @@ def not_pairs(case: Case) -> Iterator[Found]:
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
     says="a substitution such as LaunchConfiguration is turned into text before its value is known",
-    do="Pass a list of the parts instead: launch joins them when it runs.",
+    do="Pass the substitution itself, or a list of it and the other parts: launch joins them when it runs.",
     example=in_run(Symptom.NOT_LAUNCHED, **output_of("<launch.substitutions.LaunchConfiguration object at 0x7f>")),
 )
 def early_text(case: Case) -> Iterator[Found]:
