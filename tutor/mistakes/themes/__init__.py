@@ -10,11 +10,11 @@ from tutor.mistakes.themes import missing_attributes as missing_attributes
 from tutor.mistakes.themes import hidden_modules as hidden_modules
 from tutor.mistakes.themes import responses as responses
 from tutor.mistakes.themes import known_exceptions as known_exceptions
+from tutor.mistakes.themes import logged_exceptions as logged_exceptions
 from tutor.mistakes.themes import process as process
 from tutor.mistakes.themes import early_ends as early_ends
 from tutor.mistakes.themes import no_node as no_node
 from tutor.mistakes.themes import setting_up as setting_up
-from tutor.mistakes.themes import logged_exceptions as logged_exceptions
 from tutor.mistakes.themes import blocked_callbacks as blocked_callbacks
 from tutor.mistakes.themes import spinning as spinning
 from tutor.mistakes.themes import executors as executors

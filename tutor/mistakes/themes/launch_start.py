@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
 from typing import Any
@@ -9,7 +10,7 @@ from typing import Any
 from tutor.judge.launch_output import written_by
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Exit
-from tutor.mistakes.entry import Case, Evidence, Found, mistake
+from tutor.mistakes.entry import Case, Evidence, Found, found, found_at, mistake
 from tutor.mistakes.examples import in_run
 from tutor.ros_model import Graph
 from tutor.source.launch_file import Call, LaunchFile
@@ -177,7 +178,7 @@ def not_pairs(case: Case) -> Iterator[Found]:
     "substitution-made-text-too-early",
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
-    says="a substitution such as LaunchConfiguration is turned into text before its value is known",
+    says="a substitution such as LaunchConfiguration is turned into text before its value is known{where}",
     do="Pass the substitution itself, or a list of it and the other parts: launch joins them when it runs.",
     example=in_run(Symptom.NOT_LAUNCHED, **output_of("<launch.substitutions.LaunchConfiguration object at 0x7f>")),
 )
@@ -197,8 +198,18 @@ def early_text(case: Case) -> Iterator[Found]:
 
     See it: `ros2 node list` with names that contain "object at".
     """
-    if any(_UNRESOLVED.search(line.text) for line in case.trace.output) or says_itself(_NOT_TEXT, case):
-        yield Found()
+    if says_itself(_NOT_TEXT, case):
+        for raised in case.exceptions:
+            if raised.line is not None:
+                yield found_at(raised.line, where=f", in line {raised.line.line}: {raised.line.code}")
+    elif not any(_UNRESOLVED.search(line.text) for line in case.trace.output):
+        return
+    file = case.file
+    values = [file.assigned_to(call) for call in file.calls("LaunchConfiguration")]
+    for node in file.nodes:
+        if isinstance(node, ast.FormattedValue) and ast.unparse(node.value) in filter(None, values):
+            yield found(file, node, where=f", in line {node.lineno}: {file.line(node.lineno)}")
+    yield Found({"where": ""})
 
 
 @mistake(

@@ -34,7 +34,7 @@ _BROAD = ("Exception", "BaseException", *(kind.rpartition(".")[2] for kind, _, _
 @mistake(
     "exception-only-logged",
     explains=EXPLAINED_WHILE_RUNNING,
-    evidence=Evidence.RUN,
+    evidence=Evidence.PROCESS,
     says="{raised}{what}, and an except of your own catches it",
     do="{step}",
     example=in_run(Symptom.NO_MESSAGES, logs=["failed: 'Bell' object has no attribute 'tunee'"]),

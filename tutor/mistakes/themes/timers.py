@@ -160,7 +160,7 @@ def timer_not_started(case: Case) -> Iterator[Found]:
 
 @mistake(
     "timer-cancelled",
-    explains=_TOO_FEW,
+    explains=(*_TOO_FEW, Symptom.NOT_LOGGED),
     says="{line} ends the timer, in {function}: {code}",
     do="Let the timer run for as long as the node does.",
 )
