@@ -1737,7 +1737,7 @@ def test_the_test_that_zero_does_not_pass_is_named() -> None:
         "    if last_number and n != last_number + 1:\n        node.get_logger().warning('gap')\n    last_number = n\n"
         "node.create_subscription(String, 'chatter', heard, 10)\n"
     )
-    assert "line 4: last_number is not true when it is 0" in judge_like_check(MissesAfterZero, source)["gaps"].cause
+    assert "line 4: last_number counts as false when it is 0" in judge_like_check(MissesAfterZero, source)["gaps"].cause
 
 
 def saying_on_any_jump(text: str) -> type[FakeStats]:

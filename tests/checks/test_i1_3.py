@@ -686,7 +686,7 @@ def test_a_return_within_the_loop() -> None:
         judge_client(asking(LOOP, SERVED[:1])),
         "return in the loop",
         "line 8",
-        "loop of line 3",
+        "the loop in line 3",
     )
     assert_failed(judge_client(asking(LOOP.replace("return", "print"), SERVED[:1])), "calls missing")
     assert_failed(judge_client(asking(LOOP, SERVED[:3])), "calls missing")
@@ -716,7 +716,7 @@ THREADING = "/usr/lib/python3.12/threading.py"
             "event never set",
         ),
         (
-            "done = threading.Event()\nrclpy.spin\ndone.set()",
+            "done = threading.Event()\nuse(rclpy.spin)\ndone.set()",
             None,
             (frame("wait", THREADING), frame("main", line=6, code="done.wait()")),
             "calls missing",
@@ -728,7 +728,7 @@ THREADING = "/usr/lib/python3.12/threading.py"
             "event loop not woken",
         ),
         ("rclpy.spin\nfor n in nodes:\n    rclpy.spin_once(n)", None, (), "spin_once waits"),
-        ("rclpy.spin\nnode.create_timer(500, ask)", None, (), "wrong timer period"),
+        ("use(rclpy.spin)\nnode.create_timer(500, ask)", None, (), "wrong timer period"),
     ],
 )
 def test_a_client_that_gets_no_answer(text: str, code: int | None, stuck: tuple[Frame, ...], cause: str) -> None:
