@@ -20,6 +20,8 @@ HELPER = TWO.replace("    self.create_timer(1.0, self.go)\n", "", 1)  # the firs
 SPINS = "import rclpy\nx, y = A(), B()\n"
 TAKEN = "e = SingleThreadedExecutor()\nn = A()\ne.add_node(n)\n{}\ne.spin()\n"
 
+AWAITS = "async def add(self, q, r):\n  other = await self.cli.call_async(q)\nself.create_service(A, 'add', self.add)"
+
 
 @pytest.mark.parametrize(
     ("source", "mistake", "words"),
@@ -50,7 +52,9 @@ TAKEN = "e = SingleThreadedExecutor()\nn = A()\ne.add_node(n)\n{}\ne.spin()\n"
         (TAKEN.format("rclpy.spin_until_future_complete(n, f)"), "node-taken-from-its-executor", "line 4"),
         (TAKEN.format("rclpy.spin_once(other)"), "no-answer", ""),
         (TAKEN.format("e.spin_once()"), "no-answer", ""),
-        ("async def add(self, q, r):\n  other = await self.cli.call_async(q)", "deadlock-by-await", "line 2"),
+        (AWAITS, "deadlock-by-await", "line 2"),
+        (AWAITS.replace("self.add)", "self.other)"), "no-answer", ""),
+        (f"{AWAITS}\ngroup = ReentrantCallbackGroup()", "no-answer", ""),
     ],
 )
 def test_why_nothing_answers(source: str, mistake: str, words: str) -> None:

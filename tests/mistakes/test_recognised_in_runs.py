@@ -49,7 +49,7 @@ TypeError"""
             "float-in-an-int-field",
             "sum",
         ),
-        (trace(err=crash("assert False, 'other'"), exit=exited(1)), "unhandled-exception", "other"),
+        (trace(err=crash("assert False, 'other'"), exit=exited(1)), "raised-by-the-program-itself", "other"),
         (CRASHED, "unhandled-exception", "node.py, line 12: self.nothing()"),
         (trace(err=CRASH), "unhandled-exception", "AttributeError"),
         (trace(err=NO_RESPONSE, exit=exited(1)), "response-not-returned", ""),

@@ -153,12 +153,21 @@ class Sensor:
 """
 
 
+WAITS = "def main():\n    while rclpy.ok():\n        publisher.publish(Float64())\n        rate.read()\n"
+
+
+def test_a_helper_that_makes_the_loop_wait_for_its_next_round() -> None:
+    files = {"rate.py": HELPER.format("self.left()", "read")}
+    assert_told(told(Symptom.WRONG_RATE, WAITS, files=files, wanted_hz=5.0), NOTHING)
+
+
 @pytest.mark.parametrize(
     ("function", "sleep", "mistake"),
     [
         ("read", "self.CONVERSION_S", "callback-sleeps"),
         ("read", "0.5", "callback-sleeps"),
         ("read", "0.005", NOTHING),
+        ("read", "self.left()", "callback-sleeps"),
         ("_run_loop", "0.5", NOTHING),
     ],
 )
