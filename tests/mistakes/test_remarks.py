@@ -39,6 +39,8 @@ def test_a_remark_is_made_on_the_bad_example_and_not_on_the_good_one(entry: Mist
         f"rclpy.init(signal_handler_options=SignalHandlerOptions.NO)\n{SPIN.format('rclpy.spin(node)')}rclpy.shutdown()",
         f"{SPIN.format('call()')}rclpy.shutdown()",
         "self.declare_parameter('volume', 7)",
+        "self.declare_parameter('baudrate', 9600)",
+        "self.declare_parameter('sample_period', 10)",
         "self.declare_parameter('blink_rate', True)",
         "self.declare_parameter('blink_rate', 2, ParameterDescriptor(dynamic_typing=True))",
         "self.declare_parameters('', [('blink_rate', 2.0), ('volume', 7)])",
@@ -62,6 +64,7 @@ def test_what_is_well_done_gets_no_remark(source: str) -> None:
         ("try:\n    rclpy.spin(node)\nexcept KeyboardInterrupt:\n    rclpy.shutdown()", "shutdown-after-ctrl-c", 4),
         ("RATE = 2\nself.declare_parameter('blink_rate', RATE)", "integer-parameter", 2),
         ("self.declare_parameters('', [('blink_hz', 2), ('volume', 7)])", "integer-parameter", 1),
+        ("self.declare_parameter('blinkRate', 2)", "integer-parameter", 1),
         ("door.wait_for_service(timeout_sec=None)", "waits-for-a-service", 1),
     ],
 )

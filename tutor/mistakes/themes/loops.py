@@ -14,9 +14,9 @@ from tutor.source import NodeFile, calls_in
 @mistake(
     "sleeps-instead-of-a-timer",
     explains=(Symptom.WRONG_RATE,),
-    says="{line} sleeps between its messages, and the time of the work between them comes on top: {code}",
-    do="Let a timer of the node publish, in place of the loop.",
-    remark="this loop sleeps between its messages: the time of its work comes on top. A timer keeps the rate.",
+    says="{line} sets the pace of the messages, with the time of the work between them on top: {code}",
+    do="Let a timer publish in place of the loop, with the period that is asked for.",
+    remark="this sleep sets the pace of the messages, with the time of the work on top. A timer keeps the rate.",
 )
 def sleeps(case: Case) -> Iterator[Found]:
     """A loop with a sleep publishes, where a timer could.
@@ -42,7 +42,7 @@ def sleeps(case: Case) -> Iterator[Found]:
     for file in case.files if not case.program.calls("create_timer") else ():
         for loop in (node for node in file.nodes if isinstance(node, ast.While)):
             if isinstance(loop.test, ast.Constant) and loop.test.value and publishes(file, loop):
-                yield from (found(file, loop) for _ in _naps(file, loop)[:1])
+                yield from (found(file, nap) for nap in _naps(file, loop)[:1])
 
 
 def _naps(file: NodeFile, loop: ast.While) -> list[ast.Call]:

@@ -13,7 +13,7 @@ from tutor.ros_model import Parameter
 from tutor.source import NodeFile, argument, called_name, values_of
 from tutor.source.parameters import DECLARE, constants
 
-_RATE = r"(?i)rate|freq|hz\b|hertz"
+_RATE = r"(^|_)(?i:rate|freq\w*|hz|hertz)(_|$)|[a-z]Rate$"
 _START = (Symptom.CHANGE_IGNORED, Symptom.WRONG_RATE, Symptom.NOT_LOGGED)
 
 
@@ -77,7 +77,7 @@ def integer_parameter(case: Case) -> Iterator[Found]:
 
 def _integer_rates(file: NodeFile) -> Iterator[Found]:
     """The parameters that are declared as integers, and are rates by their names."""
-    declared = [
+    declared: list[tuple[ast.Call, ast.expr | None, ast.expr | None]] = [
         (call, argument(call, "name"), argument(call, "value"))
         for call in file.calls("declare_parameter")
         if argument(call, "descriptor") is None
@@ -85,14 +85,14 @@ def _integer_rates(file: NodeFile) -> Iterator[Found]:
     for call in file.calls("declare_parameters"):
         for node in ast.walk(call):
             match node:
-                case ast.Tuple(elts=[name, value]) | ast.List(elts=[name, value]):
-                    declared.append((call, name, value))
+                case ast.Tuple(elts=[first, second]) | ast.List(elts=[first, second]):
+                    declared.append((call, first, second))
     for call, name, value in declared:
         given = [value] if not isinstance(value, ast.Name) else values_of(value.id, file.tree)
-        is_rate = isinstance(name, ast.Constant) and re.search(_RATE, str(name.value)) is not None
         # True is an int as well, but no number.
-        if is_rate and given and all(isinstance(each, ast.Constant) and type(each.value) is int for each in given):
-            yield found(file, value or call, name=name.value)
+        is_integer = bool(given) and all(isinstance(each, ast.Constant) and type(each.value) is int for each in given)
+        if is_integer and isinstance(name, ast.Constant) and re.search(_RATE, str(name.value)):
+            yield found(file, value if value is not None else call, name=name.value)
 
 
 _NOT_SET = "not set"
