@@ -10,14 +10,15 @@ import pytest
 
 import tutor.engine.proving
 from tests.cli.conftest import Run
+from tests.failures import failure
 from tutor.content import Course, Lesson, load_course, loader
 from tutor.engine.proving import Kind, Proof
 from tutor.errors import EngineError
 from tutor.judge.result import CriterionResult, ExerciseResult
-from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed
+from tutor.judge.verdict import Status, Verdict, fault, passed
 
 LESSON = "i1.3"
-OPEN_FAILURE = failed("a", "b", Cause("no spin", "c", "d"))
+OPEN_FAILURE = failure("a", "b", ("no spin", "c", "d"))
 
 
 class FakeProver:

@@ -21,11 +21,11 @@ import pytest
 from rich.console import Console
 
 from tests.cli.fake_engine import FAILURE
+from tests.failures import failure
 from tutor.cli.progress_display import ProgressDisplay, _Line
 from tutor.content import load_course
 from tutor.judge.events import CriterionJudged
 from tutor.judge.result import CriterionResult
-from tutor.judge.verdict import Cause, failed
 
 LIMIT_S = 30.0
 
@@ -196,7 +196,7 @@ def test_the_first_failure_stays_on_top_with_its_cause(exercises: int) -> None:
     display = ProgressDisplay(course, vanishing=True)
     for lesson in course.lessons[:exercises]:
         display._lines[lesson.id] = {each.id: _Line(0.5, "waiting") for each in lesson.criteria}
-    lesson, second = course.lessons[0], failed("a", "b", Cause("another", "it is another " * 50, "do that"))
+    lesson, second = course.lessons[0], failure("a", "b", ("another", "it is another " * 50, "do that"))
     for name, verdict, bonus in (("shutdown", FAILURE, True), ("rate", FAILURE, False), ("range", second, False)):
         display.show(CriterionJudged(lesson.id, CriterionResult(name, name, bonus, verdict, 1.0)))
     drawn = draw(display)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.failures import failure
 from tutor.content import Course, Lesson, load_course
 from tutor.content.lint_checks import find_disagreements, find_stray_files
 from tutor.content.lint_commands import find_bad_commands
@@ -17,9 +18,9 @@ from tutor.content.submissions import read_expected
 from tutor.errors import ContentError
 from tutor.judge.check import Check, Criterion
 from tutor.judge.result import CriterionResult, ExerciseResult
-from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed, skipped
+from tutor.judge.verdict import Status, Verdict, fault, passed, skipped
 
-FAILED = failed("a", "2 Hz", Cause("no spin", "it never spins", "spin"))
+FAILED = failure("a", "2 Hz", ("no spin", "it never spins", "spin"))
 
 
 @pytest.fixture

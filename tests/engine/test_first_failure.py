@@ -6,14 +6,15 @@ import asyncio
 from typing import Any
 
 from tests.engine.helpers import FILE, WAITS, Scene, criterion, statuses
+from tests.failures import failure
 from tutor.engine.first_failure import judge_until_failure
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.events import CriterionJudged
 from tutor.judge.result import CriterionResult
-from tutor.judge.verdict import Cause, Status, Verdict, failed, passed
+from tutor.judge.verdict import Status, Verdict, passed
 
-FAILED = failed("this", "that", Cause("no", "it does not", "do it"))
+FAILED = failure("this", "that", ("no", "it does not", "do it"))
 
 
 def fails(*facts: Any) -> Verdict:

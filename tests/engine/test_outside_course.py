@@ -25,6 +25,12 @@ def test_an_outside_check_is_loaded_with_its_own_modules_and_dataclasses() -> No
     assert (answer.returncode, exercise["verdict"]) == (0, "passed")
 
 
+def test_an_outside_course_has_mistakes_of_its_own() -> None:
+    command = module_command("tutor", "explain", "greets-nobody", "--lessons", str(COURSE))
+    answer = subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
+    assert (answer.returncode, answer.stdout.partition("\n")[0]) == (0, "greets-nobody: A text is no greeting.")
+
+
 @pytest.mark.parametrize("place", ["package", "module"])
 def test_an_error_in_an_outside_check_names_the_authors_file(tmp_path: Path, place: str) -> None:
     course = shutil.copytree(COURSE, tmp_path / "course")

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import pytest
 
 from tests.engine.helpers import Scene, criterion, statuses
+from tests.failures import failure
 from tutor.errors import MachineTooBusy
 from tutor.judge.bench import Bench, Scenario
-from tutor.judge.verdict import Cause, Verdict, failed, passed, skipped, undecided
+from tutor.judge.verdict import Verdict, passed, skipped, undecided
 
-CAUSE = Cause("no", "it does not", "do it")
+CAUSE = ("no", "it does not", "do it")
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class Machine:
 
 
 def passes_from(run: int) -> Callable[..., Verdict]:
-    return lambda facts: passed("", "") if facts.run >= run else failed("this", f"run {facts.run}", CAUSE)
+    return lambda facts: passed("", "") if facts.run >= run else failure("this", f"run {facts.run}", CAUSE)
 
 
 def skips_until(run: int) -> Callable[..., Verdict]:
@@ -126,7 +127,7 @@ async def test_a_scenario_that_found_the_machine_too_busy_is_repeated_alone_whil
     busy = machine.scenario("busy", too_busy_until=2)
     asking = machine.scenario("asking", asks=busy)
     result = await scene.judge(
-        criterion("a", busy, judge=lambda facts: passed("", "") if facts.alone else failed("alone", "not", CAUSE)),
+        criterion("a", busy, judge=lambda facts: passed("", "") if facts.alone else failure("alone", "not", CAUSE)),
         criterion("b", asking),
         criterion("c", machine.scenario("c")),
     )

@@ -11,17 +11,18 @@ from typing import Any
 import pytest
 
 from tests.engine.helpers import FILE, PUBLISHES, Scene, criterion, node, statuses
+from tests.failures import failure
 from tutor.errors import EngineError
 from tutor.judge.bench import Bench
 from tutor.judge.events import CheckStarted, CriterionJudged, ExerciseJudged, Progress
-from tutor.judge.verdict import Cause, Status, Verdict, failed, passed
+from tutor.judge.verdict import Status, Verdict, passed
 from tutor.workspace import digest_of_file
 
-CAUSE = Cause("no", "it does not", "do it")
+CAUSE = ("no", "it does not", "do it")
 
 
 def fails(*facts: Any) -> Verdict:
-    return failed("this", "that", CAUSE)
+    return failure("this", "that", CAUSE)
 
 
 async def no_facts(bench: Bench) -> str:

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from tests.failures import failure
 from tutor.content import Lesson, load_course
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
 from tutor.judge.submission import Submission
-from tutor.judge.verdict import Cause, failed, passed
+from tutor.judge.verdict import passed
 
 LESSONS = load_course().lessons
 
@@ -30,9 +31,9 @@ def test_an_untouched_skeleton_has_a_first_todo_until_it_is_changed(lesson: Less
 
 
 def test_an_untouched_skeletons_next_step_is_the_criterions_hint() -> None:
-    verdict = failed("a", "b", Cause("no publisher", "there is none", "line 3 becomes: all of it"))
+    verdict = failure("a", "b", ("no publisher", "there is none", "line 3 becomes: all of it"))
     pointed = point_to_todo(verdict, "node.py, line 8", "Create a publisher.")
-    assert pointed.hint == "work through the TODOs of the skeleton, from node.py, line 8 on. Create a publisher."
+    assert pointed.step == "work through the TODOs of the skeleton, from node.py, line 8 on. Create a publisher."
     assert (pointed.cause, pointed.status) == (verdict.cause, verdict.status)
     assert point_to_todo(verdict, "", "Create a publisher.") == verdict
     assert point_to_todo(passed("a", "b"), "node.py, line 8", "x") == passed("a", "b")

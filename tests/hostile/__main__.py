@@ -175,7 +175,7 @@ def _parse_result(report: Mapping[str, Any]) -> ExerciseResult:
                     Status(each["status"]),
                     observed=each.get("observed") or "",
                     cause=each.get("cause") or "",
-                    hint=each.get("hint") or "",
+                    step=each.get("step") or "",
                 ),
                 0.0,
             )

@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.failures import failure
 from tutor.judge.check import Check, Criterion
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report, overall, tell_roots_once
-from tutor.judge.verdict import Cause, Status, Verdict, failed, fault, passed, skipped
+from tutor.judge.verdict import Status, Verdict, fault, passed, skipped
 from tutor.judge.wording import shape
 
 P, F, S, E = Status.PASSED, Status.FAILED, Status.SKIPPED, Status.ERROR
@@ -70,7 +71,7 @@ def test_the_verdict_of_a_report_follows_from_its_exercises(statuses: list[Statu
 
 def test_constructors_of_each_kind_of_verdict() -> None:
     assert passed("e", "o", ["1"]) == Verdict(P, "e", "o", evidence=("1",))
-    assert failed("e", "o", Cause("n", "t", "h"), iter("12")) == Verdict(F, "e", "o", "n: t", "h", ("1", "2"), "n")
+    assert failure("e", "o", ("n", "t", "h"), iter("12")) == Verdict(F, "e", "o", "n: t", "h", ("1", "2"), "n")
     assert skipped("because") == Verdict(S, cause="because")
     assert fault("what", "do this", ["1"]) == Verdict(E, cause="what", step="do this", evidence=("1",))
     assert [Verdict(status).passed for status in Status] == [True, False, False, False]

@@ -122,7 +122,11 @@ executor = MultiThreadedExecutor()
         ("SIM = True\nn.set('use_sim_time', SIM)", "simulated-time", "line 2"),
         ("p = Parameter('use_sim_time', value=False)", NOTHING, ""),
         ("n.get_parameter('use_sim_time')", NOTHING, ""),
-        ("while rclpy.ok():\n    executor.spin_once(timeout_sec=0.2)\n    time.sleep(0.2)", "nap-between-callbacks", "3"),
+        (
+            "while rclpy.ok():\n    executor.spin_once(timeout_sec=0.2)\n    time.sleep(0.2)",
+            "nap-between-callbacks",
+            "3",
+        ),
         ("while rclpy.ok():\n    executor.work(timeout_sec=0.2)\n    time.sleep(0.2)", NOTHING, ""),
         (SPINNING.format("talker.tick()\n        rclpy.spin_once(talker)"), "spin-once-waits", "line 14"),
         (SPINNING.format("talker.tick()\n        rclpy.spin_once(talker, timeout_sec=0.1)"), NOTHING, ""),

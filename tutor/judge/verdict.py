@@ -29,22 +29,6 @@ class Status(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Cause:
-    """A likely reason for a failure.
-
-    `name` is a short, stable name that a learner can look up ("no spin"), `text` says what it means here, and `hint` is
-    the next step to take.
-    """
-
-    name: str
-    text: str
-    hint: str
-
-    def __str__(self) -> str:
-        return f"{self.name}: {self.text}"
-
-
-@dataclass(frozen=True, slots=True)
 class Verdict:
     """The diagnosis of one criterion: a status, and what was expected, observed, concluded and advised.
 
@@ -116,11 +100,8 @@ class Failure(Verdict):
     seen: Observation | None = None
 
 
-def failed(expected: str, observed: str, why: Cause | Observation, evidence: Iterable[str] = ()) -> Verdict:
+def failed(expected: str, observed: str, why: Observation, evidence: Iterable[str] = ()) -> Verdict:
     """The learner's code does not meet the criterion; `why` is the symptom that was seen."""
-    if isinstance(why, Cause):
-        mistake = why.name.replace(" ", "-").lower()
-        return Verdict(Status.FAILED, expected, observed, str(why), why.hint, tuple(evidence), mistake)
     return Failure(Status.FAILED, expected, observed, evidence=tuple(evidence), seen=why)
 
 

@@ -7,4 +7,6 @@ from tutor.judge.check import Check, Criterion
 
 from . import judges
 
-CHECK = Check("h1.1", (Criterion("greets", judges.judge_greets, (scenarios.first_greeting,)),))
+CHECK = Check(
+    "h1.1", (Criterion("greets", judges.judge_greets, (scenarios.first_greeting,)),), mistakes="checks.h1_1.mistakes"
+)

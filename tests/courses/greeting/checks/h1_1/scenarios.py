@@ -14,4 +14,4 @@ async def first_greeting(bench: Bench) -> Greeting:
         run.watch("/greeting", "std_msgs/msg/String")
         await run.until(lambda: bool(run.samples_on("/greeting")) or run.exit is not None, LIMIT_S)
         heard = run.samples_on("/greeting")
-        return Greeting(heard[0].message["data"] if heard else None, LIMIT_S)
+        return Greeting(heard[0].message["data"] if heard else None, LIMIT_S, run.trace())
