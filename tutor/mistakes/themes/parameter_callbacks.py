@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.source import Function, NodeFile, argument, calls_in
+from tutor.source import Function, NodeFile, argument, calls_in, last_name
 from tutor.source.parameters import ON_SET, POST_SET, may_refuse, readings, registered_callback
 
 _UNSEEN = (Symptom.BAD_VALUE_ACCEPTED, Symptom.WRONG_RATE, Symptom.CHANGE_IGNORED)
@@ -253,4 +253,10 @@ def old_value_used(case: Case) -> Iterator[Found]:
         if checker is not None:
             timers = [file.function(argument(timer, "callback")) for timer in file.timers]
             inside = [function for function in file.reachable_from(checker) if function not in timers]
+            used = {node.attr for each in inside for node in ast.walk(each) if isinstance(node, ast.Attribute)}
+            inside += [each for each in file.functions if each.name in used and _is_property(each)]
             yield from (found(file, read) for read in readings(file, name) if file.function_around(read) in inside)
+
+
+def _is_property(function: Function) -> bool:
+    return any(last_name(each) in ("property", "cached_property") for each in function.decorator_list)
