@@ -191,7 +191,7 @@ def node_taken(case: Case) -> Iterator[Found]:
 @mistake(
     "second-spin",
     explains=_UNSERVED,
-    says="{line} is never reached, because line {first} spins until the program ends: {code}",
+    says="{line} {reached}, because line {first} spins until the program ends: {code}",
     do="Add all nodes to one executor, and spin it once.",
 )
 def second_spin(case: Case) -> Iterator[Found]:
@@ -220,11 +220,11 @@ def second_spin(case: Case) -> Iterator[Found]:
             for later in spins:
                 below = file.statement(later) in block and later.lineno > first.lineno
                 if below and ast.unparse(later) != ast.unparse(first):
-                    yield found(file, later, first=first.lineno)
+                    yield found(file, later, reached="is never reached", first=first.lineno)
         for loop in (node for node in file.nodes if isinstance(node, ast.For)):
             for call in spins:
                 if file.statement(call) in loop.body:
-                    yield found(file, call, first=call.lineno)
+                    yield found(file, call, reached="is not reached a second time", first=call.lineno)
 
 
 @mistake(

@@ -10,7 +10,7 @@ from tutor.judge.rates import Rate
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.source import NodeFile, calls_in, values_of
+from tutor.source import NodeFile, called_name, calls_in, values_of
 
 _NEVER_DUE = (
     Symptom.NO_MESSAGES,
@@ -54,12 +54,14 @@ def callback_sleeps(case: Case) -> Iterator[Found]:
     See it: `ros2 topic hz TOPIC` stays below what was asked for.
     """
     wanted_hz = case.about("wanted_hz", 10.0)
+    called = {file: file.reachable_from(file.timer_callback) if file.timer_callback else [] for file in case.files}
+    names = {called_name(call) for functions in called.values() for each in functions for call in calls_in(each)}
     for file in case.files:
-        called = file.reachable_from(file.timer_callback) if file.timer_callback is not None else []
+        helpers = [function for name in names if not file.timers for function in file.functions_named(name)]
         for call in file.calls("sleep"):
-            seconds = call.args[0] if call.args else None
-            is_loop_period = not file.timers and not isinstance(seconds, ast.Constant)
-            if file.function_around(call) in called and not is_loop_period and not _is_short(file, call, wanted_hz):
+            function, seconds = file.function_around(call), call.args[0] if call.args else None
+            is_loop_period = function in called[file] and not file.timers and not isinstance(seconds, ast.Constant)
+            if function in (*called[file], *helpers) and not is_loop_period and not _is_short(file, call, wanted_hz):
                 yield found(file, call)
 
 
