@@ -79,21 +79,20 @@ class Calculator(Base):
 node = Calculator()
 """
 AT_END = "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n{}\nnode = Talker()\n"
-SPIN, MAKE = "        rclpy.spin(self)\n", "        self.create_publisher(String, 'a', 1)\n"
+SPIN, MAKE = "        rclpy.spin(self)\n", "        self.create_service(Trigger, 'ring', self.ring)\n"
 
 
 @pytest.mark.parametrize(
     ("source", "mistake", "words"),
     [
         (SPINS, "spins-in-the-constructor", "line 4"),
-        (SPINS.replace("        self.start()\n", ""), "no-messages", ""),
+        (SPINS.replace("        self.start()\n", ""), "service-missing", ""),
         (AT_END.format(SPIN + MAKE), "spins-in-the-constructor", "line 4"),
-        (AT_END.format(MAKE + SPIN), "no-publisher", ""),  # it hides nothing
+        (AT_END.format(MAKE + SPIN), "service-missing", ""),  # it hides nothing
     ],
 )
 def test_a_node_that_spins_in_its_constructor(source: str, mistake: str, words: str) -> None:
-    topic = "/chatter" if mistake == "no-publisher" else None
-    assert_told(told(Symptom.NO_MESSAGES, source, **({"topic": topic} if topic else {})), mistake, words)
+    assert_told(told(Symptom.SERVICE_MISSING, source), mistake, words)
 
 
 WORKER = (rclpy("await_or_execute"), Frame("/lib/concurrent/futures/thread.py", 58, "run", "", 1))
@@ -139,7 +138,6 @@ SLEEPS = (own(20, "time.sleep(3.0)", thread=3), rclpy("await_or_execute", thread
             "nothing has ended this wait",
         ),
         ("", (own(8, "while True:"), *WORKER, *EXECUTOR), "blocked-executor", "line 8"),
-        ("async def add(self, q, r):\n  other = await self.cli.call_async(q)", EXECUTOR, "deadlock-by-await", "line 2"),
         ("x = 1", EXECUTOR, "no-answer", ""),
     ],
 )

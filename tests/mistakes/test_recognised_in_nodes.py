@@ -20,6 +20,8 @@ HELPER = TWO.replace("    self.create_timer(1.0, self.go)\n", "", 1)  # the firs
 SPINS = "import rclpy\nx, y = A(), B()\n"
 TAKEN = "e = SingleThreadedExecutor()\nn = A()\ne.add_node(n)\n{}\ne.spin()\n"
 
+AWAITS = "async def add(self, q, r):\n  other = await self.cli.call_async(q)\nself.create_service(A, 'add', self.add)"
+
 
 @pytest.mark.parametrize(
     ("source", "mistake", "words"),
@@ -43,14 +45,20 @@ TAKEN = "e = SingleThreadedExecutor()\nn = A()\ne.add_node(n)\n{}\ne.spin()\n"
         (FOR_EACH.replace("ex.add", "a.add"), "no-answer", ""),
         (f"{SPINS}rclpy.spin(x)\nrclpy.spin(y)\n", "second-spin", "line 4"),
         (f"{SPINS}a.add_node(x)\nb.add_node(y)\na.spin()\nb.spin()\n", "second-spin", "line 6"),
-        (f"{SPINS}for n in (x, y):\n  n.greet()\n  rclpy.spin(n)\n", "second-spin", "line 5 is not reached a second time"),
+        (
+            f"{SPINS}for n in (x, y):\n  n.greet()\n  rclpy.spin(n)\n",
+            "second-spin",
+            "line 5 is not reached a second time",
+        ),
         (f"{SPINS}if second:\n  rclpy.spin(y)\nelse:\n  rclpy.spin(x)\n", "no-answer", ""),
         (f"{SPINS}rclpy.spin(x)\n", "no-answer", ""),
         (TAKEN.format("rclpy.spin_once(n, timeout_sec=0.3)"), "node-taken-from-its-executor", "line 4"),
         (TAKEN.format("rclpy.spin_until_future_complete(n, f)"), "node-taken-from-its-executor", "line 4"),
         (TAKEN.format("rclpy.spin_once(other)"), "no-answer", ""),
         (TAKEN.format("e.spin_once()"), "no-answer", ""),
-        ("async def add(self, q, r):\n  other = await self.cli.call_async(q)", "deadlock-by-await", "line 2"),
+        (AWAITS, "deadlock-by-await", "line 2"),
+        (AWAITS.replace("self.add)", "self.other)"), "no-answer", ""),
+        (f"{AWAITS}\ngroup = ReentrantCallbackGroup()", "no-answer", ""),
     ],
 )
 def test_why_nothing_answers(source: str, mistake: str, words: str) -> None:
@@ -83,7 +91,9 @@ def test_a_node_inside_of_another_one(spin: str, mistake: str) -> None:
     assert_told(told(Symptom.NO_ANSWER, OUTER.format(spin), files={"arm.py": ARM}), mistake)
 
 
-UNCALLED = f"import rclpy\n{CLASS}    self.count = 0\n  def init(self):\n    self.create_service(Add, 'add', self.add)\n"
+UNCALLED = (
+    f"import rclpy\n{CLASS}    self.count = 0\n  def init(self):\n    self.create_service(Add, 'add', self.add)\n"
+)
 OPENS = "class N(Node):\n  def open(self):\n    self.create_service(A, 'add', f)\nn = N()\nrclpy.spin(n)\n"
 
 

@@ -100,7 +100,9 @@ READ = "        rate = float(self.get_parameter('publish_rate').get_parameter_va
         (changed((COUNT, f"{COUNT}{AGAIN}")), "publish_rate", 0),
         (changed((COUNT, f"        if self.rate <= 0:\n            self.rate = 1.0\n{COUNT}")), "publish_rate", 0),
         (
-            changed((COUNT, f"        if self.rate <= 0:\n            self.set_parameters([A('publish_rate')])\n{COUNT}")),
+            changed(
+                (COUNT, f"        if self.rate <= 0:\n            self.set_parameters([A('publish_rate')])\n{COUNT}")
+            ),
             "publish_rate",
             0,
         ),

@@ -49,7 +49,7 @@ TypeError"""
             "float-in-an-int-field",
             "sum",
         ),
-        (trace(err=crash("assert False, 'other'"), exit=exited(1)), "unhandled-exception", "other"),
+        (trace(err=crash("assert False, 'other'"), exit=exited(1)), "raised-by-the-program-itself", "other"),
         (CRASHED, "unhandled-exception", "node.py, line 12: self.nothing()"),
         (trace(err=CRASH), "unhandled-exception", "AttributeError"),
         (trace(err=NO_RESPONSE, exit=exited(1)), "response-not-returned", ""),
@@ -181,7 +181,7 @@ def subscribed(topic: str = OURS.topic, type_name: str = OURS.type, qos: QoS = O
     ],
 )
 def test_why_nothing_is_received(run: Trace, answers: bool, mistake: str, words: str) -> None:
-    about = {"ours": OURS, "topic": OURS.topic, "type": OURS.type}
+    about: dict[str, Any] = {"ours": OURS, "topic": OURS.topic, "type": OURS.type}
     assert_told(told(Symptom.NOTHING_RECEIVED, "", run=run, answers=answers, **about), mistake, words)
 
 
@@ -276,7 +276,11 @@ RCL_LOG = "[ERROR] [1763716000.125] [rcl.logging_rosout]: Failed to publish"
     ],
 )
 def test_output_that_was_not_logged(run: Trace, at_end: str, mistake: str) -> None:
-    about = {"what": "the name", "recognise": re.compile("kx7").search, "at_end": lines(at_end, "stdout")}
+    about: dict[str, Any] = {
+        "what": "the name",
+        "recognise": re.compile("kx7").search,
+        "at_end": lines(at_end, "stdout"),
+    }
     assert_told(told(Symptom.NOT_LOGGED, "", run=run, **about), mistake)
 
 
@@ -314,7 +318,7 @@ class A(Node):
     ],
 )
 def test_the_line_that_printed(code: str, out: str, words: str) -> None:
-    about = {"what": "the name", "recognise": re.compile("kx7").search}
+    about: dict[str, Any] = {"what": "the name", "recognise": re.compile("kx7").search}
     assert_told(told(Symptom.NOT_LOGGED, PRINTS.format(code), run=trace(out=out), **about), "printed-not-logged", words)
 
 

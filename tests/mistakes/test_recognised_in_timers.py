@@ -122,7 +122,11 @@ executor = MultiThreadedExecutor()
         ("SIM = True\nn.set('use_sim_time', SIM)", "simulated-time", "line 2"),
         ("p = Parameter('use_sim_time', value=False)", NOTHING, ""),
         ("n.get_parameter('use_sim_time')", NOTHING, ""),
-        ("while rclpy.ok():\n    executor.spin_once(timeout_sec=0.2)\n    time.sleep(0.2)", "nap-between-callbacks", "3"),
+        (
+            "while rclpy.ok():\n    executor.spin_once(timeout_sec=0.2)\n    time.sleep(0.2)",
+            "nap-between-callbacks",
+            "3",
+        ),
         ("while rclpy.ok():\n    executor.work(timeout_sec=0.2)\n    time.sleep(0.2)", NOTHING, ""),
         (SPINNING.format("talker.tick()\n        rclpy.spin_once(talker)"), "spin-once-waits", "line 14"),
         (SPINNING.format("talker.tick()\n        rclpy.spin_once(talker, timeout_sec=0.1)"), NOTHING, ""),
@@ -153,12 +157,21 @@ class Sensor:
 """
 
 
+WAITS = "def main():\n    while rclpy.ok():\n        publisher.publish(Float64())\n        rate.read()\n"
+
+
+def test_a_helper_that_makes_the_loop_wait_for_its_next_round() -> None:
+    files = {"rate.py": HELPER.format("self.left()", "read")}
+    assert_told(told(Symptom.WRONG_RATE, WAITS, files=files, wanted_hz=5.0), NOTHING)
+
+
 @pytest.mark.parametrize(
     ("function", "sleep", "mistake"),
     [
         ("read", "self.CONVERSION_S", "callback-sleeps"),
         ("read", "0.5", "callback-sleeps"),
         ("read", "0.005", NOTHING),
+        ("read", "self.left()", "callback-sleeps"),
         ("_run_loop", "0.5", NOTHING),
     ],
 )

@@ -87,7 +87,7 @@ def _recognised(known: KnownException, seen: RaisedException) -> Found | None:
     for way in known.ways:
         # An exception that the program itself raises because of another one says less than that other one, so ways
         # for any type only apply to the origin.
-        if way.type == ".*" and seen.traceback.follows is not None:
+        if way.type.endswith(".*") and seen.traceback.follows is not None:
             continue
         if (told := recognise(way, seen)) is not None:
             return told

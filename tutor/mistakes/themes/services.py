@@ -98,8 +98,9 @@ def service_qos(case: Case) -> Iterator[Found]:
 
     See it: `ros2 service call` waits forever.
     """
-    graph = case.trace.graph
-    for endpoint in (*graph.servers, *graph.clients):
+    graph, asked = case.trace.graph, case.about("service")
+    servers = [server for server in graph.servers if server.name == asked] or graph.servers
+    for endpoint in (*servers, *graph.clients):
         if not endpoint.is_standard:
             words = {"service": endpoint.name}
             if endpoint.reliability == "best_effort":

@@ -55,7 +55,8 @@ def callback_sleeps(case: Case) -> Iterator[Found]:
     """
     wanted_hz = case.about("wanted_hz", 10.0)
     called = {file: file.reachable_from(file.timer_callback) if file.timer_callback else [] for file in case.files}
-    names = {called_name(call) for functions in called.values() for each in functions for call in calls_in(each)}
+    ticks = [each for file in case.files if file.timers for each in called[file]]
+    names = {called_name(call) for function in ticks for call in calls_in(function)}
     for file in case.files:
         helpers = [function for name in names if not file.timers for function in file.functions_named(name)]
         for call in file.calls("sleep"):
