@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tutor.engine.source import read_sources
-from tutor.source import Program, SourceFile, values_of
+from tutor.source import NodeFile, Program, SourceFile, values_of
 from tutor.source.tree import parsed
 
 CLIENT = """
@@ -121,3 +121,32 @@ class Settings:
     kept = [ast.unparse(each) for each in file.nodes if isinstance(each, ast.AnnAssign)]
     assert kept == ["rate: float = 1.0", "self.late: Timer"]
     assert file.calls("create_timer")[0].lineno == 7
+
+
+TWO_TIMERS = """\
+class Sensor(Node):
+    def __init__(self):
+        self.publisher = self.create_publisher(Float64, 'temperature', 10)
+        self.sampling = self.create_timer(0.1, self.sample)
+        self.reporting = self.create_timer(0.5, self.report)
+
+    def sample(self):
+        self.latest = 20.0
+
+    def report(self):
+        self.publisher.publish(Float64(data=self.latest))
+"""
+
+
+def test_of_several_timers_the_one_that_publishes_is_the_first() -> None:
+    callback = NodeFile(TWO_TIMERS).timer_callback
+    assert callback is not None
+    assert callback.name == "report"
+
+
+def test_an_overridden_method_that_does_nothing_is_no_callback() -> None:
+    base = "class B:\n  def f(self):\n    raise NotImplementedError\n"
+    file = SourceFile(f"class A:\n  def f(self):\n    return 1\n{base}x = y(self.f)")
+    found = file.function(file.calls("y")[0].args[0])
+    assert found is not None
+    assert found.lineno == 2
