@@ -11,8 +11,10 @@ import pytest
 
 from tests.engine.helpers import FILE, Scene
 from tutor.content import load_course
+from tutor.engine.explanation import explain
 from tutor.judge import ending
 from tutor.judge.bench import Bench
+from tutor.judge.check import Check
 from tutor.judge.ending import judge_ending, repeat_if_doubtful
 from tutor.judge.submission import Submission
 from tutor.judge.trace import Ending, Trace
@@ -87,7 +89,7 @@ async def press_ctrl_c(bench: Bench) -> Interrupted:
 async def judge_interrupted(scene: Scene, crashing_runs: tuple[int, ...], code: str, always: str = "") -> Verdict:
     """Judge how the program ends that runs `code` at the end of these runs (from 1)."""
     facts = await press_ctrl_c(scene.bench(ENDS_ON_CTRL_C + CRASHES.format(crashing_runs, code, always)))
-    return judge_ending(facts.trace, facts.ending, shown_by="another")
+    return explain(judge_ending(facts.trace, facts.ending, shown_by="another"), Check("h1.1", ()))
 
 
 def count_starts(folder: Path) -> int:
@@ -128,20 +130,19 @@ async def test_after_a_single_crash_the_program_is_run_twice_more(scene: Scene) 
 @pytest.mark.parametrize(("crashing_runs", "starts"), [((1, 2), 2), ((1, 3), 3)])
 async def test_a_second_crash_fails(scene: Scene, crashing_runs: tuple[int, ...], starts: int) -> None:
     verdict = await judge_interrupted(scene, crashing_runs, CRASH)
-    assert verdict.cause is not None
-    assert "signal 11, at node.py, line" in str(verdict.cause), verdict
+    assert "signal 11 (node.py, line" in verdict.cause, verdict
     assert count_starts(scene.folder) == starts
 
 
 async def test_a_second_spin_after_shutdown_fails(scene: Scene) -> None:
     verdict = await judge_interrupted(scene, (1, 2), SPIN_ON)
-    assert "RCLError: failed to initialize wait set" in str(verdict.cause), verdict
+    assert "RCLError: failed to initialize wait set" in verdict.cause, verdict
     assert count_starts(scene.folder) == 2
 
 
 async def test_an_exit_code_hidden_by_an_rclpy_race_is_found_on_a_further_run(scene: Scene) -> None:
     verdict = await judge_interrupted(scene, (1,), RACE, "raise SystemExit(3)")
-    assert "exit code 3" in str(verdict.cause), verdict
+    assert "exit code 3" in verdict.cause, verdict
     assert count_starts(scene.folder) == 3
 
 

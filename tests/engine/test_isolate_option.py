@@ -184,7 +184,7 @@ def test_a_folder_too_large_to_copy_is_not_the_learners_fault(tmp_path: Path) ->
         file.truncate(65 << 20)
     code, report, _ = check(str(tmp_path), "--isolate", "--criterion", "publishes")
     assert code == 3
-    assert "a folder of its own" in report["exercises"][0]["criteria"][0]["hint"]
+    assert "a folder of its own" in report["exercises"][0]["criteria"][0]["step"]
 
 
 def test_without_bubblewrap_nothing_is_checked(tmp_path: Path) -> None:

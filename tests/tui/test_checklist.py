@@ -210,7 +210,7 @@ async def test_the_last_pass_leads_to_the_checklist_where_capital_x_exports_too(
         await me.sees("5 of 6 passed")
         await me.start_check()
         await me.engine_emits(*fakes.lesson_final_events(me.session.lessons[0], fakes.GOOD))
-        await me.sees("Every exercise is passed now.", "Next: press 6 for the checklist.")
+        await me.sees("Every exercise is passed now.", "Next: press 6 for the checklist, V")
         await me.press("6")
         await me.sees("of 15 ticked")
         await me.press("X")

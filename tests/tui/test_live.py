@@ -127,7 +127,7 @@ async def test_a_paused_topic_freezes_its_view_and_keeps_counting_and_any_numeri
         await me.until(lambda: me.message_count() > before + 10)
         await me.pilot.click("#topic-actions", offset=(3, 0))
         await me.sees_no("paused")
-        await me.press("x")
+        await me.press("C")
         await me.until(
             lambda: counts[-1] > 0 and any(after < former for former, after in pairwise(counts)), "counting restarts"
         )

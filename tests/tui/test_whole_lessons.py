@@ -57,7 +57,7 @@ async def test_a_failure_is_fixed_and_the_pass_is_evidence_in_the_checklist(sess
             "✗ operations  ",
             "Expected   /subtract: ",
             "Observed   -",
-            "wrong result: the operands are the",
+            "operands the wrong way round",
             "3 of 4 passed",
         )
 

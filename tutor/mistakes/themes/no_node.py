@@ -53,7 +53,7 @@ def another_domain(case: Case) -> Iterator[Found]:
     do="{do}",
     example=in_run(Symptom.NO_MESSAGES, graph=Graph()),
 )
-def no_node(case: Case) -> Iterator[Found]:
+def none_seen(case: Case) -> Iterator[Found]:
     """The program runs, but there is no node.
 
     A node appears in the graph once its constructor has run, after rclpy.init(). Until then, a program that waits,
