@@ -208,7 +208,7 @@ BAD = Verdict(
     "publish_rate 5.0 gives 5.0 Hz (within 20 %)",
     "0.20 Hz over 3 messages in 10.1 s",
     "rate used as a period: a period of 5.0 s is a rate of 0.2 Hz",
-    "Give create_timer 1.0 / rate: it wants seconds.",
+    "Give the timer the time between two calls, in seconds.",
     ("[INFO] [thermometer]: rate is 5.0", "line 18: self.create_timer(self.rate, self.tick)"),
     mistake="rate-used-as-a-period",
     place="thermometer.py:18",

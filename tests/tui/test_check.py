@@ -48,7 +48,7 @@ async def test_during_a_check_each_criterion_shows_what_is_known_until_its_verdi
         # The first failure is shown at once, unless it is a bonus, and stays while the check continues.
         await me.engine_emits(CriterionJudged("i1.1", fakes.result("shutdown", fakes.BAD, bonus=True)))
         await me.engine_emits(CriterionJudged("i1.1", fakes.result("rate", fakes.BAD)))
-        await me.sees("✗ rate  ", "Next step  Give create_timer", "rate used as a period", "checking")
+        await me.sees("✗ rate  ", "Next step  Give the timer", "rate used as a period", "checking")
         await me.engine_emits(CriterionJudged("i1.1", fakes.result("range", fakes.BAD)))
         await me.until(lambda: "✗ range" in me.criterion("range"))
         await me.engine_emits(*fakes.final_events(fakes.BAD))
@@ -312,7 +312,7 @@ async def test_after_a_restart_the_last_report_is_shown_with_its_time_and_whethe
     session.record(replace(done.result, digests=digests_of({path.name: path})))
     async with open_app(session) as me:
         await me.sees("Checked today", "your code is the same", "✓ publishes", "✗ rate  ", "2 of 3 passed")
-        await me.sees("Next step  Give create_timer", "Why", "Expected", "0.20 Hz over 3 messages")
+        await me.sees("Next step  Give the timer", "Why", "Expected", "0.20 Hz over 3 messages")
         await me.press("5", "i")
         await me.until(lambda: "line 18" in me.diagnosis(), "the evidence")
         await me.press("up")
