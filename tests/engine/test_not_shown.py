@@ -42,5 +42,5 @@ def test_a_timer_is_shown_by_a_node_that_makes_one_and_spins(
 
 def test_of_what_cannot_be_read_nothing_is_said() -> None:
     (lesson,) = [lesson for lesson in load_course().lessons if lesson.id == "i1.1"]
-    assert items_not_shown(lesson, (), []) == ()
-    assert items_not_shown(lesson, ("def (",), []) == ()
+    assert items_not_shown(lesson, {}, []) == ()
+    assert items_not_shown(lesson, {"node.py": "def ("}, []) == ()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,6 @@ from tutor.engine.isolation import Isolation
 from tutor.engine.not_shown import items_not_shown, read_all_sources
 from tutor.engine.provisional import Provisional
 from tutor.engine.so_far import SoFar
-from tutor.engine.source import read_sources
 from tutor.engine.start_limiter import StartLimiter
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
 from tutor.engine.waits import TOO_BUSY
@@ -125,16 +124,13 @@ class Runner:
             not_shown=items_not_shown(self._lesson, sources, results),
         )
         if result.verdict is Status.PASSED and not unjudged:
-            result = replace(result, remarks=self._remarks(results))
+            result = replace(result, remarks=self._remarks(sources, results))
         self._on_event(ExerciseJudged(result))
         return result
 
-    def _remarks(self, results: Sequence[CriterionResult]) -> tuple[Remark, ...]:
+    def _remarks(self, sources: Mapping[str, str], results: Sequence[CriterionResult]) -> tuple[Remark, ...]:
         from tutor.mistakes import remarks  # late, as in `explain`
 
-        sources: dict[str, str] = {}
-        for path in self._submission.files.values():
-            sources |= read_sources(path)
         return remarks(sources, self._check, [each.verdict.mistake for each in results])
 
     async def _judge_shown(self) -> tuple[Sequence[CriterionResult], tuple[str, ...]]:

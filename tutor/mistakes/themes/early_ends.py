@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from tutor.judge.ending import SPIN_ENDINGS
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Exit
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
@@ -118,7 +119,7 @@ def caught_outside_spin(case: Case) -> Iterator[Found]:
 def _is_for_the_end(handler: ast.ExceptHandler) -> bool:
     """Whether a handler catches only what ends a spin in any case, such as Ctrl+C."""
     caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
-    return all(last_name(each) in ("KeyboardInterrupt", "ExternalShutdownException", "SystemExit") for each in caught)
+    return all(last_name(each) in (*SPIN_ENDINGS, "SystemExit") for each in caught)
 
 
 @mistake(
