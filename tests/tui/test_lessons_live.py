@@ -206,6 +206,7 @@ async def test_i1_3(session: Session) -> None:
         await me.sees("■ our server")
         await me.press("j")
         await me.sees("● running  calculator_server.py", "j stops it")
+        await me.sees("Calculator is up")  # Ctrl+C before then may interrupt the import of rclpy, and is an error
         await me.press("b")
         await me.sees("Your calculator_server.py is already running")
         await me.press("j")
