@@ -13,6 +13,7 @@ from tutor.cli import (
     diff,
     doctor,
     explain,
+    grade,
     help_command,
     hint,
     list_exercises,
@@ -85,6 +86,7 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     add("completion", completion.run, completion.add_arguments, "print the Tab completion script for bash, zsh or fish")
     add("doctor", doctor.run, doctor.add_arguments, "say which ROS is used, and what is wrong with the machine")
     add("help", help_command.run, help_command.add_arguments, "show the help for a command, or all commands")
+    add("grade", grade.run, grade.add_arguments, "check a whole class, with points, for teachers")
     add("author", author.run, author.add_arguments, "verify a course, for course authors")
     return parser
 

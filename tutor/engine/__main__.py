@@ -11,17 +11,20 @@ import asyncio
 import contextlib
 import importlib
 import json
+import math
+import resource
 import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from tutor.content import load_course
-from tutor.engine import run_check
+from tutor.engine import run_check, turns
+from tutor.engine.isolation import Isolation
 from tutor.engine.preparation import Prepared, prepare
 from tutor.errors import ContentError, EngineError, SubmissionError, UnknownExercise
 from tutor.interpreter import reduce_gc_frequency
-from tutor.judge.events import Event, encode
+from tutor.judge.events import Event, ResourcesUsed, encode
 from tutor.process.prctl import die_with_parent
 from tutor.stop_signals import Stopped, run_until_stopped
 from tutor.workspace import find_submission
@@ -37,7 +40,11 @@ def main() -> int:
     arguments = _parse(sys.argv[1:])
     die_with_parent(signal.SIGINT)  # a killed app takes its check with it; SIGINT ends the check cleanly
     try:
-        run_until_stopped(lambda: _stand_by() if arguments.standby else _check(arguments))
+        if arguments.try_isolation:
+            Isolation.set_up()
+            return 0
+        isolation = Isolation.set_up() if arguments.isolate else None  # while this process is still single-threaded
+        run_until_stopped(lambda: _stand_by() if arguments.standby else _check(arguments, isolation=isolation))
     except (ContentError, SubmissionError, UnknownExercise) as error:
         print(error, file=sys.stderr)
         return 2
@@ -57,8 +64,13 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--first", action="store_true")
     parser.add_argument("--lessons", type=Path)
     parser.add_argument("--standby", action="store_true")
+    parser.add_argument("--isolate", action="store_true")
+    parser.add_argument("--try-isolation", action="store_true", help="do nothing else")
+    parser.add_argument("--limit", type=float, metavar="SECONDS")
+    parser.add_argument("--patient", action="store_true", help="wait for a turn for as long as it takes")
+    parser.add_argument("--usage", action="store_true", help="report the resources used, as the last event")
     arguments = parser.parse_args(words)
-    if not arguments.standby and arguments.path is None:
+    if not (arguments.standby or arguments.try_isolation) and arguments.path is None:
         parser.error("EXERCISE and PATH are missing")
     return arguments
 
@@ -82,11 +94,27 @@ async def _read_line() -> str:
     return sys.stdin.readline()
 
 
-async def _check(arguments: argparse.Namespace, prepared: Prepared | None = None) -> None:
+async def _check(
+    arguments: argparse.Namespace, prepared: Prepared | None = None, isolation: Isolation | None = None
+) -> None:
     course = load_course(arguments.lessons)
     submission = find_submission(course.find(arguments.exercise), arguments.path, None)
     only = frozenset(arguments.criterion) if arguments.criterion else None
-    await run_check([submission], course, only=only, on_event=_print_event, first=arguments.first, prepared=prepared)
+    await run_check(
+        [submission],
+        course,
+        only=only,
+        on_event=_print_event,
+        first=arguments.first,
+        prepared=prepared,
+        isolation=isolation,
+        limit_s=arguments.limit,
+        turn_limit_s=math.inf if arguments.patient else turns.LIMIT_S,
+    )
+    if arguments.usage:
+        own, ended = resource.getrusage(resource.RUSAGE_SELF), resource.getrusage(resource.RUSAGE_CHILDREN)
+        cpu_s = sum(usage.ru_utime + usage.ru_stime for usage in (own, ended))
+        _print_event(ResourcesUsed(cpu_s))
 
 
 def _print_event(event: Event) -> None:

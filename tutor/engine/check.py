@@ -29,6 +29,8 @@ async def run_check(
     isolation: Isolation | None = None,
     first: bool = False,
     prepared: Prepared | None = None,
+    limit_s: float | None = None,
+    turn_limit_s: float = turns.LIMIT_S,
 ) -> Report:
     """Judge the submissions in parallel. No process is left when this returns, is cancelled or raises.
 
@@ -36,6 +38,7 @@ async def run_check(
     `isolation`: isolates all processes of the submissions. `first`: end each submission's check at the first required
     criterion that fails, and skip those not judged by then. `prepared`: by a `prepare` block around this call, without
     isolation; otherwise this process is prepared here, and its environment variables are restored afterwards.
+    `limit_s`: what is not judged by then is an error. `turn_limit_s`: how long to wait for a turn at most.
     Raises EngineError if checks cannot run here.
     """
     from tutor.engine import unchanged
@@ -62,6 +65,7 @@ async def run_check(
                 ready.fork_server,
                 tools=ready.tools,
                 first=first,
+                limit_s=limit_s,
             )
 
         runners = [make_runner(submission) for submission in submissions]
@@ -72,7 +76,8 @@ async def run_check(
 
         # A caller that shares a limiter among checks decides itself how many run concurrently.
         turn_socket = isolation.turn_socket if isolation else None
-        async with turns.turn(turn_socket, on_wait=announce_waiting) if start_limiter is None else nullcontext():
+        waits = turns.turn(turn_socket, turn_limit_s, announce_waiting) if start_limiter is None else nullcontext()
+        async with waits:
             started = time.monotonic()
             tasks = [asyncio.ensure_future(runner.run()) for runner in runners]
             try:

@@ -24,7 +24,7 @@ from tutor.engine.waits import TOO_BUSY
 from tutor.errors import Fault, MachineTooBusy
 from tutor.judge.bench import Scenario, was_slowed
 from tutor.judge.check import Check, Criterion
-from tutor.judge.events import CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
+from tutor.judge.events import WAITING, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult, Remark, tell_roots_once
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault
@@ -34,8 +34,6 @@ from tutor.workspace import digests_of
 from tutor.workspace.given_code import given_criteria
 
 OnEvent = Callable[[Event], None]
-
-WAITING = "waiting for other checks on this machine"
 
 MAX_REPEATS = 2
 """Maximum repetitions of a scenario because of a busy machine."""
@@ -48,7 +46,7 @@ class Runner:
     """One check of one submission.
 
     `only`: ids of the criteria to show (None: all); their dependencies are judged too, but not shown. `first`: stop at
-    the first required criterion that fails. `tools`: see `Prepared`.
+    the first required criterion that fails. `tools`: see `Prepared`. `limit_s`: what is not judged by then is an error.
     """
 
     def __init__(
@@ -65,6 +63,7 @@ class Runner:
         *,
         tools: Path | None = None,
         first: bool = False,
+        limit_s: float | None = None,
     ) -> None:
         self._check = check
         self._texts = {text.id: text for text in lesson.criteria}
@@ -78,6 +77,8 @@ class Runner:
         self._fork_server = fork_server
         self._tools = tools
         self._first = first
+        self._limit_s = limit_s
+        self._deadline: float | None = None
         self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
         self._early: dict[str, asyncio.Future[Verdict]] = {}
@@ -99,6 +100,8 @@ class Runner:
         exercise = self._check.exercise
         self._announce()
         self._started = time.monotonic()
+        if self._limit_s is not None:
+            self._deadline = asyncio.get_running_loop().time() + self._limit_s
         digests, given = digests_of(self._submission.files), given_criteria(self._lesson, self._submission)
         sources = read_all_sources(self._submission)
         needed = _with_dependencies(self._check, self._shown)
@@ -263,7 +266,14 @@ class Runner:
                 return verdict
 
     async def _result_of(self, criterion: Criterion) -> CriterionResult:
-        return self._emit_verdict(criterion, bounded(await self._verdicts[criterion.id]))
+        try:
+            async with asyncio.timeout_at(self._deadline):
+                verdict = await asyncio.shield(self._verdicts[criterion.id])
+        except TimeoutError:
+            verdict = fault(
+                f"not judged within {self._limit_s:.0f} s", "allow more time with --limit, or look at it alone"
+            )
+        return self._emit_verdict(criterion, bounded(verdict))
 
     def _emit_verdict(self, criterion: Criterion, verdict: Verdict) -> CriterionResult:
         text = self._texts.get(criterion.id)

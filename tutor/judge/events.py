@@ -12,6 +12,9 @@ from typing import get_args
 from tutor.json_codec import LineCodec
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 
+WAITING = "waiting for other checks on this machine"
+"""What the progress of a check says while it waits for its turn."""
+
 
 @dataclass(frozen=True, slots=True)
 class CheckStarted:
@@ -57,7 +60,14 @@ class CheckFinished:
     report: Report
 
 
-Event = CheckStarted | Progress | CriterionJudged | ExerciseJudged | CheckFinished
+@dataclass(frozen=True, slots=True)
+class ResourcesUsed:
+    """What a check has used, told on request: `cpu_s` is the CPU time of all its processes, in seconds."""
+
+    cpu_s: float
+
+
+Event = CheckStarted | Progress | CriterionJudged | ExerciseJudged | CheckFinished | ResourcesUsed
 
 _CODEC: LineCodec[Event] = LineCodec("event", get_args(Event))
 

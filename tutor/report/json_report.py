@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
-from tutor.judge.result import CriterionResult, ExerciseResult, Report
+from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Lookup, Remark, Report, Restriction
+from tutor.judge.verdict import Status, Verdict
 from tutor.terminal_text import printable
 
 SCHEMA = "ros-tutor/report/1"
@@ -25,6 +27,52 @@ def render(report: Report) -> str:
     if report.isolation:
         document["walls"] = [asdict(each) for each in report.isolation]
     return json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
+
+
+def parse(document: Mapping[str, Any]) -> Report:
+    """Return the report that `render` wrote as this document. Raises ValueError.
+
+    What the document does not hold is empty: digests, the criteria met by the skeleton's code, checklist items.
+    """
+    try:
+        if document["schema"] != SCHEMA:
+            raise ValueError(f"not a {SCHEMA}")
+        return Report(
+            environment=Environment(**document["environment"]),
+            exercises=tuple(_parse_exercise(exercise) for exercise in document["exercises"]),
+            duration_s=document["duration_s"],
+            isolation=tuple(Restriction(**wall) for wall in document.get("walls", ())),
+            message=document.get("message", ""),
+        )
+    except (KeyError, TypeError) as error:
+        raise ValueError("it is damaged") from error
+
+
+def _parse_exercise(document: Mapping[str, Any]) -> ExerciseResult:
+    missing = document.get("missing")
+    return ExerciseResult(
+        id=document["id"],
+        title=document["title"],
+        submission=tuple(document["submission"]),
+        criteria=tuple(_parse_criterion(criterion) for criterion in document["criteria"]),
+        duration_s=document["duration_s"],
+        remarks=tuple(Remark(**remark) for remark in document["remarks"]),
+        lookup=Lookup(tuple(missing["looked_for"]), tuple(missing["found"])) if missing else None,
+    )
+
+
+def _parse_criterion(document: Mapping[str, Any]) -> CriterionResult:
+    verdict = Verdict(
+        Status(document["status"]),
+        expected=document["expected"],
+        observed=document["observed"],
+        cause=document["cause"],
+        step=document["step"],
+        evidence=tuple(document["evidence"]),
+        mistake=document["mistake"] or "",
+        same_as=document["same_as"] or "",
+    )
+    return CriterionResult(document["id"], document["text"], document["bonus"], verdict, document["duration_s"])
 
 
 def _exercise(exercise: ExerciseResult) -> dict[str, Any]:
