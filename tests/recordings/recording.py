@@ -78,7 +78,7 @@ def write(recording: Recording, folder: Path) -> Path:
         "case": recording.case,
         "calls": calls,
         "outcomes": recording.outcomes,
-        "facts": [(f"{type(each).__module__}:{type(each).__qualname__}", each) for each in objects],
+        "facts": [(_type_name(each), each) for each in objects],
     }
     file = folder / f"{recording.case.replace('/', '.')}{SUFFIX}"
     folder.mkdir(parents=True, exist_ok=True)
@@ -107,8 +107,20 @@ def read_all(folder: Path, wanted: Iterable[str] = ()) -> list[Recording]:
     return [read(each) for each in chosen]
 
 
+def _type_name(facts: Any) -> str:
+    """The type of facts as "module:Class"; of a tuple, as "(module:Class)", the type that all of its items have."""
+    if isinstance(facts, tuple) and facts and type(facts) is tuple:
+        names = {_type_name(item) for item in facts}
+        assert len(names) == 1, f"facts of several types in one tuple: {names}"
+        return f"({names.pop()})"
+    return f"{type(facts).__module__}:{type(facts).__qualname__}"
+
+
 def _facts(name: str, value: Any, moved: Mapping[str, str]) -> Any:
-    return None if value is None else msgspec.convert(value, _load(moved.get(name, name)), strict=False)
+    name = moved.get(name, name)
+    if name.startswith("("):
+        return tuple(_facts(name[1:-1], item, moved) for item in value)
+    return None if value is None else msgspec.convert(value, _load(name), strict=False)
 
 
 def _load(name: str) -> Any:
