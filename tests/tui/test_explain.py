@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -162,6 +163,13 @@ async def test_a_pass_has_at_most_two_remarks_which_x_explains_and_our_solution_
         await me.until(lambda: not explained(me), "closed after the last one")
         await me.press("V")
         await me.sees("From yours to our solution", "+ # the solution")
+        await me.pilot.resize_terminal(200, 60)
+        await me.press("z")  # the whole width
+        await me.until(lambda: re.search(r"yours +│ +ours", me.screen()) is not None, "two columns")
+        await me.sees("│    1 # the solution")
+        await me.press("z")
+        await me.pilot.resize_terminal(*size)
+        await me.sees("+ # the solution")
         await me.press("escape")
 
     async with learner_again(me.session, size) as again:  # the remarks are kept with the last check

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import StrEnum
 from functools import partial
 
@@ -10,6 +11,7 @@ from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.records import Records
 from tutor.tui.widgets.code_pane import CodePane
+from tutor.tui.widgets.line_view import Piece, Row
 
 
 class View(StrEnum):
@@ -57,7 +59,7 @@ class Views:
         self._host.start_worker(self._load_and_show, view, group="view", exclusive=True)
 
     async def _load_and_show(self, view: View) -> None:
-        from tutor.tui.widgets.diffing import count_changes, diff_rows
+        from tutor.tui.widgets.diffing import column_width, count_changes, diff_rows, side_by_side_rows
 
         file = self._host.model.file
         path = self._host.model.path
@@ -87,4 +89,11 @@ class Views:
         )
         if not rows:
             title = f"No difference: your file is {'our solution' if against else 'still the skeleton'}"
-        self._pane.show_rows(view, title, rows, margins)
+
+        def make(width: int) -> tuple[Sequence[Row], Sequence[Piece]]:
+            column = column_width(width) if against and rows else 0
+            if not column:
+                return rows, margins
+            return side_by_side_rows(("yours", mine), ("ours", other), column), ()
+
+        self._pane.show_made(view, title, make)

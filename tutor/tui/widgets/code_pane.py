@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
@@ -225,10 +225,10 @@ class CodePane(Vertical):
         self.query_one(CodeView).scroll_home(animate=False, immediate=True)
         self.focus_content()
 
-    def show_rows(self, view: str, title: str, rows: Sequence[Row], margins: Sequence[Piece]) -> None:
-        """Show rows, such as a diff, in place of the editor."""
+    def show_made(self, view: str, title: str, make: Callable[[int], tuple[Sequence[Row], Sequence[Piece]]]) -> None:
+        """Show the rows that `make` returns for the width of the pane, such as a diff, in place of the editor."""
         self._switch_view(view, title)
-        self.query_one(CodeView).show_rows(rows, margins)
+        self.query_one(CodeView).show_made(make)
         self.query_one(CodeView).scroll_home(animate=False, immediate=True)
         self.focus_content()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import Any, ClassVar
 
 from pygments.lexers.python import PythonLexer  # type: ignore[import-untyped]
@@ -13,8 +14,9 @@ from pygments.token import (  # type: ignore[import-untyped]
     Operator,
     String,
 )
+from textual import events
 
-from tutor.tui.widgets.line_view import LineView, Row
+from tutor.tui.widgets.line_view import LineView, Piece, Row
 
 _KINDS = {
     Comment: "comment",
@@ -52,8 +54,21 @@ class CodeView(LineView):
     }
     """
 
+    _make_rows: Callable[[int], tuple[Sequence[Row], Sequence[Piece]]] | None = None
+
+    def show_made(self, make: Callable[[int], tuple[Sequence[Row], Sequence[Piece]]]) -> None:
+        """Show the rows and margins that `make` returns for the width of the view, now and when that changes."""
+        self._make_rows = make
+        self.show_rows(*make(self.size.width))
+
+    def on_resize(self, event: events.Resize) -> None:
+        """Make the rows for the new width."""
+        if self._make_rows is not None:
+            self.show_rows(*self._make_rows(event.size.width))
+
     def show_source(self, source: str) -> None:
         """Show this source text."""
+        self._make_rows = None
         rows = highlight(source)
         width = max(3, len(str(len(rows))))
         self.show_rows(rows, [(f" {number:>{width}}  ", "gutter") for number in range(1, len(rows) + 1)])
