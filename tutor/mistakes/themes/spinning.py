@@ -77,6 +77,8 @@ def no_spin(case: Case) -> Iterator[Found]:
     """
     if case.answers or is_spinning(case.stuck) or case.trace.exit is not None or not case.trace.graph.nodes:
         return
+    if case.symptom is Symptom.NO_MESSAGES and not case.program.mentions("create_publisher"):
+        return  # a spin would bring none either
     threads = tracebacks.frames_by_thread(case.stuck)
     mains = [thread for thread in threads if thread[-1].function == "<module>"]
     at = tracebacks.own_frame(mains[0] if mains else case.stuck, case.trace.folder)
