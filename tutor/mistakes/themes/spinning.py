@@ -77,7 +77,9 @@ def no_spin(case: Case) -> Iterator[Found]:
     """
     if case.answers or is_spinning(case.stuck) or case.trace.exit is not None or not case.trace.graph.nodes:
         return
-    if case.symptom is Symptom.NO_MESSAGES and not case.program.mentions("create_publisher"):
+    topics = {publisher.topic for publisher in case.trace.graph.publishers}
+    makes_one = case.about("topic") in topics or case.program.mentions("create_publisher")
+    if case.symptom is Symptom.NO_MESSAGES and not makes_one:
         return  # a spin would bring none either
     threads = tracebacks.frames_by_thread(case.stuck)
     mains = [thread for thread in threads if thread[-1].function == "<module>"]
