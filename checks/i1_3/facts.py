@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tutor.judge.trace import CallAnswer, Ending, Exit, Level, LogRecord, OutputLine, ServedRequest, Trace
-from tutor.judge.tracebacks import Frame
+from tutor.judge.tracebacks import Frame, failed_outside_callbacks
 from tutor.judge.wording import shape
 from tutor.ros_model import ServiceEndpoint
 
@@ -101,7 +101,10 @@ class ServiceCalls:
     @property
     def ended_by_a_call(self) -> bool:
         """Whether a call ended the server, whether it was answered or not: that the answer gets out is a race."""
-        return self.ready and bool(self.answers) and self.trace.exit is not None
+        if not self.ready or not self.answers or self.trace.exit is None:
+            return False
+        answered = any(answer.response is not None for answer in self.answers)
+        return answered or not failed_outside_callbacks(self.trace)
 
     def of(self, service: str) -> tuple[CallAnswer, ...]:
         return tuple(answer for answer in self.answers if answer.service == service)

@@ -128,6 +128,8 @@ def wrong_way_round(case: Case) -> Iterator[Found]:
     """
     service, wrong = _wrong(case)
     told = [(a, b, got) for a, b, got in wrong if a]
+    if all(got == abs(correct_result(service, a, b)) for a, b, got in _results(case, service) if b):
+        return  # the order is right, and the sign is lost
     if any(got for _, _, got in told) and all(got == correct_result(service, b, a) for a, b, got in told):
         yield Found({"service": service})
 

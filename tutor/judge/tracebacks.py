@@ -150,6 +150,15 @@ def last_traceback(trace: Trace) -> Traceback | None:
     return next((each for each in reversed(found) if not each.ignored), found[-1] if found else None)
 
 
+def failed_outside_callbacks(trace: Trace) -> bool:
+    """Whether an exception ended the spin that no callback had raised: rclpy failed while it looked for work."""
+    last = last_traceback(trace)
+    paths = [frame.path for frame in last.frames] if last is not None else []
+    return any(path.endswith("rclpy/executors.py") for path in paths) and not any(
+        path.endswith("rclpy/task.py") for path in paths
+    )
+
+
 def lines_without_tracebacks(output: Sequence[OutputLine]) -> tuple[str, ...]:
     """The lines of the output without the frames of tracebacks; the line that names the exception is kept."""
     kept: list[str] = []

@@ -5,9 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from tutor.judge.symptom import Symptom
+from tutor.judge.tracebacks import is_in_folder
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.exceptions import EXPLAINED_WHILE_RUNNING, found_in, from_example, raised_in
 from tutor.mistakes.exceptions.known import Example
+from tutor.mistakes.raised import RaisedException
 
 _STOPPED = "where Python could not go on"
 
@@ -40,6 +43,8 @@ def unhandled_exception(case: Case) -> Iterator[Found]:
     See it: the log in the app, or the terminal in which the node ran.
     """
     for seen in raised_in(case)[:1]:
+        if case.symptom is Symptom.NOT_LOGGED and case.trace.exit is None and _is_printed_by_handler(seen):
+            return  # it is handled: only the node's log is missing
         if seen.line is None:
             yield found_in(seen, do="Find the line of yours that leads to it in the last lines of the output.")
         else:
@@ -47,3 +52,9 @@ def unhandled_exception(case: Case) -> Iterator[Found]:
             place = f"line {seen.line.line} of {seen.line.name}"
             do = f"Write {meant[1]} in {place}, if that is what you mean." if meant else f"Change {place}, {_STOPPED}."
             yield found_in(seen, do=do)
+
+
+def _is_printed_by_handler(seen: RaisedException) -> bool:
+    """Whether the learner's own code has printed the traceback: it then begins where the exception was caught."""
+    first = seen.traceback.frames[0] if seen.traceback.frames else None
+    return first is not None and is_in_folder(first.path, seen.folder) and first.function not in ("", "<module>")
