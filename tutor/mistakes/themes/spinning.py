@@ -186,36 +186,6 @@ def _spins_itself(file: NodeFile, statement: ast.stmt) -> bool:
 
 
 @mistake(
-    "nap-between-callbacks",
-    explains=_SLOW,
-    says="{line} makes the loop that spins the node sleep, and meanwhile no callback runs: {code}",
-    do="Remove the sleep; spin_once already waits until there is something to do.",
-)
-def nap_between_spins(case: Case) -> Iterator[Found]:
-    """The loop that spins the node sleeps.
-
-    spin_once() runs one callback, or waits for one. A sleep next to it delays every callback, even those that are due.
-
-    Bad:
-
-        while rclpy.ok():
-            rclpy.spin_once(node)
-            time.sleep(0.2)
-
-    Good:
-
-        while rclpy.ok():
-            rclpy.spin_once(node)
-
-    See it: `ros2 topic hz TOPIC` stays below five messages a second.
-    """
-    for file in case.files:
-        for loop in file.nodes:
-            if isinstance(loop, ast.While) and calls_in(loop, *SPINS_ONCE):
-                yield from (found(file, nap) for nap in calls_in(loop, "sleep"))
-
-
-@mistake(
     "spin-once-waits",
     name="spin_once waits",
     explains=(*_SLOW, Symptom.CALLS_MISSING),
@@ -256,6 +226,36 @@ def untimed_spin_once(case: Case) -> Iterator[Found]:
                     yield found(file, call, why="and without a timer there is none")
                 elif isinstance(loop, ast.For) and call.args and ast.unparse(loop.target) in map(ast.unparse, given):
                     yield found(file, call, why="and until then none of the other nodes gets a turn")
+
+
+@mistake(
+    "nap-between-callbacks",
+    explains=_SLOW,
+    says="{line} makes the loop that spins the node sleep, and meanwhile no callback runs: {code}",
+    do="Remove the sleep; spin_once already waits until there is something to do.",
+)
+def nap_between_spins(case: Case) -> Iterator[Found]:
+    """The loop that spins the node sleeps.
+
+    spin_once() runs one callback, or waits for one. A sleep next to it delays every callback, even those that are due.
+
+    Bad:
+
+        while rclpy.ok():
+            rclpy.spin_once(node)
+            time.sleep(0.2)
+
+    Good:
+
+        while rclpy.ok():
+            rclpy.spin_once(node)
+
+    See it: `ros2 topic hz TOPIC` stays below five messages a second.
+    """
+    for file in case.files:
+        for loop in file.nodes:
+            if isinstance(loop, ast.While) and calls_in(loop, *SPINS_ONCE):
+                yield from (found(file, nap) for nap in calls_in(loop, "sleep"))
 
 
 def publishes(file: NodeFile, loop: ast.AST) -> bool:

@@ -55,6 +55,8 @@ def rate_as_period(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic hz TOPIC`, once at a rate of 2 and once at 10.
     """
+    if case.about("rate") is None and case.program.files and not case.program.mentions("create_timer"):
+        return  # no message at all, and not for want of a timer that is fast enough
     if case.about("inverted") and not case.about("unchanged") and case.about("unit", "Hz") == "Hz":
         yield Found({"name": case.about("parameter", "the rate")})
 
