@@ -79,8 +79,10 @@ class Call:
 
     @property
     def nearly_in_time(self) -> bool:
-        """Whether the answer was so little late that a busy machine may be the reason."""
-        return self.answer.response is not None and self.answer.took_s <= LONGEST_S + 2 * EXCUSED_S
+        """Whether the answer was so little late, or the CPU so scarce, that a busy machine may be the reason."""
+        without_wait_s = max(self.answer.took_s - self.cpu_wait_s, 0.0)
+        nearly = self.answer.took_s <= LONGEST_S + 2 * EXCUSED_S or without_wait_s <= LONGEST_S
+        return self.answer.response is not None and nearly
 
     @property
     def busy(self) -> bool:

@@ -153,6 +153,8 @@ def test_a_busy_machine_excuses_slow_answers_but_not_quick_ones() -> None:
     assert_failed(judge_blocking(single_calls((), answer(4.5), cpu_wait_s=1.0)), "wrong duration", "4.5 s")
     assert_failed(judge_blocking(single_calls((), answer(4.5), answer(4.1))), "wrong duration", "4.1 s")
     assert_undecided(judge_blocking(single_calls((), answer(4.2), cpu_wait_s=1.0)))
+    assert_undecided(judge_blocking(single_calls((), answer(5.7), cpu_wait_s=6.1)))  # a starved machine
+    assert_failed(judge_blocking(single_calls((), answer(5.7), cpu_wait_s=1.5)), "wrong duration", "5.7 s")
 
 
 def test_one_late_call_on_a_calm_machine_is_enough_to_fail() -> None:
