@@ -66,7 +66,7 @@ def one_thread(case: Case) -> Iterator[Found]:
         spins = taken if several else spins
         if not one_at_a_time(case) or not spins:
             return
-    elif not case.stuck or not stops(case) or in_worker(case.stuck):
+    elif not stops(case) or in_worker(case.stuck) or (not case.stuck and (several or not spins)):
         return
     elif (own := tracebacks.own_frame(case.stuck, case.trace.folder)) is not None:
         where = f" ({case.place(own.name, own.line)})"
