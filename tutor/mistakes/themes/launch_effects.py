@@ -194,7 +194,7 @@ def still_used(case: Case) -> Iterator[Found]:
     "argument-without-effect",
     explains=_NAMES,
     evidence=Evidence.SYMPTOM,
-    says="{argument}:={value} is given, but its value reaches no node",
+    says="{argument}:={value} is given, but no topic and no namespace takes its value",
     do="Use the value of the argument in every node: a topic in its remappings, a namespace as its namespace.",
     example=in_run(Symptom.WRONG_NAMES, argument="topic", wanted="/dong"),
 )

@@ -65,6 +65,43 @@ def output_of(*lines: str) -> dict[str, Any]:
 
 
 @mistake(
+    "value-read-too-early",
+    explains=LAUNCH,
+    evidence=Evidence.PROCESS,
+    says="{line} asks for the value of {name} while the launch is only described: there is none yet: {code}",
+    do="Leave it to launch to ask for the value when it runs.",
+    example=in_run(Symptom.NOT_LAUNCHED, **output_of("launch configuration 'sound' does not exist")),
+)
+def read_too_early(case: Case) -> Iterator[Found]:
+    """The value of a launch argument is read while the launch is described.
+
+    generate_launch_description() only says what shall happen. Arguments get their values afterwards, when launch
+    executes the description; whatever needs one gets the LaunchConfiguration itself, and asks it then.
+
+    Bad:
+
+        def generate_launch_description():
+            sound = LaunchConfiguration('sound').perform(LaunchContext())
+            return LaunchDescription([Node(package='house', executable='bell', namespace=sound)])
+
+    Good:
+
+        def generate_launch_description():
+            sound = LaunchConfiguration('sound')
+            return LaunchDescription([Node(package='house', executable='bell', namespace=sound)])
+
+    See it: `ros2 launch FILE --print`.
+
+    Lesson: i2.2, on launch arguments.
+    """
+    if (said := says_itself(_NO_VALUE, case)) is None:
+        return
+    for call in launch_file(case).calls("perform"):
+        if call.within == "generate_launch_description":
+            yield at_call(case, call, name=said["name"])
+
+
+@mistake(
     "launch-argument-not-declared",
     explains=LAUNCH,
     evidence=Evidence.PROCESS,
@@ -77,7 +114,7 @@ def not_declared(case: Case) -> Iterator[Found]:
 
     LaunchConfiguration('sound') stands for the value that DeclareLaunchArgument('sound') sets. The entries of a launch
     description are executed in order, so the declaration comes first; a declaration that is not in the list has no
-    effect, and perform() in generate_launch_description() asks before there is any value.
+    effect.
 
     Bad:
 
@@ -99,12 +136,6 @@ def not_declared(case: Case) -> Iterator[Found]:
     if (said := says_itself(_NO_VALUE, case)) is None:
         return
     name, file = said["name"], launch_file(case)
-    for call in file.calls("perform"):
-        if call.within == "generate_launch_description":
-            what = (
-                f"line {call.line} asks for the value of {name} while the launch is only described: there is none yet"
-            )
-            yield at_call(case, call, what=what, do="Leave it to launch to ask for the value when it runs.")
     for call in file.calls("DeclareLaunchArgument"):
         if call.argument(0, "name") == f"'{name}'":
             late = f"the argument {name} is declared (line {call.line}) after what reads it"
