@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from tutor.grade.results import Result, ResultFolder
     from tutor.grade.submissions import Work
 
-_FORMATS = ("text", "csv", "json", "junit", "canvas", "moodle", "html", "gradescope", "classroom50", "check50")
+_FORMATS = ("text", "csv")
 _STEPS = ("none", "words")
 
 
