@@ -23,7 +23,7 @@ EXCUSED_S = 0.5
 """Maximum delay of a call that is attributed to a busy machine."""
 
 STARVED_SHARE = 0.9
-"""CPU wait, as a share of a call, with which nothing is known of the call: with both cores busy, 0.6 was measured."""
+"""CPU wait, as a share of a call, from which on nothing is known of the call. Checks five at a time stay below it."""
 
 NEGLIGIBLE_S = 0.2
 """CPU wait, in seconds, that is too short to cast doubt on an observation."""
