@@ -570,6 +570,13 @@ def test_one_call_that_lasts_long_enough_by_chance_is_not_enough() -> None:
     assert_passed(judge_blocking(single_calls(), concurrent(3005, 3005, 3005, took_s=(2.3, 2.3, 2.3))))
 
 
+def test_calls_that_a_starved_machine_leaves_unanswered_are_no_verdict() -> None:
+    starved = concurrent(None, None, None, took_s=(8.0, 8.0, 8.0), cpu_wait_s=9.0)
+    assert_undecided(judge_concurrent(starved))
+    assert_failed(judge_concurrent(concurrent(None, None, None, took_s=(8.0, 8.0, 8.0), cpu_wait_s=4.0)), "no answer")
+    assert_failed(judge_concurrent(concurrent(3005, 3005, 3005, cpu_wait_s=9.0)), "shared state")
+
+
 def test_three_unanswered_calls_are_judged_only_with_the_single_calls() -> None:
     assert_failed(judge_concurrent_so_far(concurrent(3005, 3005, 3005)), "shared state")
     assert_passed(judge_concurrent_so_far(concurrent(1005, 2005, 3005)))

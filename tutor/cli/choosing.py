@@ -8,17 +8,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tutor.errors import UsageError
-from tutor.invocation import command
-from tutor.judge.result import CriterionResult, ExerciseResult, Lookup, Report
+from tutor.judge.result import ExerciseResult, Report
 from tutor.judge.submission import Submission
-from tutor.judge.verdict import Status, Verdict
+from tutor.judge.verdict import Status
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson
     from tutor.workspace import Workspace
 
 ALL = "all"
-NOT_STARTED = "not started"
 
 
 def choose_lessons(exercise: str, criteria: Sequence[str] | None, course: Course) -> tuple[Lesson, ...]:
@@ -45,7 +43,7 @@ def choose_submissions(
     Raises SubmissionError if there is nothing to judge at all.
     """
     from tutor.errors import SubmissionError
-    from tutor.workspace import find_submission, is_started, look_up
+    from tutor.workspace import NOT_STARTED, find_submission, is_started, look_up, missing_result
 
     if path is None and not workspace.exists:
         find_submission(lessons[0], None, workspace)  # raises the most helpful error
@@ -79,18 +77,3 @@ def with_missing(
 def only_criteria(result: ExerciseResult, only: Collection[str] | None) -> ExerciseResult:
     """Return the result limited to the criteria in `only`, if that is given."""
     return result if only is None else replace(result, criteria=tuple(c for c in result.criteria if c.id in only))
-
-
-def missing_result(lesson: Lesson, status: Status, why: str, lookup: Lookup | None) -> ExerciseResult:
-    """Return the result of an exercise whose files are missing: each of its criteria has this status."""
-    names = ", ".join(file.name for file in lesson.files if file.required)
-    hint = f"`{command('start', lesson.id)}` puts the skeleton into the workspace" if why == NOT_STARTED else ""
-    verdict = Verdict(status, expected=names, cause=why, step=hint)
-    return ExerciseResult(
-        id=lesson.id,
-        title=lesson.title,
-        submission=(),
-        criteria=tuple(CriterionResult(c.id, c.text, c.bonus, verdict, 0.0) for c in lesson.criteria),
-        duration_s=0.0,
-        lookup=lookup,
-    )

@@ -94,9 +94,9 @@ def _report(error: Exception, arguments: argparse.Namespace | None) -> Report:
 
 def _missing_exercises(error: SubmissionError, arguments: argparse.Namespace) -> list[ExerciseResult]:
     """Return a result for each exercise that was to be judged: none of them has all its files."""
-    from tutor.cli.choosing import choose_lessons, missing_result, only_criteria
+    from tutor.cli.choosing import choose_lessons, only_criteria
     from tutor.judge.verdict import Status
-    from tutor.workspace import find_submission, look_up
+    from tutor.workspace import find_submission, look_up, missing_result
 
     workspace = context.choose_any_workspace(arguments)
     results = []
@@ -112,9 +112,6 @@ def _missing_exercises(error: SubmissionError, arguments: argparse.Namespace) ->
 
 
 def _environment() -> Environment:
-    from tutor import __version__
-    from tutor.judge.result import Environment
     from tutor.ros.environment import detect
 
-    ros = detect()
-    return Environment(ros_distro=ros.distro, ros=ros.kind, rmw=ros.rmw, ros_tutor=__version__)
+    return detect().for_report()

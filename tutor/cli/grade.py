@@ -1,4 +1,4 @@
-"""`ros-tutor grade`: check a whole class, give points, and write what the systems around a class take."""
+"""`ros-tutor grade`: check a whole class, and give points."""
 
 from __future__ import annotations
 
@@ -15,13 +15,12 @@ from tutor.judge.wording import counted
 
 if TYPE_CHECKING:
     from tutor.content import Course
-    from tutor.grade.grading import Executor, Plan
+    from tutor.grade.grading import Plan
     from tutor.grade.points import Points
     from tutor.grade.results import Result, ResultFolder
     from tutor.grade.submissions import Work
 
 _FORMATS = ("text", "csv")
-_STEPS = ("none", "words")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,17 +41,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--roster", metavar="FILE", type=Path, help="a CSV of folder, name, id and email")
     parser.add_argument("--points", metavar="FILE", type=Path, help="what criteria are worth (points.toml)")
     parser.add_argument("--output", metavar="RESULTS", type=Path, help="the folder of results (SUBMISSIONS-results)")
-    parser.add_argument("--format", choices=_FORMATS, default="text", help=f"{', '.join(_FORMATS)}")
-    parser.add_argument("--gradebook", metavar="FILE", type=Path, help="for canvas, moodle: the CSV it exported")
-    parser.add_argument("--steps", choices=_STEPS, default="words", help="tell learners no next step (none), or words")
+    parser.add_argument("--format", choices=_FORMATS, default="text", help="text (default) or csv")
     parser.add_argument("--jobs", metavar="N", type=int, help="checks at once (else as many as this machine can judge)")
     parser.add_argument("--limit", metavar="SECONDS", type=float, help="what is not judged by then is an error (300)")
     parser.add_argument("--again", action="store_true", help="check everything again")
     parser.add_argument("--no-isolation", action="store_true", help="run code that you have not read as yourself")
     parser.add_argument("--shard", metavar="K/N", help="only the Kth of N parts, for one of N machines")
     parser.add_argument("--collect", metavar="DIR", nargs="+", type=Path, help="merge results; check nothing")
-    parser.add_argument("--executor", choices=("local", "dask"), default="local", help="where checks run")
-    parser.add_argument("--scheduler", metavar="ADDRESS", help="Dask's scheduler, such as tcp://10.0.0.1:8786")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -71,7 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
     if results is None:
         terminal.say(f"interrupted; what was judged is in {folder.root}, and the same command goes on from there")
         return INTERRUPTED
-    return _report(results, arguments, course, points, folder)
+    return _report(results, arguments, course, points)
 
 
 def _check_options(arguments: argparse.Namespace) -> None:
@@ -83,10 +78,6 @@ def _check_options(arguments: argparse.Namespace) -> None:
         raise UsageError(f"--jobs {arguments.jobs}: at least one")
     if arguments.limit is not None and not arguments.limit > 0:
         raise UsageError(f"--limit {arguments.limit}: a number of seconds above 0")
-    if arguments.scheduler and arguments.executor != "dask":
-        raise UsageError("--scheduler needs --executor dask")
-    if arguments.gradebook is not None and arguments.format not in ("canvas", "moodle"):
-        raise UsageError("--gradebook is for --format canvas and moodle")
     _shard(arguments.shard)
 
 
@@ -155,27 +146,26 @@ def _grade(arguments: argparse.Namespace, course: Course, folder: ResultFolder) 
 def _run(
     works: Sequence[Work], arguments: argparse.Namespace, course: Course, folder: ResultFolder
 ) -> list[Result] | None:
-    from dataclasses import replace
-
     from tutor.cli.grade_display import display_for
     from tutor.cli.judging import interruptible
-    from tutor.grade.grading import Grading, Options
-    from tutor.grade.machine import cores, costs_from, estimate_s, words_for
+    from tutor.grade.grading import Grading, LocalExecutor, Options
+    from tutor.grade.machine import checks_at_once, cores, costs_from, estimate_s, words_for
     from tutor.grade.unit import DEFAULT_LIMIT_S
 
     folder.sweep()
-    limit_s = arguments.limit or DEFAULT_LIMIT_S
-    options = Options(isolate=not arguments.no_isolation, limit_s=limit_s, lessons=getattr(arguments, "lessons", None))
-    executor = _make_executor(arguments)
-    plan = Grading(course, folder, executor, options).plan(works, again=arguments.again)
-    if plan.todo and options.isolate and arguments.executor == "local":
-        options = replace(options, isolate=_can_isolate())
-    costs = costs_from(folder)
-    seconds = estimate_s((work.exercise for work in plan.todo), costs, executor.slots, cores())
+    grading = Grading(course, folder)
+    plan = grading.plan(works, again=arguments.again)
+    options = Options(
+        isolate=bool(plan.todo) and not arguments.no_isolation and _can_isolate(),
+        limit_s=arguments.limit or DEFAULT_LIMIT_S,
+        lessons=getattr(arguments, "lessons", None),
+    )
+    executor = LocalExecutor(arguments.jobs or checks_at_once())
+    costs, available_cores = costs_from(folder), cores()
+    seconds = estimate_s((work.exercise for work in plan.todo), costs, executor.slots, available_cores)
     _announce(plan, f"about {words_for(seconds)}, {counted(executor.slots, 'check')} at once")
-    display = display_for(plan, executor.slots, costs, cores())
-    grading = Grading(course, folder, executor, options)
-    return interruptible(lambda: grading.grade(plan, display, costs), display)
+    display = display_for(plan, executor.slots, costs, available_cores)
+    return interruptible(lambda: grading.grade(plan, executor, options, display, costs), display)
 
 
 def _announce(plan: Plan, estimate: str) -> None:
@@ -186,13 +176,6 @@ def _announce(plan: Plan, estimate: str) -> None:
     terminal.say(f"{learners}, {', '.join(sorted(exercises))}: {counted(len(keys), 'result')}{already}{missing}")
     if plan.todo:
         terminal.say(f"{counted(len(plan.todo), 'check')} to run: {estimate}")
-
-
-def _make_executor(arguments: argparse.Namespace) -> Executor:
-    from tutor.grade.grading import LocalExecutor
-    from tutor.grade.machine import checks_at_once
-
-    return LocalExecutor(arguments.jobs or checks_at_once())
 
 
 def _can_isolate() -> bool:
@@ -216,20 +199,14 @@ def _can_isolate() -> bool:
 # --- the report ---
 
 
-def _report(
-    results: Sequence[Result], arguments: argparse.Namespace, course: Course, points: Points, folder: ResultFolder
-) -> int:
-    from tutor.grade import formats
+def _report(results: Sequence[Result], arguments: argparse.Namespace, course: Course, points: Points) -> int:
     from tutor.grade.gradebook import Gradebook
 
-    gradebook = Gradebook.of(
-        results, course, points, steps=arguments.steps == "words", title=folder.root.name.removesuffix("-results")
-    )
-    if arguments.format in formats.FILES:
-        written = formats.write(gradebook, arguments.format, folder.root)
-        terminal.out("".join(f"{context.display_path(path)}\n" for path in written))
-    elif arguments.format in formats.DOCUMENTS:
-        terminal.out(formats.render(gradebook, arguments.format, _read_template(arguments.gradebook)))
+    gradebook = Gradebook.of(results, course, points)
+    if arguments.format == "csv":
+        from tutor.grade.formats import csv_table
+
+        terminal.out(csv_table.render(gradebook))
     else:
         from tutor.grade.formats import text
 
@@ -247,14 +224,3 @@ def _fault_of(result: Result) -> str:
     criteria = judged.criteria if judged is not None else ()
     causes = [criterion.verdict.cause for criterion in criteria if criterion.verdict.status is Status.ERROR]
     return causes[0] if causes else result.report.message
-
-
-def _read_template(path: Path | None) -> str | None:
-    if path is None:
-        return None
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(
-            f"--gradebook {path}: cannot be read: {getattr(error, 'strerror', 'it is not UTF-8')}"
-        ) from error

@@ -7,41 +7,41 @@ import time
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
-from rich.console import Console, Group, RenderableType
-from rich.live import Live
+from rich.console import Group, RenderableType
 from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
 from tutor.cli import terminal
 from tutor.cli.judging import Display
+from tutor.cli.live_console import live
+from tutor.grade.formats.text import STYLES
 from tutor.grade.grading import Plan, Watcher
 from tutor.grade.machine import Cost, estimate_s, words_for
 from tutor.grade.results import Result
 from tutor.grade.submissions import Work
 from tutor.grade.unit import OnEvent
-from tutor.judge.events import CriterionJudged, Event, Progress
+from tutor.judge.events import Event, Progress
 from tutor.report.plain import seconds
 from tutor.terminal_text import printable
 
 _REFRESH_HZ = 4
 _RECENT = 8
-_STYLES = {"passed": "green", "failed": "red", "missing": "yellow", "error": "magenta"}
 
 
-class GradeDisplay(Display, Watcher):
+class GradeDisplay(Display, Watcher, Protocol):
     """Shows how grading goes, on stderr."""
 
 
 @dataclass(slots=True)
 class _Running:
-    """One check that is running. `total`: how many criteria it has; `judged`: how many have their verdict."""
+    """One check that is running, since a time of the monotonic clock."""
 
     name: str
     since: float
     doing: str = ""
-    judged: int = 0
 
 
 class _Remaining:
@@ -109,17 +109,8 @@ class _Table:
         self._running: dict[tuple[str, str], _Running] = {}
         self._results: dict[tuple[str, str], Result] = {}
         self._stopping = False
-        self._console = Console(
-            stderr=True, highlight=False, markup=False, emoji=False, no_color=not terminal.wants_color(sys.stderr)
-        )
-        self._live = Live(
-            console=self._console,
-            get_renderable=self._draw,
-            refresh_per_second=_REFRESH_HZ,
-            transient=True,
-            redirect_stdout=False,
-            redirect_stderr=False,
-        )
+        self._live = live(self._draw, _REFRESH_HZ, vanishing=True)
+        self._console = self._live.console
         self._live.start()
 
     def started(self, work: Work) -> None:
@@ -132,8 +123,6 @@ class _Table:
         def follow(event: Event) -> None:
             if isinstance(event, Progress):
                 running.doing = event.doing or running.doing
-            elif isinstance(event, CriterionJudged):
-                running.judged += 1
 
         return follow
 
@@ -161,7 +150,7 @@ class _Table:
         grid.add_column(no_wrap=True, overflow="ellipsis", ratio=3)
         rows = max(3, self._console.height - 6 - len(self._running))
         for result in results[-min(_RECENT, rows) :]:
-            text = Text(result.status, _STYLES[result.status])
+            text = Text(result.status, STYLES[result.status])
             grid.add_row(Text(printable(f"{result.learner.name}  {result.exercise}")), text, Text(_tell(result), "dim"))
         for running in list(self._running.values()):
             passed = seconds(time.monotonic() - running.since)
@@ -184,8 +173,7 @@ class _Table:
 def display_for(plan: Plan, slots: int, costs: Mapping[str, Cost], cores: float) -> GradeDisplay:
     """Return a live table if stderr is a terminal, else lines."""
     remaining = _Remaining(plan, slots, costs, cores)
-    display: object = _Table(plan, remaining) if terminal.can_animate(sys.stderr) else _Lines(plan, remaining)
-    return display  # type: ignore[return-value]
+    return _Table(plan, remaining) if terminal.can_animate(sys.stderr) else _Lines(plan, remaining)
 
 
 def _describe(result: Result) -> str:

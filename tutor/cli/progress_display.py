@@ -6,18 +6,16 @@ of the criteria in progress as fit.
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 
-from rich.console import Console, Group, RenderableType
-from rich.live import Live
+from rich.console import Group, RenderableType
 from rich.progress_bar import ProgressBar
 from rich.spinner import Spinner
 from rich.table import Table
 from rich.text import Text
 
-from tutor.cli import terminal
 from tutor.cli.failure_banner import render_banner
+from tutor.cli.live_console import live
 from tutor.content import Course
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import CriterionResult
@@ -56,17 +54,8 @@ class ProgressDisplay:
         self._failure: tuple[str, CriterionResult] | None = None
         self._stopping = False
         self._spinner = Spinner("dots", style="cyan")
-        self._console = Console(
-            stderr=True, highlight=False, markup=False, emoji=False, no_color=not terminal.wants_color(sys.stderr)
-        )
-        self._live = Live(
-            console=self._console,
-            get_renderable=self._draw,
-            refresh_per_second=_REFRESH_HZ,
-            transient=vanishing,
-            redirect_stdout=False,  # stdout carries the report and may go elsewhere
-            redirect_stderr=False,
-        )
+        self._live = live(self._draw, _REFRESH_HZ, vanishing=vanishing)
+        self._console = self._live.console
 
     def show(self, event: Event) -> None:
         """Process one event. The first one starts the drawing: until then, the engine may restart this process."""

@@ -7,7 +7,6 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 
-from tutor import __version__
 from tutor.content import Course
 from tutor.engine import turns
 from tutor.engine.isolation import Isolation
@@ -15,7 +14,7 @@ from tutor.engine.preparation import Prepared, prepare
 from tutor.engine.start_limiter import StartLimiter
 from tutor.judge.check import Check
 from tutor.judge.events import CheckFinished, Event
-from tutor.judge.result import Environment, Report
+from tutor.judge.result import Report
 from tutor.judge.submission import Submission
 
 
@@ -86,9 +85,8 @@ async def run_check(
                 for task in tasks:
                     task.cancel()
                 await asyncio.gather(*tasks, return_exceptions=True)
-    ros = ready.ros
     report = Report(
-        environment=Environment(ros_distro=ros.distro, ros=ros.kind, rmw=ros.rmw, ros_tutor=__version__),
+        environment=ready.ros.for_report(),
         exercises=tuple(results),
         duration_s=time.monotonic() - started,
         isolation=isolation.restrictions if isolation else (),

@@ -6,7 +6,7 @@ import os
 import stat
 import tarfile
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path, PurePosixPath
@@ -115,16 +115,18 @@ def _write(target: Path, content: bytes) -> None:
 # --- packing ---
 
 
-def pack(files: dict[str, Path]) -> bytes:
-    """Pack files, by the name that they have in the archive. Equal files make equal bytes. Raises OSError."""
-    buffer = BytesIO()
+def pack(files: Mapping[str, Path]) -> tuple[bytes, str]:
+    """Pack files, by the name that they have in the archive, and return it with their `digest_of`. Raises OSError."""
+    buffer, digest = BytesIO(), sha256()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, path in sorted(files.items()):
             entry = zipfile.ZipInfo(name, _EPOCH)
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.external_attr = (stat.S_IFREG | (0o755 if os.access(path, os.X_OK) else 0o644)) << 16
-            archive.writestr(entry, path.read_bytes())
-    return buffer.getvalue()
+            content = path.read_bytes()
+            archive.writestr(entry, content)
+            digest.update(_line_of(name, content))
+    return buffer.getvalue(), digest.hexdigest()
 
 
 def unpack_packed(packed: bytes, folder: Path) -> None:
@@ -136,13 +138,16 @@ def unpack_packed(packed: bytes, folder: Path) -> None:
             target.chmod(entry.external_attr >> 16 & 0o777)
 
 
-def digest_of(files: dict[str, Path]) -> str:
+def digest_of(files: Mapping[str, Path]) -> str:
     """Return a digest of the names and contents of files. Raises OSError."""
-    total = sha256()
+    digest = sha256()
     for name, path in sorted(files.items()):
-        content = sha256(path.read_bytes()).hexdigest()
-        total.update(f"{name!r} {content}\n".encode("utf-8", "surrogatepass"))
-    return total.hexdigest()
+        digest.update(_line_of(name, path.read_bytes()))
+    return digest.hexdigest()
+
+
+def _line_of(name: str, content: bytes) -> bytes:
+    return f"{name!r} {sha256(content).hexdigest()}\n".encode("utf-8", "surrogatepass")
 
 
 def files_below(folder: Path, submission: Path) -> dict[str, Path]:

@@ -23,29 +23,22 @@ class Total:
 
 @dataclass(frozen=True, slots=True)
 class Gradebook:
-    """All results of a class. `lessons` in the course's order, `learners` by name.
-
-    `steps`: whether learners are told the next step of a failure. `title`: of the class, for headings.
-    """
+    """All results of a class. `lessons` in the course's order, `learners` by name."""
 
     lessons: tuple[Lesson, ...]
     learners: tuple[Learner, ...]
     points: Points
     results: dict[tuple[str, str], Result] = field(default_factory=dict)
-    steps: bool = True
-    title: str = "Class"
 
     @classmethod
-    def of(
-        cls, results: Iterable[Result], course: Course, points: Points, *, steps: bool = True, title: str = "Class"
-    ) -> Gradebook:
+    def of(cls, results: Iterable[Result], course: Course, points: Points) -> Gradebook:
         """Make a gradebook of these results; those of exercises that the course does not have are left out."""
         by_key = {(result.learner.id, result.exercise): result for result in results if course.knows(result.exercise)}
         learners = {result.learner.id: result.learner for result in by_key.values()}
         ordered = sorted(learners.values(), key=lambda learner: (learner.name.casefold(), learner.id))
         seen = {exercise for _, exercise in by_key}
         lessons = tuple(lesson for lesson in course.lessons if lesson.id in seen)
-        return cls(lessons, tuple(ordered), points, by_key, steps, title)
+        return cls(lessons, tuple(ordered), points, by_key)
 
     def result(self, learner: Learner, lesson: Lesson) -> Result | None:
         """Return a result; None if this exercise has not been graded for this learner."""

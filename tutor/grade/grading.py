@@ -12,14 +12,15 @@ from typing import Protocol
 
 from tutor import __version__
 from tutor.content import Course, Lesson
-from tutor.grade.archives import digest_of, pack
+from tutor.grade.archives import pack
 from tutor.grade.machine import COSTS, DEFAULT_COST, Cost
 from tutor.grade.results import Result, ResultFolder, Version
 from tutor.grade.submissions import Work
 from tutor.grade.unit import DEFAULT_LIMIT_S, OnEvent, Outcome, Unit, run_unit
-from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report
-from tutor.judge.verdict import Status, Verdict
+from tutor.judge.result import Environment, Report
+from tutor.judge.verdict import Status
 from tutor.ros.environment import detect
+from tutor.workspace import missing_result
 
 MAX_ATTEMPTS = 2
 """How often a check is made that a fault of the tool or the machine keeps from a verdict."""
@@ -86,11 +87,9 @@ class Plan:
 class Grading:
     """Grades the work of a class into a folder of results."""
 
-    def __init__(self, course: Course, folder: ResultFolder, executor: Executor, options: Options) -> None:
+    def __init__(self, course: Course, folder: ResultFolder) -> None:
         self._course = course
         self._folder = folder
-        self._executor = executor
-        self._options = options
         self._versions: dict[str, Version] = {}
 
     def plan(self, works: Sequence[Work], *, again: bool = False) -> Plan:
@@ -106,7 +105,14 @@ class Grading:
                 todo.append(work)
         return Plan(tuple(todo), tuple(missing), tuple(kept))
 
-    async def grade(self, plan: Plan, watcher: Watcher, costs: Mapping[str, Cost] = COSTS) -> list[Result]:
+    async def grade(
+        self,
+        plan: Plan,
+        executor: Executor,
+        options: Options,
+        watcher: Watcher,
+        costs: Mapping[str, Cost] = COSTS,
+    ) -> list[Result]:
         """Carry out a plan; return all results, those that were kept included. No process is left, even if cancelled.
 
         Long checks come first, so that none of them begins last. Raises StorageError.
@@ -116,11 +122,14 @@ class Grading:
             self._folder.save(result)  # a roster may have changed what is said of the learner
         for work in plan.missing:
             results.append(self._save(self._missing(work), watcher))
-        semaphore = asyncio.Semaphore(self._executor.slots)
+        semaphore = asyncio.Semaphore(executor.slots)
 
-        async def check(work: Work) -> Result:
+        async def check(work: Work, attempt: int = 1) -> Result:
             async with semaphore:
-                return await self._check(work, watcher)
+                watcher.started(work)
+                outcome = await _run(work, executor, options, watcher.event(work))
+                report = outcome.report or Report(_environment(), (), 0.0, message=outcome.fault)
+                return self._save(replace(self._result(work, report, attempt), cpu_s=outcome.cpu_s), watcher)
 
         ordered = sorted(plan.todo, key=lambda work: -costs.get(work.exercise, DEFAULT_COST).wall_s)
         tasks = [asyncio.ensure_future(check(work)) for work in ordered]
@@ -132,28 +141,9 @@ class Grading:
             await asyncio.gather(*tasks, return_exceptions=True)
         for work, result in zip(ordered, checked, strict=True):
             if result.status == "error":  # alone, since the others may be why
-                result = await self._check(work, watcher, attempt=MAX_ATTEMPTS)
+                result = await check(work, MAX_ATTEMPTS)
             results.append(result)
         return results
-
-    async def _check(self, work: Work, watcher: Watcher, attempt: int = 1) -> Result:
-        watcher.started(work)
-        outcome = await self._run(work, watcher.event(work))
-        report = outcome.report or self._fault_report(outcome.fault)
-        return self._save(replace(self._result(work, report, attempt), cpu_s=outcome.cpu_s), watcher)
-
-    async def _run(self, work: Work, on_event: OnEvent) -> Outcome:
-        files = dict(work.files)
-        try:
-            packed = await asyncio.to_thread(pack, files)
-            if await asyncio.to_thread(digest_of, files) != work.digest:
-                return Outcome(None, fault="the files were changed while the class was graded")
-        except OSError as error:
-            return Outcome(None, fault=f"cannot read {error.filename}: {error.strerror}")
-        options = self._options
-        key = f"{work.learner.id}/{work.exercise}"
-        unit = Unit(key, work.exercise, packed, work.main, options.isolate, options.limit_s, options.lessons)
-        return await self._executor.run(unit, on_event)
 
     def _save(self, result: Result, watcher: Watcher) -> Result:
         self._folder.save(result)
@@ -173,26 +163,24 @@ class Grading:
         return self._versions[exercise]
 
     def _missing(self, work: Work) -> Result:
-        lesson = self._course.find(work.exercise)
-        names = ", ".join(file.name for file in lesson.files if file.required)
-        verdict = Verdict(Status.SKIPPED, expected=names, cause=work.missing)
-        exercise = ExerciseResult(
-            id=lesson.id,
-            title=lesson.title,
-            submission=(),
-            criteria=tuple(CriterionResult(text.id, text.text, text.bonus, verdict, 0.0) for text in lesson.criteria),
-            duration_s=0.0,
-            lookup=work.lookup,
-        )
+        exercise = missing_result(self._course.find(work.exercise), Status.SKIPPED, work.missing, work.lookup)
         return self._result(work, Report(_environment(), (exercise,), 0.0))
 
-    def _fault_report(self, message: str) -> Report:
-        return Report(_environment(), (), 0.0, message=message)
+
+async def _run(work: Work, executor: Executor, options: Options, on_event: OnEvent) -> Outcome:
+    try:
+        packed, digest = await asyncio.to_thread(pack, work.files)
+    except OSError as error:
+        return Outcome(None, fault=f"cannot read {error.filename}: {error.strerror}")
+    if digest != work.digest:
+        return Outcome(None, fault="the files were changed while the class was graded")
+    key = f"{work.learner.id}/{work.exercise}"
+    unit = Unit(key, work.exercise, packed, work.main, options.isolate, options.limit_s, options.lessons)
+    return await executor.run(unit, on_event)
 
 
 def _environment() -> Environment:
-    ros = detect()
-    return Environment(ros_distro=ros.distro, ros=ros.kind, rmw=ros.rmw, ros_tutor=__version__)
+    return detect().for_report()
 
 
 def course_digest(lesson: Lesson) -> str:

@@ -1,6 +1,6 @@
 """Points: what each exercise and criterion is worth, from a teacher's `points.toml`.
 
-A file that uses everything there is (see docs/teaching.md):
+A file that uses everything there is:
 
 - `default = 10`: the points of an exercise without a table
 - `[i1.1]` with `points = 20`: split in equal parts among the required criteria; `bonus = 1`: for each bonus criterion

@@ -15,7 +15,7 @@ from tutor.judge.result import Report
 from tutor.session.engine_child import EngineChild
 
 DEFAULT_LIMIT_S = 300.0
-"""The longest check of our test submissions takes 110 s on a busy machine."""
+"""The longest check of our test submissions took 167 s, on a machine with ten times as much to do as it could."""
 
 _SILENCE_S = 120.0
 """How much longer than its limit a check may be silent before its process is taken for stuck, in seconds."""

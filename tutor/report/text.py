@@ -34,7 +34,7 @@ _INDENT = 4
 def render(report: Report, *, color: bool, width: int) -> str:
     """Render the report, `width` columns wide. Verdicts are always words as well, never colours alone."""
     out = StringIO()
-    console = _make_console(out, color=color, width=max(width, 40))
+    console = make_console(out, color=color, width=max(width, 40))
     for exercise in report.exercises:
         for part in _exercise(exercise):
             console.print(part)
@@ -43,7 +43,8 @@ def render(report: Report, *, color: bool, width: int) -> str:
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def _make_console(out: StringIO, *, color: bool, width: int) -> Console:
+def make_console(out: StringIO, *, color: bool, width: int) -> Console:
+    """Return a console that writes plain text, `width` columns wide, to `out`: nothing in a text is markup."""
     return Console(
         file=out,
         force_terminal=color,

@@ -11,10 +11,14 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
+from tutor import __version__
 from tutor.ros import bundled_interfaces, prefixes
 from tutor.ros.discovery import PROFILE, isolated_discovery, loopback_multicast_works, prompt_discovery
+
+if TYPE_CHECKING:
+    from tutor.judge.result import Environment
 
 __all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works", "tutor_env"]
 
@@ -66,6 +70,12 @@ class RosEnvironment:
     python: Path
     rmw: str
     problems: tuple[str, ...] = ()
+
+    def for_report(self) -> Environment:
+        """Return what a report says of the software that a check ran on."""
+        from tutor.judge.result import Environment  # late: every `ros2` command imports this module
+
+        return Environment(ros_distro=self.distro, ros=self.kind, rmw=self.rmw, ros_tutor=__version__)
 
 
 def detect(environ: Mapping[str, str] = os.environ) -> RosEnvironment:

@@ -13,9 +13,18 @@ from tutor.workspace.progress_file import ProgressFile
 from tutor.workspace.recording import record
 from tutor.workspace.saving import Saved, back_up_file, overwrite_file, read_source
 from tutor.workspace.starting import TEMPLATE, Started, start, start_in
-from tutor.workspace.submissions import find_submission, is_own, is_started, look_up, solution
+from tutor.workspace.submissions import (
+    NOT_STARTED,
+    find_submission,
+    is_own,
+    is_started,
+    look_up,
+    missing_result,
+    solution,
+)
 
 __all__ = [
+    "NOT_STARTED",
     "TEMPLATE",
     "AppState",
     "AppStateFile",
@@ -47,6 +56,7 @@ __all__ = [
     "is_started",
     "last_met",
     "look_up",
+    "missing_result",
     "overwrite_file",
     "place_files",
     "read_source",

@@ -10,10 +10,12 @@ from pathlib import Path
 from tutor.content import Lesson, LessonFile
 from tutor.errors import SubmissionError
 from tutor.invocation import command
-from tutor.judge.result import Lookup
+from tutor.judge.result import CriterionResult, ExerciseResult, Lookup
 from tutor.judge.submission import Submission
+from tutor.judge.verdict import Status, Verdict
 from tutor.workspace.layout import Workspace, is_launch_file
 
+NOT_STARTED = "not started"
 _MAX_LISTED = 20
 
 
@@ -47,6 +49,21 @@ def look_up(lesson: Lesson, path: Path | None, workspace: Workspace | None) -> L
     if not missing:
         return None
     return Lookup(tuple(map(str, missing)), tuple(_list_folder(missing[0].parent)))
+
+
+def missing_result(lesson: Lesson, status: Status, why: str, lookup: Lookup | None) -> ExerciseResult:
+    """Return the result of an exercise whose files are missing: each of its criteria has this status."""
+    names = ", ".join(file.name for file in lesson.files if file.required)
+    hint = f"`{command('start', lesson.id)}` puts the skeleton into the workspace" if why == NOT_STARTED else ""
+    verdict = Verdict(status, expected=names, cause=why, step=hint)
+    return ExerciseResult(
+        id=lesson.id,
+        title=lesson.title,
+        submission=(),
+        criteria=tuple(CriterionResult(c.id, c.text, c.bonus, verdict, 0.0) for c in lesson.criteria),
+        duration_s=0.0,
+        lookup=lookup,
+    )
 
 
 def _list_folder(folder: Path) -> list[str]:

@@ -23,7 +23,7 @@ COLUMNS = (
 )
 
 
-def render(gradebook: Gradebook, template: str | None = None) -> str:
+def render(gradebook: Gradebook) -> str:
     """Render UTF-8 text with a header line. `score` is empty where a fault of the tool left the work unjudged."""
     out = StringIO()
     writer = csv.writer(out, lineterminator="\n")

@@ -12,9 +12,11 @@ from tutor.grade.formats.csv_table import number
 from tutor.grade.gradebook import Gradebook
 from tutor.grade.points import Score
 from tutor.grade.results import Result
+from tutor.judge.wording import counted
+from tutor.report.text import make_console
 from tutor.terminal_text import printable
 
-_STYLES = {"passed": "green", "failed": "red", "missing": "yellow", "error": "magenta"}
+STYLES = {"passed": "green", "failed": "red", "missing": "yellow", "error": "magenta"}
 _MARKS = {"passed": "✓", "failed": "✗", "missing": "·", "error": "!"}
 _MAX_MISTAKES = 3
 
@@ -22,9 +24,7 @@ _MAX_MISTAKES = 3
 def render(gradebook: Gradebook, *, color: bool, width: int) -> str:
     """Render the table, `width` columns wide; a mark and points for each exercise, never colours alone."""
     out = StringIO()
-    console = Console(
-        file=out, force_terminal=color, no_color=not color, width=width, highlight=False, markup=False, emoji=False
-    )
+    console = make_console(out, color=color, width=width)
     table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 2, 0, 0))
     table.add_column("learner", no_wrap=True, overflow="ellipsis", max_width=32)
     for lesson in gradebook.lessons:
@@ -47,7 +47,7 @@ def _cell(result: Result | None, score: Score | None) -> Text:
     if result is None or score is None:
         return Text("-", "dim")
     points = "?" if score.score is None else number(score.score)
-    return Text(f"{_MARKS[result.status]} {points}", _STYLES[result.status])
+    return Text(f"{_MARKS[result.status]} {points}", STYLES[result.status])
 
 
 def _print_mistakes(gradebook: Gradebook, console: Console) -> None:
@@ -56,5 +56,4 @@ def _print_mistakes(gradebook: Gradebook, console: Console) -> None:
     console.print(Text(legend, "dim"))
     for lesson in gradebook.lessons:
         for mistake, name, count in gradebook.mistakes(lesson)[:_MAX_MISTAKES]:
-            learners = "1 learner" if count == 1 else f"{count} learners"
-            console.print(Text(printable(f"{lesson.id}  {learners}: {name} ({mistake})")))
+            console.print(Text(printable(f"{lesson.id}  {counted(count, 'learner')}: {name} ({mistake})")))
