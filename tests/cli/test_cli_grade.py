@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.cli.terminals import run_in_terminals
 from tutor.content import load_course
 
 COURSE = load_course()
@@ -57,3 +59,13 @@ def test_a_class_is_graded_and_kept(tmp_path: Path) -> None:
     assert "1 of them judged before" in again.stderr
     merged = grade("--collect", tmp_path / "results", "--output", tmp_path / "all", "--format", "csv")
     assert merged.stdout == first.stdout
+
+
+def test_on_a_terminal_a_table_is_drawn_and_the_report_follows(tmp_path: Path) -> None:
+    (tmp_path / "class/bob").mkdir(parents=True)
+    argv = [sys.executable, "-m", "tutor", "grade", str(tmp_path / "class"), "--exercise", "i1.3"]
+    code, out, err = run_in_terminals(argv, {**os.environ, "TERM": "xterm-256color"})
+    assert code == 0, err
+    assert "nothing was handed in" in err
+    assert "1 of 1" in err
+    assert "0 of 10" in out

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from tutor.cli import context, terminal
 from tutor.cli.errors import FAULT, INTERRUPTED, PASSED
 from tutor.errors import EngineError, UsageError
+from tutor.invocation import command
 from tutor.judge.wording import counted
 
 if TYPE_CHECKING:
@@ -192,7 +193,7 @@ def _can_isolate() -> bool:
     terminal.say("Without isolation they run as you: they can read and change your files, and use the network.")
     print("Go on without isolation? [y/N] ", end="", file=sys.stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in ("y", "yes"):
-        raise EngineError("nothing was checked", "see `ros-tutor doctor`")
+        raise EngineError("nothing was checked", f"see `{command('doctor')}`")
     return False
 
 

@@ -16,7 +16,7 @@ from rich.text import Text
 
 from tutor.cli import terminal
 from tutor.cli.judging import Display
-from tutor.cli.live_console import live
+from tutor.cli.live_console import live, stderr_console
 from tutor.grade.formats.text import STYLES
 from tutor.grade.grading import Plan, Watcher
 from tutor.grade.machine import Cost, estimate_s, words_for
@@ -109,8 +109,8 @@ class _Table:
         self._running: dict[tuple[str, str], _Running] = {}
         self._results: dict[tuple[str, str], Result] = {}
         self._stopping = False
-        self._live = live(self._draw, _REFRESH_HZ, vanishing=True)
-        self._console = self._live.console
+        self._console = stderr_console()
+        self._live = live(self._console, self._draw, _REFRESH_HZ, vanishing=True)
         self._live.start()
 
     def started(self, work: Work) -> None:

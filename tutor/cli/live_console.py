@@ -11,12 +11,20 @@ from rich.live import Live
 from tutor.cli import terminal
 
 
-def live(draw: Callable[[], RenderableType], refresh_hz: float, *, vanishing: bool) -> Live:
-    """Return a display of what `draw` returns, not started yet. `vanishing`: it erases itself at the end."""
+def stderr_console() -> Console:
+    """Return a console for stderr, in which nothing in a text is markup."""
+    return Console(
+        stderr=True, highlight=False, markup=False, emoji=False, no_color=not terminal.wants_color(sys.stderr)
+    )
+
+
+def live(console: Console, draw: Callable[[], RenderableType], refresh_hz: float, *, vanishing: bool) -> Live:
+    """Return a display of what `draw` returns, not started yet, though `draw` is called at once.
+
+    `vanishing`: it erases itself at the end.
+    """
     return Live(
-        console=Console(
-            stderr=True, highlight=False, markup=False, emoji=False, no_color=not terminal.wants_color(sys.stderr)
-        ),
+        console=console,
         get_renderable=draw,
         refresh_per_second=refresh_hz,
         transient=vanishing,

@@ -15,7 +15,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tutor.cli.failure_banner import render_banner
-from tutor.cli.live_console import live
+from tutor.cli.live_console import live, stderr_console
 from tutor.content import Course
 from tutor.judge.events import CheckStarted, CriterionJudged, Event, Progress
 from tutor.judge.result import CriterionResult
@@ -54,8 +54,8 @@ class ProgressDisplay:
         self._failure: tuple[str, CriterionResult] | None = None
         self._stopping = False
         self._spinner = Spinner("dots", style="cyan")
-        self._live = live(self._draw, _REFRESH_HZ, vanishing=vanishing)
-        self._console = self._live.console
+        self._console = stderr_console()
+        self._live = live(self._console, self._draw, _REFRESH_HZ, vanishing=vanishing)
 
     def show(self, event: Event) -> None:
         """Process one event. The first one starts the drawing: until then, the engine may restart this process."""

@@ -6,6 +6,7 @@ import subprocess
 
 from tutor import interpreter
 from tutor.errors import EngineError
+from tutor.invocation import command
 
 _LIMIT_S = 30.0
 
@@ -16,7 +17,7 @@ def why_not_isolated() -> EngineError | None:
     try:
         tried = subprocess.run(argv, capture_output=True, text=True, errors="replace", timeout=_LIMIT_S, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
-        return EngineError(f"it cannot be tried ({error})", "see `ros-tutor doctor`")
+        return EngineError(f"it cannot be tried ({error})", f"see `{command('doctor')}`")
     if tried.returncode == 0:
         return None
     what, _, hint = (tried.stderr.strip().splitlines() or ["unknown. "])[-1].partition(". ")

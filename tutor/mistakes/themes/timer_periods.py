@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
+from tutor.mistakes.themes.spinning import untimed_spin_once
 from tutor.source import NodeFile, argument, last_name, match, values_of
 
 _RATES = (Symptom.WRONG_RATE, Symptom.NO_MESSAGES, Symptom.CHANGE_IGNORED)
@@ -55,8 +56,8 @@ def rate_as_period(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic hz TOPIC`, once at a rate of 2 and once at 10.
     """
-    if case.about("rate") is None and case.program.files and not case.program.mentions("create_timer"):
-        return  # no message at all, and not for want of a timer that is fast enough
+    if case.about("rate") is None and any(True for _ in untimed_spin_once(case)):
+        return  # there is no rate because the loop that publishes stands still
     if case.about("inverted") and not case.about("unchanged") and case.about("unit", "Hz") == "Hz":
         yield Found({"name": case.about("parameter", "the rate")})
 
