@@ -60,6 +60,15 @@ def _cache_textual_parsing() -> None:
 _cache_textual_parsing()
 
 
+@pytest.fixture(autouse=True)
+def home(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A short prompt, and bash, whatever the developer's own shell is like, and however long it takes to start."""
+    folder = tmp_path_factory.mktemp("home")
+    (folder / ".bashrc").write_text("PS1='$ '\n")
+    monkeypatch.setenv("HOME", str(folder))
+    monkeypatch.setenv("SHELL", "/bin/bash")
+
+
 def is_alive(pid: int) -> bool:
     try:
         os.kill(pid, 0)

@@ -24,14 +24,6 @@ from tutor.workspace import Workspace, start
 PROMPT = "(ROS 2: ws)"
 
 
-@pytest.fixture(autouse=True)
-def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A short prompt, and bash, whatever the developer's own shell is like."""
-    (tmp_path / ".bashrc").write_text("PS1='$ '\n")
-    monkeypatch.setenv("HOME", str(tmp_path))
-    monkeypatch.setenv("SHELL", "/bin/bash")
-
-
 def shown(me: Any) -> TerminalView:
     view = me.main.query_one(TerminalPane).shown
     assert isinstance(view, TerminalView)
