@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import time
 from collections.abc import Callable
@@ -10,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 from tutor.errors import CommandError
 
 if TYPE_CHECKING:
+    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.node import Node
     from rclpy.task import Future
 
     from tutor.bundled_ros.ros2.domain import Domain
@@ -21,15 +24,25 @@ NOTICE_AFTER_S = 6.0
 """How long an unlimited wait goes on before the user is told about it on stderr."""
 
 
+def make_executor(node: Node) -> SingleThreadedExecutor:
+    """Return an executor for a node. Ctrl+C waits until it is complete: rclpy cannot delete half of one."""
+    from rclpy.executors import SingleThreadedExecutor
+
+    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        executor = SingleThreadedExecutor(context=node.context)
+        executor.add_node(node)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
+    return executor
+
+
 def wait_for_answer(domain: Domain, future: Future, *, notice: Callable[[], str] | None = None) -> Any:
     """Spin until a call has its result, and return it, however long that takes.
 
     After NOTICE_AFTER_S seconds, the text that `notice` returns is printed once. Raises CommandError if the call fails.
     """
-    from rclpy.executors import SingleThreadedExecutor
-
-    executor = SingleThreadedExecutor(context=domain.node.context)
-    executor.add_node(domain.node)
+    executor = make_executor(domain.node)
     try:
         started = time.monotonic()
         while not future.done():

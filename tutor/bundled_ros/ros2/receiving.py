@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
+from tutor.bundled_ros.ros2.calling import make_executor
 from tutor.bundled_ros.ros2.domain import Domain
 
 if TYPE_CHECKING:
@@ -43,7 +44,6 @@ def receive(
 
     Messages accumulate for `gather_s` seconds between two batches. `on_lost` is called when messages were lost.
     """
-    import rclpy
     from rclpy.event_handler import SubscriptionEventCallbacks
     from rclpy.impl.implementation_singleton import rclpy_implementation as implementation
     from rclpy.serialization import deserialize_message
@@ -59,8 +59,7 @@ def receive(
 
     subscription = subscribe()
     # The executor handles lost-message and incompatible-QoS events, and /clock with simulated time.
-    executor = rclpy.executors.SingleThreadedExecutor(context=node.context)
-    executor.add_node(node)
+    executor = make_executor(node)
     wait_set = implementation.WaitSet(1, 0, 0, 0, 0, 0, node.context.handle)
     next_events_at = 0.0
     while True:

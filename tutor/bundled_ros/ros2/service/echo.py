@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from tutor.bundled_ros.ros2.calling import SPIN_TIMEOUT_S
+from tutor.bundled_ros.ros2.calling import SPIN_TIMEOUT_S, make_executor
 from tutor.bundled_ros.ros2.domain import join_domain
 from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
 from tutor.bundled_ros.ros2.message_format import MessageFormat, add_format_arguments
@@ -26,7 +26,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> None:
     """Print each event of the service. Raises CommandError if its type is unknown."""
-    from rclpy.executors import SingleThreadedExecutor
     from rclpy.qos import QoSPresetProfiles
 
     name, message_format = arguments.service_name, MessageFormat.of(arguments)
@@ -58,7 +57,6 @@ def main(arguments: argparse.Namespace) -> None:
         domain.find(lambda: subscription.get_publisher_count() or None)
         if not subscription.get_publisher_count():
             print(f"No publishers on topic '{topic}'; is service introspection on the client or server enabled?")
-        executor = SingleThreadedExecutor(context=domain.node.context)
-        executor.add_node(domain.node)
+        executor = make_executor(domain.node)
         while True:
             executor.spin_once(timeout_sec=SPIN_TIMEOUT_S)
