@@ -18,7 +18,7 @@ from pathlib import Path
 import pytest
 
 from tests.ros.own_network import OWN_NETWORK, needs_own_network
-from tutor.doctor import Finding, child, examine, machine, ros2, terminal
+from tutor.doctor import Finding, child, examine, isolation, machine, ros2, terminal
 from tutor.errors import ProbeFailed
 from tutor.ros.environment import RosEnvironment, detect
 
@@ -58,6 +58,7 @@ FINDINGS = [
     "Loopback network",
     "Loopback multicast",
     "Discovery",
+    "Isolation",
     "Temporary files",
     "Workspace",
     "ROS domain",
@@ -196,6 +197,28 @@ def test_a_loopback_interface_that_is_down() -> None:
     assert output.startswith("Finding(name='Loopback network', ok=False")
     assert "sudo ip link set lo up" in output
     assert "Finding(name='Loopback multicast', ok=None" in output
+
+
+def test_no_bubblewrap_is_a_warning_with_its_fix(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    finding = isolation.isolation()
+    monkeypatch.undo()
+    assert finding.ok is None
+    assert finding.text.startswith("Isolation needs bubblewrap, which is not installed.")
+    assert finding.hint == "Install it: sudo apt install bubblewrap"
+
+
+def test_a_bubblewrap_that_fails_is_quoted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    bwrap = tmp_path / "bwrap"
+    bwrap.write_text("#!/bin/sh\necho 'bwrap: Something is wrong' >&2\nexit 1\n")
+    bwrap.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    finding = isolation.isolation()
+    monkeypatch.undo()
+    assert finding.ok is None
+    assert finding.hint
+    # Without the right to make namespaces, root does not get as far as bubblewrap.
+    assert "bwrap: Something is wrong" in finding.text or os.geteuid() == 0
 
 
 def test_temporary_files_that_cannot_be_written(monkeypatch: pytest.MonkeyPatch) -> None:

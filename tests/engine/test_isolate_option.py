@@ -17,25 +17,45 @@ from typing import Any
 import pytest
 
 from tests.report.shape import assert_report_shape
+from tests.ros.own_network import OWN_NETWORK, needs_own_network
 from tutor.content import load_course
 from tutor.interpreter import module_command
+from tutor.judge.events import WAITING
 
 FILE = "temperature_publisher.py"
 
 # Runs PROBE in isolation, as the engine runs a submission.
 ISOLATOR = """
-import os, subprocess, sys
+import asyncio, json, os, sys
 from pathlib import Path
-from tutor.engine.isolation import Isolation
-submission, logs, probe = map(Path, sys.argv[1:4])
-environ = dict(os.environ)
-command = Isolation.set_up().wrap(submission, logs, environ)
-ran = subprocess.run([*command, sys.executable, "-S", str(submission / probe), *sys.argv[4:]], env=environ)
-sys.exit(ran.returncode)
+from tutor.engine.forking import node_env
+from tutor.engine.isolation import Isolation, restrict_environment
+from tutor.engine.sandbox import Sandboxes
+from tutor.process import LearnerProcess, run_limits
+from tutor.ros.environment import detect
+submission, tools, way = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
+
+async def main():
+    isolation, ros = Isolation.set_up(), detect()
+    with Sandboxes(isolation, [submission]) as sandboxes:
+        sandboxes.start(ros, tools, [])
+        sandbox = sandboxes.of(submission)
+        env = node_env(ros, 250, Path("/tmp"), None)
+        restrict_environment(env)
+        argv = [str(ros.python), str(submission / "probe.py"), *sys.argv[4:]]
+        fork_server = sandbox.fork_server if way == "forked" else None
+        async with await LearnerProcess.start(
+            argv, env=env, cwd=submission, wrapper=sandbox.command, fork_server=fork_server
+        ) as process:
+            enforcing = asyncio.ensure_future(run_limits.enforce(process))
+            await process.wait(120)
+            enforcing.cancel()
+            print(json.dumps([process.exit.code, [line.text for line in process.output]]))
+asyncio.run(main())
 """
 
 PROBE = """
-import json, mmap, os, socket, sys
+import ctypes, json, mmap, os, socket, sys
 from pathlib import Path
 secret, submission, port, outsider = sys.argv[1:]
 
@@ -57,6 +77,21 @@ def fill(folder):
         for _ in range(100):
             file.write(bytes(1 << 20))
 
+def fill_with_files(folder):
+    for number in range(20_000):
+        Path(folder, str(number)).touch()
+
+def make_namespace():
+    if ctypes.CDLL(None, use_errno=True).unshare(0x10000000):
+        raise OSError(ctypes.get_errno(), "unshare")
+
+def environments():
+    for process in filter(str.isdecimal, os.listdir("/proc")):
+        try:
+            yield Path("/proc", process, "environ").read_text()
+        except PermissionError:
+            pass
+
 import signal
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 print(json.dumps({
@@ -68,10 +103,14 @@ print(json.dumps({
     "root": tried(lambda: Path("/made").write_text("x") and None),
     "outside": tried(connect),
     "kill": tried(lambda: os.kill(int(outsider), 0)),
+    "token": any("hunter2" in text for text in environments()),
+    "user": [name for name in os.environ if name in ("USER", "LOGNAME")],
+    "namespace": tried(make_namespace),
     "processes": [name for name in os.listdir("/proc") if name.isdecimal() and int(name) > 20],
     "large": tried(lambda: fill(submission)),
     "tmp": tried(lambda: fill("/tmp")),
     "shm": tried(lambda: fill("/dev/shm")),
+    "files": tried(lambda: fill_with_files("/tmp")),
     "memory": tried(lambda: bytearray(3 << 30) and None),
 }))
 """
@@ -101,28 +140,34 @@ def check(*arguments: str, **variables: str) -> tuple[int, Any, str]:
     return ran.returncode, json.loads(ran.stdout) if ran.stdout else None, ran.stderr
 
 
-def run_probe(tmp_path: Path, outsider: int, port: int) -> Mapping[str, Any]:
-    """Run PROBE as an isolated submission and return what it could do."""
-    secret, submission, logs = tmp_path / "home" / "secret", tmp_path / "submission", tmp_path / "logs"
-    for folder in (secret.parent, submission, logs):
+def run_probe(tmp_path: Path, probe: str, *arguments: object, way: str = "forked") -> tuple[int | None, list[str]]:
+    """Run a program as an isolated submission; return its exit code and its output."""
+    submission, tools = tmp_path / "submission", tmp_path / "tools"
+    for folder in (submission, tools):
         folder.mkdir()
-    secret.write_text("the grades")
-    (submission / "probe.py").write_text(PROBE)
+    (submission / "probe.py").write_text(probe)
     ran = subprocess.run(
-        [sys.executable, "-c", ISOLATOR, submission, logs, "probe.py", secret, submission, str(port), str(outsider)],
-        capture_output=True, text=True, timeout=60, check=False, env={**os.environ, "PYTHONPATH": os.getcwd()},
+        [sys.executable, "-c", ISOLATOR, submission, tools, way, *map(str, arguments)],
+        capture_output=True, text=True, timeout=120, check=False,
+        env={**os.environ, "PYTHONPATH": os.getcwd(), "TOKEN": "hunter2"},
     )  # fmt: skip
     assert not ran.returncode, ran.stderr
     assert [each.name for each in submission.iterdir()] == ["probe.py"]
-    found: Mapping[str, Any] = json.loads(ran.stdout)
-    return found
+    code, output = json.loads(ran.stdout)
+    return code, output
 
 
 @pytest.mark.usefixtures("isolation")
-def test_a_submission_reaches_only_what_it_needs(tmp_path: Path) -> None:
+@pytest.mark.parametrize("way", ["forked", "wrapped"])
+def test_a_submission_reaches_only_what_it_needs(way: str, tmp_path: Path) -> None:
+    secret = tmp_path / "home" / "secret"
+    secret.parent.mkdir()
+    secret.write_text("the grades")
     with socket.create_server(("127.0.0.1", 0)) as outside:
-        found = run_probe(tmp_path, os.getpid(), outside.getsockname()[1])
-    assert found == {
+        arguments = (secret, tmp_path / "submission", outside.getsockname()[1], os.getpid())
+        code, output = run_probe(tmp_path, PROBE, *arguments, way=way)
+    assert code == 0, output
+    assert json.loads(output[-1]) == {
         "secret": "FileNotFoundError",
         "home": "FileNotFoundError",
         "shadow": "FileNotFoundError",
@@ -131,12 +176,51 @@ def test_a_submission_reaches_only_what_it_needs(tmp_path: Path) -> None:
         "root": "OSError",
         "outside": "ConnectionRefusedError",
         "kill": "ProcessLookupError",
+        "token": False,
+        "user": [],
+        "namespace": "OSError",
         "processes": [],
         "large": "OSError",
         "tmp": "OSError",
         "shm": "OSError",
+        "files": "OSError",
         "memory": "MemoryError",
     }
+
+
+MANY_PROCESSES = """
+import os, time
+started = 0
+try:
+    while started < 3000:
+        os.posix_spawn("/bin/sleep", ["sleep", "100"], {})
+        started += 1
+finally:
+    time.sleep(100)
+"""
+
+
+@pytest.mark.usefixtures("isolation")
+def test_a_run_with_too_many_processes_is_ended_also_that_of_root(tmp_path: Path) -> None:
+    code, output = run_probe(tmp_path, MANY_PROCESSES)
+    assert code is None
+    assert output[-1] == "Killed: it had more than 1000 processes and threads"
+
+
+NO_USER_NAMESPACES = "echo 0 > /proc/sys/user/max_user_namespaces && exec " + " ".join(
+    module_command("tutor.engine", "--try-isolation")
+)
+
+
+def test_where_user_namespaces_are_disabled_it_is_said(tmp_path: Path) -> None:
+    unshare = ["unshare", "--user", "--map-root-user", "sh", "-c"]
+    if subprocess.run([*unshare, "echo 0 > /proc/sys/user/max_user_namespaces"], check=False).returncode:
+        pytest.skip("this machine has no user namespaces that could be disabled")
+    ran = subprocess.run([*unshare, NO_USER_NAMESPACES], capture_output=True, text=True, timeout=60, check=False)
+    assert (ran.returncode, ran.stderr) == (3, "")
+    problem = json.loads(ran.stdout)
+    assert "disabled (user.max_user_namespaces is 0)" in problem["what"]
+    assert "sudo sysctl user.max_user_namespaces" in problem["hint"]
 
 
 @pytest.mark.usefixtures("isolation")
@@ -145,9 +229,13 @@ def test_our_solution_passes_in_isolation_and_the_report_lists_the_walls() -> No
     assert code == 0, (report, stderr)
     assert_report_shape(report)
     stands = {each["name"]: each["stands"] for each in report["walls"]}
-    process_limit = stands.pop("process limit")  # the kernel does not apply this limit to root
-    assert process_limit or os.geteuid() == 0
-    assert stands == dict.fromkeys(("user", "network", "processes", "files", "memory limit", "file limit"), True)
+    assert stands.pop("namespaces") or "disable-userns" not in help_of_bubblewrap()
+    limits = ("disk limit", "memory limit", "process limit")
+    assert stands == dict.fromkeys(("user", "network", "processes", "files", *limits), True)
+
+
+def help_of_bubblewrap() -> str:
+    return subprocess.run(["bwrap", "--help"], capture_output=True, text=True, check=False).stdout
 
 
 @pytest.mark.usefixtures("isolation")
@@ -185,6 +273,35 @@ def test_a_folder_too_large_to_copy_is_not_the_learners_fault(tmp_path: Path) ->
     code, report, _ = check(str(tmp_path), "--isolate", "--criterion", "publishes")
     assert code == 3
     assert "a folder of its own" in report["exercises"][0]["criteria"][0]["step"]
+
+
+HOLDS_ALL_TURNS = (
+    OWN_NETWORK
+    + """
+import json, signal, socket, subprocess, sys
+from tutor.interpreter import module_command
+from tutor.judge.events import WAITING
+held = [socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) for _ in range(2 * len(os.sched_getaffinity(0)))]
+for number, each in enumerate(held):
+    each.bind(chr(0) + f"ros-tutor-check-{number}")
+with subprocess.Popen(module_command("tutor.engine", *sys.argv[1:]), stdout=subprocess.PIPE, text=True) as check:
+    started, progress = (json.loads(check.stdout.readline()) for _ in range(2))
+    check.send_signal(signal.SIGINT)
+print(progress["doing"])
+"""
+)
+
+
+@pytest.mark.usefixtures("isolation")
+@needs_own_network
+@pytest.mark.parametrize("sourced", [{}, {"LD_LIBRARY_PATH": "/opt/ros/humble/lib"}], ids=["no ROS", "another ROS"])
+def test_an_isolated_check_waits_for_its_turn_among_all(sourced: Mapping[str, str], tmp_path: Path) -> None:
+    """Where another ROS is sourced, the check restarts itself without it, when it is isolated already."""
+    (tmp_path / FILE).write_text("print('hello')\n")
+    env = {**os.environ, "PYTHONPATH": os.getcwd(), **sourced}
+    argv = [sys.executable, "-c", HOLDS_ALL_TURNS, "i1.1", str(tmp_path), "--isolate", "--criterion", "publishes"]
+    ran = subprocess.run(argv, capture_output=True, text=True, timeout=60, check=False, env=env)
+    assert ran.stdout.strip() == WAITING, ran.stderr
 
 
 def test_without_bubblewrap_nothing_is_checked(tmp_path: Path) -> None:

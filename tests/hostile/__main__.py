@@ -1,6 +1,6 @@
 """Check every hostile submission, one at a time, and print its result, its cost and what it left behind.
 
-    uv run python -m tests.hostile [EXERCISE[/hostile/NAME] ...]
+    uv run python -m tests.hostile [--isolate] [EXERCISE[/hostile/NAME] ...]
 
 Each exercise's solution is checked first, as the ordinary check with which memory use is compared. Exit code 1 if
 anything is not as expected: the verdict, the exit code, memory, the report's size, or what is left behind.
@@ -200,7 +200,9 @@ def main() -> int:
     """Return exit code 0 if everything is as expected, 1 if not, 2 if no submission matches."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wanted", nargs="*")
-    wanted = parser.parse_args().wanted
+    parser.add_argument("--isolate", action="store_true", help="run all checks with --isolate")
+    arguments = parser.parse_args()
+    wanted, options = arguments.wanted, ["--isolate"] if arguments.isolate else []
     cases = [case for case in find_hostile() if not wanted or str(case).startswith(tuple(wanted))]
     if not cases:
         print(f"no hostile submission is named {' or '.join(wanted) or 'anything'}", file=sys.stderr)
@@ -209,13 +211,13 @@ def main() -> int:
     rows: list[Checked] = []
     ordinary: dict[str, float] = {}
     for exercise in sorted({case.exercise for case in cases}):
-        row, _ = check(f"{exercise} solution", exercise, ["--solution"], None)
+        row, _ = check(f"{exercise} solution", exercise, ["--solution", *options], None)
         compare_with_expected(Case(exercise, "right", Path(), Expected("", passes=True)), row, b'{"exercises":[]}', 1e9)
         ordinary[exercise] = row.peak_mb
         rows.append(row)
     for case in cases:
         print(case, file=sys.stderr)
-        row, report = check(str(case), case.exercise, [], case.folder)
+        row, report = check(str(case), case.exercise, options, case.folder)
         compare_with_expected(case, row, report, ordinary[case.exercise])
         rows.append(row)
     print(table(rows))

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from tutor.doctor import machine, ros2, terminal
+from tutor.doctor import isolation, machine, ros2, terminal
 from tutor.doctor.finding import Finding
 from tutor.ros.environment import detect
 
@@ -32,6 +32,7 @@ def examine(workspace: Path | None, environ: Mapping[str, str] = os.environ) -> 
         ("Loopback network", machine.loopback),
         ("Loopback multicast", machine.loopback_multicast),
         ("Discovery", lambda: ros2.discovery(ros, environ)),
+        ("Isolation", isolation.isolation),
         ("Temporary files", machine.temporary_files),
         ("Terminal", lambda: terminal.capabilities(environ)),
     ]

@@ -12,9 +12,11 @@ import contextlib
 import importlib
 import json
 import math
+import os
 import resource
 import signal
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -25,9 +27,12 @@ from tutor.engine.preparation import Prepared, prepare
 from tutor.errors import ContentError, EngineError, SubmissionError, UnknownExercise
 from tutor.interpreter import reduce_gc_frequency
 from tutor.judge.events import Event, ResourcesUsed, encode
-from tutor.process.prctl import die_with_parent
+from tutor.process.isolation_support import told
+from tutor.process.prctl import adopt_orphans, die_with_parent
 from tutor.stop_signals import Stopped, run_until_stopped
 from tutor.workspace import find_submission
+
+_REAP_LIMIT_S, _REAP_INTERVAL_S = 1.0, 0.002
 
 
 def main() -> int:
@@ -41,8 +46,7 @@ def main() -> int:
     die_with_parent(signal.SIGINT)  # a killed app takes its check with it; SIGINT ends the check cleanly
     try:
         if arguments.try_isolation:
-            Isolation.set_up()
-            return 0
+            return _try_isolation()
         isolation = Isolation.set_up() if arguments.isolate else None  # while this process is still single-threaded
         run_until_stopped(lambda: _stand_by() if arguments.standby else _check(arguments, isolation=isolation))
     except (ContentError, SubmissionError, UnknownExercise) as error:
@@ -53,6 +57,18 @@ def main() -> int:
         return 3
     except Stopped:
         return 130
+    return 0
+
+
+def _try_isolation() -> int:
+    adopt_orphans(True)
+    try:
+        Isolation.set_up()
+    except EngineError as error:
+        print(told(error))
+        return 3
+    finally:
+        _reap_orphans()
     return 0
 
 
@@ -76,7 +92,7 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 async def _stand_by() -> None:
-    async with prepare(forks=True) as prepared:
+    async with prepare() as prepared:
         importlib.import_module("tutor.mistakes")  # a check that is not on standby imports it when something fails
         if line := await _read_line():
             await _check(_parse(json.loads(line)), prepared)
@@ -111,10 +127,21 @@ async def _check(
         limit_s=arguments.limit,
         turn_limit_s=math.inf if arguments.patient else turns.LIMIT_S,
     )
+    if prepared is None:  # else the fork server is still running
+        _reap_orphans()
     if arguments.usage:
         own, ended = resource.getrusage(resource.RUSAGE_SELF), resource.getrusage(resource.RUSAGE_CHILDREN)
         cpu_s = sum(usage.ru_utime + usage.ru_stime for usage in (own, ended))
         _print_event(ResourcesUsed(cpu_s))
+
+
+def _reap_orphans() -> None:
+    """Reap what became our children when its parents ended, such as bubblewrap's; its CPU time counts only then."""
+    until = time.monotonic() + _REAP_LIMIT_S
+    with contextlib.suppress(ChildProcessError):
+        while time.monotonic() < until:
+            if not os.waitpid(-1, os.WNOHANG)[0]:
+                time.sleep(_REAP_INTERVAL_S)
 
 
 def _print_event(event: Event) -> None:

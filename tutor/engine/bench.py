@@ -12,14 +12,16 @@ from typing import Any, TypeVar
 from tutor.bundled_ros.ros2 import overlay, sourced
 from tutor.bundled_ros.ros2.starting import ros2_command
 from tutor.engine.forking import node_env, source_workspace
-from tutor.engine.isolation import Isolation
+from tutor.engine.isolation import restrict_environment
+from tutor.engine.package_folders import package_folder, package_root
 from tutor.engine.run import CollectedFacts, RosRun
+from tutor.engine.sandbox import Sandboxes
 from tutor.engine.start_limiter import StartLimiter
 from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
 from tutor.judge.bench import Run, Scenario
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MAX_CHARACTERS
-from tutor.process import LearnerProcess
+from tutor.process import LearnerProcess, run_limits
 from tutor.process.fork_link import ForkServerLink
 from tutor.process.log_folder import temporary_log_folder
 from tutor.ros.domain import reserve_domain
@@ -50,7 +52,8 @@ class RosBench:
     the scenario reports before it ends. `expected_s`: the check's; of several waiting starts, the one with the longest
     goes first (a start may give its own). `follow`: entered for each run,
     with its watched topics and their types. `sigkilled`: the files whose process was ended by SIGKILL.
-    `fork_server`: where processes are forked. `tools`: the programs of a sourced terminal (see `Prepared`).
+    `sandboxes`: where submissions run in isolation. `fork_server`: where processes are forked without it. `tools`: the
+    programs of a sourced terminal (see `Prepared`).
     """
 
     submission: Submission
@@ -59,7 +62,7 @@ class RosBench:
     on_progress: Callable[[float, str], None]
     start_limiter: StartLimiter = field(default_factory=StartLimiter)
     expected_s: float = 0.0
-    isolation: Isolation | None = None
+    sandboxes: Sandboxes | None = None
     follow: Callable[[RosRun, Mapping[str, str]], AbstractAsyncContextManager[None]] = lambda run, watched: (
         nullcontext()
     )
@@ -80,7 +83,7 @@ class RosBench:
         path = self.submission.files[file].resolve()
         argv = [str(self.ros.python), str(path), *ros_arguments(parameters or {})]
 
-        def make_argv(env: dict[str, str], log_dir: Path) -> list[str]:
+        def make_argv(env: dict[str, str], folder: Path) -> list[str]:
             return argv
 
         expected_s = self.expected_s if expected_s is None else expected_s
@@ -92,9 +95,9 @@ class RosBench:
         path = self.submission.files[file].resolve()
         given = [f"{name}:={value}" for name, value in (arguments or {}).items()]
 
-        def make_argv(env: dict[str, str], log_dir: Path) -> list[str]:
+        def make_argv(env: dict[str, str], folder: Path) -> list[str]:
             if self.ros.kind == "system":  # our own launch does this by itself
-                overlay.make_overlay(log_dir / "overlay", path, env, python=str(self.ros.python))
+                overlay.make_overlay(folder / "overlay", path, env, python=str(self.ros.python))
             return [*ros2_command(self.ros, env), "launch", str(path), *given]
 
         async with self._start(
@@ -133,12 +136,13 @@ class RosBench:
         *,
         terminal: bool,
     ) -> AsyncIterator[RosRun]:
-        """Run a command on a private domain; `make_argv` builds it from its environment and log folder."""
+        """Run a command on a private domain; `make_argv` builds it from its environment and a folder for files."""
         facts = CollectedFacts()
+        sandbox = self.sandboxes.of(package_folder(path)) if self.sandboxes is not None else None
         with (
             _as_engine_errors(),
             reserve_domain() as domain_id,
-            temporary_log_folder() as log_dir,
+            sandbox.folders() if sandbox else _folders() as (log_dir, ours),
         ):
             observer = Observer(domain_id, facts.notify)
             try:
@@ -146,12 +150,13 @@ class RosBench:
                 for topic, type_name in watch.items():
                     observer.watch(topic, type_name)
                 env = node_env(self.ros, domain_id, log_dir, package_root(path))
-                if self.isolation is None:  # else it would see the folders of its workspace
+                if sandbox is None:  # else it would see the folders of its workspace
                     source_workspace(env, self.ros, path, self.tools)
                 elif self.tools is not None:
                     sourced.add_programs(env, self.tools)
-                argv = make_argv(env, log_dir)
-                wrapper = self.isolation.wrap(package_folder(path), log_dir, env, self.tools) if self.isolation else ()
+                argv = make_argv(env, ours)
+                if sandbox is not None:
+                    restrict_environment(env)
                 # A program may have deleted its own folder: its next start then reports that.
                 cwd = path.parent if path.parent.is_dir() else log_dir
                 async with await LearnerProcess.start(
@@ -159,11 +164,11 @@ class RosBench:
                     env=env,
                     cwd=cwd,
                     terminal=terminal,
-                    wrapper=wrapper,
-                    fork_server=self.fork_server,
+                    wrapper=sandbox.command if sandbox else (),
+                    fork_server=sandbox.fork_server if sandbox else self.fork_server,
                     on_change=facts.notify,
                 ) as process:
-                    with _raise_if_killed(process):
+                    with _raise_if_killed(process), _limited(process):
                         yield RosRun(path, parameters, domain_id, process, observer, facts)
                     if process.killed:
                         self.sigkilled.append(path)
@@ -184,6 +189,13 @@ class RosBench:
         self.on_facts(facts)
 
 
+@contextmanager
+def _folders() -> Iterator[tuple[Path, Path]]:
+    """Create the log folder of a run that is not isolated, which is also for files of ours."""
+    with temporary_log_folder() as log_dir:
+        yield log_dir, log_dir
+
+
 @asynccontextmanager
 async def _report_when_up(run: Run, nodes: int, up: Callable[[], None]) -> AsyncIterator[None]:
     """Call `up` once the run has this many nodes or has ended, or after `NODE_UP_LIMIT_S`."""
@@ -199,6 +211,16 @@ async def _report_when_up(run: Run, nodes: int, up: Callable[[], None]) -> Async
     finally:
         watching.cancel()
         await asyncio.gather(watching, return_exceptions=True)
+
+
+@contextmanager
+def _limited(process: LearnerProcess) -> Iterator[None]:
+    """End the process within the block if it takes too much of the machine."""
+    enforcing = asyncio.ensure_future(run_limits.enforce(process))
+    try:
+        yield
+    finally:
+        enforcing.cancel()
 
 
 @contextmanager
@@ -233,16 +255,3 @@ def ros_arguments(parameters: Mapping[str, Any]) -> list[str]:
         text = str(value).lower() if isinstance(value, bool) else str(value)
         arguments += ["-p", f"{name}:={text}"]
     return arguments
-
-
-def package_folder(path: Path) -> Path:
-    """Return the folder of the file's ROS package, else the parent of its Python package, else its own folder."""
-    candidates = [path.parent, *path.parents[1:3]]
-    return next(
-        (folder for folder in candidates if (folder / "package.xml").is_file()), package_root(path) or path.parent
-    )
-
-
-def package_root(path: Path) -> Path | None:
-    """Return the folder from which the file's package can be imported; None if the file is not in a package."""
-    return path.parent.parent if (path.parent / "__init__.py").is_file() else None

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import nullcontext
+from pathlib import Path
 
 from tutor.content import Course
 from tutor.engine import turns
 from tutor.engine.isolation import Isolation
+from tutor.engine.package_folders import package_folder
 from tutor.engine.preparation import Prepared, prepare
+from tutor.engine.sandbox import Sandboxes
 from tutor.engine.start_limiter import StartLimiter
 from tutor.judge.check import Check
 from tutor.judge.events import CheckFinished, Event
@@ -44,7 +47,8 @@ async def run_check(
     from tutor.engine.modules import load_check
 
     shared_limiter = start_limiter or StartLimiter()
-    async with nullcontext(prepared) if prepared else prepare(forks=isolation is None) as ready:
+    sandboxes = Sandboxes(isolation, map(package_folder, _files_of(submissions))) if isolation else None
+    async with nullcontext(prepared) if prepared else prepare(sandboxes=sandboxes) as ready:
         from tutor.engine.runner import Runner  # imports rclpy, whose environment is set by now
 
         unchanged.refuse_changed_modules()
@@ -60,7 +64,7 @@ async def run_check(
                 only,
                 on_event,
                 shared_limiter,
-                isolation,
+                sandboxes,
                 ready.fork_server,
                 tools=ready.tools,
                 first=first,
@@ -93,3 +97,7 @@ async def run_check(
     )
     on_event(CheckFinished(report))
     return report
+
+
+def _files_of(submissions: Sequence[Submission]) -> Iterator[Path]:
+    return (path.resolve() for submission in submissions for path in submission.files.values())

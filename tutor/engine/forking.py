@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
@@ -35,9 +35,17 @@ def source_workspace(env: dict[str, str], ros: RosEnvironment, path: Path, tools
         sourced.add_workspace(env, workspace)
 
 
-def start_fork_server(ros: RosEnvironment, modules: Iterable[str]) -> AbstractContextManager[ForkServerLink | None]:
-    """Start a fork server for nodes; None if it cannot be started, and then nodes start without one."""
+def start_fork_server(
+    ros: RosEnvironment,
+    modules: Iterable[str],
+    env: Mapping[str, str] | None = None,
+    wrapper: Sequence[str] = (),
+) -> AbstractContextManager[ForkServerLink | None]:
+    """Start a fork server for nodes; None if it cannot be started, and then nodes start without one.
+
+    `env`: its environment, by default that of a node; `wrapper`: see `ForkServerLink`.
+    """
     try:
-        return ForkServerLink(ros.python, node_env(ros, 0, Path(os.devnull), None), modules)
+        return ForkServerLink(ros.python, env or node_env(ros, 0, Path(os.devnull), None), modules, wrapper)
     except OSError:
         return nullcontext()

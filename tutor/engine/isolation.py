@@ -1,4 +1,4 @@
-"""Isolates a learner's processes for `ros-tutor check --isolate` with bubblewrap's namespaces and the kernel's limits.
+"""Isolates a submission for `ros-tutor check --isolate` with bubblewrap's namespaces and the kernel's limits.
 
 Our own process stays outside, with the user's files and the report. It shares only a network namespace with the
 isolated processes, so that our observers can discover the nodes.
@@ -6,122 +6,109 @@ isolated processes, so that our observers can discover the nodes.
 
 from __future__ import annotations
 
-import fcntl
 import os
 import shutil
 import socket
-import stat
-import struct
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tutor.engine import turns
 from tutor.errors import EngineError
 from tutor.judge.result import Restriction
+from tutor.process import namespaces
+from tutor.process.isolation_support import Machine, why_not
+from tutor.process.run_limits import MAX_MB, MAX_TASKS
 
-MEMORY_MB, FILE_MB, PROCESSES = 2048, 64, 512
-"""Limits on the writable memory of a process (our solutions' nodes use 165 to 230 MB), the size of a file, and the
-number of processes and threads in one run (ours have 13 to 60)."""
-_MAX_FILES, _MAX_MB = 2000, 64
-"""Limits on the copy of a submission."""
-_INSTALL_HINT = (
-    "install it (sudo apt install bubblewrap), or check without --isolate only code that you would run yourself"
-)
-_ALLOW_HINT = (
-    "if the kernel refuses, allow user namespaces (on Ubuntu 24.04: sudo sysctl "
-    "kernel.apparmor_restrict_unprivileged_userns=0), or check on another machine"
-)
+MEMORY_MB, FILE_MB, TASKS = 2048, 64, 2 * MAX_TASKS
+"""The kernel's limits on the writable memory of a process (our solutions' nodes use 165 to 230 MB), the size of a file,
+and the processes and threads of a submission: of all its runs together, which are fewer than a dozen at a time."""
+DISK_MB, FILES = 256, 10_000
+"""Limits on all that a submission writes, which is in memory."""
+
 _SYSTEM_FOLDERS = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/opt/ros")
 _ETC_FILES = ("ld.so.cache", "alternatives", "passwd", "group", "hosts", "nsswitch.conf", "localtime", "timezone")
-_SIOCSIFFLAGS, _IFF_UP = 0x8914, 0x1
+_NAMESPACES = ("--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try")
+_NO_MORE_NAMESPACES = "--disable-userns"  # since bubblewrap 0.8
+_KILL_FIRST = ("-n", "1000", "--")
+"""Arguments of choom: when the machine runs out of memory, the kernel ends these processes before all others."""
+
+_VARIABLES = frozenset(["COLORTERM", "LANG", "LANGUAGE", "LD_LIBRARY_PATH", "NO_COLOR", "PATH", "TERM", "TZ"])
+_VARIABLE_PREFIXES = (
+    *("AMENT_", "COLCON_", "CYCLONEDDS_", "FASTDDS_", "FASTRTPS_", "LC_", "OMP_", "OPENBLAS_", "PYTHON", "RCL_"),
+    *("RCUTILS_", "RMW_", "ROS_", "_ROS_WHEELS_"),
+)
+"""The environment variables that a submission gets. Others may be a teacher's secrets."""
 
 
 @dataclass(frozen=True, slots=True)
 class Isolation:
-    """A working way to isolate processes on this machine; made by `Isolation.set_up`. `turn_socket`: see `turns`."""
+    """A working way to isolate processes on this machine; made by `Isolation.set_up`. `turn_socket`: see `turns`.
+
+    `prefix` comes before a command in isolation; `no_namespaces`: a submission can make no namespaces of its own.
+    """
 
     bwrap: str
-    prlimit: str
+    prefix: tuple[str, ...]
     turn_socket: socket.socket
-    limits_processes: bool = True
+    no_namespaces: bool = True
 
     @classmethod
     def set_up(cls) -> Isolation:
-        """Move this process into a private network namespace, and try to isolate a child process.
+        """Move this process into namespaces of its own, and try to isolate a child process.
 
         This process must be single-threaded. Raises EngineError if isolation fails; then nothing may be checked.
         """
-        bwrap, prlimit = shutil.which("bwrap"), shutil.which("prlimit")
-        if bwrap is None or prlimit is None:
+        bwrap, prlimit, choom = (shutil.which(name) for name in ("bwrap", "prlimit", "choom"))
+        machine = Machine.read()
+        if bwrap is None:
+            raise why_not("", machine, bwrap)
+        if prlimit is None:
             raise EngineError(
-                f"--isolate needs {'prlimit' if bwrap else 'bubblewrap'}, which is not installed", _INSTALL_HINT
+                "isolation needs prlimit, which is not installed", "install it: sudo apt install util-linux"
             )
-        isolation = cls(bwrap, prlimit, turns.turn_socket())  # made in the network namespace that all checks share
+        limits = (f"--data={MEMORY_MB << 20}", f"--fsize={FILE_MB << 20}", f"--nproc={TASKS}", "--core=0", "--")
+        prefix = (*((choom, *_KILL_FIRST) if choom else ()), prlimit, *limits)
+        isolation = cls(bwrap, prefix, turns.kept_turn_socket())  # made in the network namespace that all checks share
         try:
-            _enter_private_network()
+            namespaces.enter(bwrap)
         except OSError as error:
-            raise EngineError(
-                f"--isolate: this machine allows no private network namespace ({error.strerror})", _ALLOW_HINT
-            ) from error
-        trial = subprocess.run([*isolation._bwrap_command([], {}), "true"], capture_output=True, text=True, check=False)
-        if trial.returncode:
-            reason = (trial.stderr.strip().splitlines() or [f"exit code {trial.returncode}"])[-1]
-            raise EngineError(f"--isolate: bubblewrap cannot isolate anything here ({reason})", _ALLOW_HINT)
-        forked = subprocess.run(
-            [*isolation._bwrap_command([], {}, processes=1), "sh", "-c", "(true); true"],
-            capture_output=True,
-            check=False,
-        )
-        return replace(isolation, limits_processes=forked.returncode != 0)
-
-    def wrap(self, submission: Path, logs: Path, env: dict[str, str], tools: Path | None = None) -> list[str]:
-        """Return the command prefix that isolates a command; adapts `env`, with which that must be run.
-
-        The command may read `tools`, write to `logs`, and to a copy of the submission that is mounted in its place.
-        Raises EngineError if the submission cannot be copied.
-        """
-        env |= {"HOME": "/tmp", "TMPDIR": "/tmp"}
-        copy = logs / "submission"
-        _copy_submission(submission, copy)
-        readable = [*_readable_folders(env), *([tools] if tools is not None else [])]
-        return self._bwrap_command(readable, {submission: copy, logs: logs})
+            raise why_not(error.strerror or str(error), machine, bwrap) from error
+        if isolation._fault() is None:
+            return isolation
+        isolation = replace(isolation, no_namespaces=False)
+        if fault := isolation._fault():
+            raise why_not(fault, machine, bwrap)
+        return isolation
 
     @property
     def restrictions(self) -> tuple[Restriction, ...]:
         """What is restricted, for the report, and why something is not."""
-        count = f"{PROCESSES} per run, threads included"
-        root = "the kernel sets no such limit for root: check as another user"
+        alone = "makes no namespaces of its own"
+        old = "this bubblewrap cannot keep a submission from making namespaces of its own: 0.8 or later can"
         return (
-            Restriction("user", True, "a private namespace, without the user's privileges"),
+            Restriction("user", True, "a private namespace, without the user's privileges and environment variables"),
+            Restriction("namespaces", self.no_namespaces, alone if self.no_namespaces else old),
             Restriction("network", True, "only the loopback interface of the check's private network"),
             Restriction("processes", True, "only its own can be seen or killed"),
             Restriction(
                 "files", True, "the system and ROS read-only, no home; a copy of the submission and /tmp writable"
             ),
-            Restriction("memory limit", True, f"{MEMORY_MB} MB per process"),
-            Restriction("file limit", True, f"{FILE_MB} MB per file"),
-            Restriction("process limit", self.limits_processes, count if self.limits_processes else root),
+            Restriction("disk limit", True, f"{DISK_MB} MB and {FILES} files, in memory; {FILE_MB} MB per file"),
+            Restriction("memory limit", True, f"{MEMORY_MB} MB per process, {MAX_MB} MB per run"),
+            Restriction("process limit", True, f"{MAX_TASKS} per run, threads included"),
         )
 
-    def _bwrap_command(
-        self, readable: list[Path], writable: Mapping[Path, Path], processes: int = PROCESSES
-    ) -> list[str]:
-        tmpfs = ("--size", str(FILE_MB << 20), "--tmpfs")
-        command = [self.bwrap, "--die-with-parent", "--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
-        command += [
-            "--unshare-cgroup-try",
-            "--proc",
-            "/proc",
-            "--dev",
-            "/dev",
-            *tmpfs,
-            "/dev/shm",
-            *tmpfs,
-            "/tmp",
-        ]
+    def command(self, readable: Sequence[Path], writable: Mapping[Path, Path]) -> list[str]:
+        """Return the command prefix that isolates a command.
+
+        `readable`: folders besides the system's. `writable`: mount points, and the folders outside that are there.
+        """
+        command = [self.bwrap, "--die-with-parent", *_NAMESPACES, "--proc", "/proc", "--dev", "/dev"]
+        if self.no_namespaces:
+            command.append(_NO_MORE_NAMESPACES)
         for folder in _SYSTEM_FOLDERS:
             if os.path.islink(folder):  # such as /bin to usr/bin
                 command += ["--symlink", os.readlink(folder), folder]
@@ -129,31 +116,30 @@ class Isolation:
                 command += ["--ro-bind", folder, folder]
         for name in _ETC_FILES:
             command += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
-        for each in readable:
-            command += ["--ro-bind", str(each), str(each)]
-        for mount_point, folder_outside in writable.items():
-            command += ["--bind", str(folder_outside), str(mount_point)]
-        command += ["--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--"]
-        limits = (f"--data={MEMORY_MB << 20}", f"--fsize={FILE_MB << 20}", f"--nproc={processes}", "--core=0")
-        return [*command, self.prlimit, *limits, "--"]
+        mounts = [("--ro-bind", folder, folder) for folder in readable]
+        mounts += [("--bind", outside, inside) for inside, outside in writable.items()]
+        for option, outside, inside in sorted(mounts, key=lambda mount: len(mount[2].parts)):
+            command += [option, str(outside), str(inside)]
+        return [*command, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/", "--", *self.prefix]
+
+    def _fault(self) -> str | None:
+        """Try to isolate a command; return what was said if that fails."""
+        argv = [*self.command([], {}), "true"]
+        trial = subprocess.run(argv, capture_output=True, text=True, env={**os.environ, "LC_ALL": "C"}, check=False)
+        if trial.returncode == 0:
+            return None
+        return (trial.stderr.strip().splitlines() or [f"exit code {trial.returncode}"])[-1]
 
 
-def _enter_private_network() -> None:
-    """Move this process into a network namespace that has only a loopback interface. Raises OSError."""
-    uid, gid = os.geteuid(), os.getegid()
-    try:
-        os.unshare(os.CLONE_NEWNET)
-    except PermissionError:
-        if uid == 0:  # in a private user namespace, root would lose access to other users' files
-            raise
-        os.unshare(os.CLONE_NEWUSER | os.CLONE_NEWNET)
-        for name, text in (("setgroups", "deny"), ("uid_map", f"{uid} {uid} 1"), ("gid_map", f"{gid} {gid} 1")):
-            Path("/proc/self", name).write_text(text)
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:
-        fcntl.ioctl(any_socket, _SIOCSIFFLAGS, struct.pack("16sh14x", b"lo", _IFF_UP))
+def restrict_environment(env: dict[str, str]) -> None:
+    """Leave only what a node needs in its environment, and no path of the user's home."""
+    for name in set(env) - _VARIABLES:
+        if not name.startswith(_VARIABLE_PREFIXES):
+            del env[name]
+    env |= {"HOME": "/tmp", "TMPDIR": "/tmp"}
 
 
-def _readable_folders(env: Mapping[str, str]) -> Iterator[Path]:
+def readable_folders(env: Mapping[str, str]) -> Iterator[Path]:
     """Yield the folders of Python, our own code and ROS, as far as they are outside the system folders."""
     python = Path(sys.executable)
     hops = [python]
@@ -174,25 +160,3 @@ def _readable_folders(env: Mapping[str, str]) -> Iterator[Path]:
             and not any(home.is_relative_to(folder) for home in homes)
         ):
             yield folder
-
-
-def _copy_submission(submission: Path, copy: Path) -> None:
-    """Copy files, folders and symbolic links as such; leave out anything else, such as sockets and FIFOs."""
-    count = size = 0
-
-    def find_special(folder: str, names: list[str]) -> list[str]:
-        nonlocal count, size
-        stats = {name: os.lstat(os.path.join(folder, name)) for name in names}
-        count, size = count + len(names), size + sum(each.st_size for each in stats.values())
-        if count > _MAX_FILES or size > _MAX_MB << 20:
-            raise EngineError(
-                f"--isolate: {submission} is too large to copy: more than {_MAX_FILES} files or {_MAX_MB} MB",
-                "put the submission into a folder of its own",
-            )
-        copied = (stat.S_IFREG, stat.S_IFDIR, stat.S_IFLNK)
-        return [name for name, each in stats.items() if stat.S_IFMT(each.st_mode) not in copied]
-
-    try:
-        shutil.copytree(submission, copy, symlinks=True, ignore=find_special)
-    except (OSError, shutil.Error) as error:
-        raise EngineError(f"--isolate: {submission} cannot be copied: {error}", "make its files readable") from error

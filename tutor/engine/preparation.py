@@ -9,11 +9,14 @@ import resource
 from collections.abc import AsyncIterator
 from contextlib import ExitStack, asynccontextmanager, suppress
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from tutor.errors import EngineError
 from tutor.process.fork_link import ForkServerLink
 from tutor.ros.environment import RosEnvironment
+
+if TYPE_CHECKING:
+    from tutor.engine.sandbox import Sandboxes
 
 MIN_DESCRIPTORS, WANTED_DESCRIPTORS = 512, 4096
 """Limits on open files: a check of all exercises needs about 350, and Fast DDS does not report that it lacks some."""
@@ -47,7 +50,7 @@ Not rclpy itself, whose C library starts threads (of LTTng), which a forked proc
 
 
 class Prepared(NamedTuple):
-    """The ROS that checks use, and where nodes are forked; None: they are started without a fork server.
+    """The ROS that checks use, and where nodes are forked; None: in their sandboxes, or started without a fork server.
 
     `tools`: a folder with the programs of a sourced terminal, such as `ros2`, for the nodes.
     """
@@ -58,8 +61,8 @@ class Prepared(NamedTuple):
 
 
 @asynccontextmanager
-async def prepare(*, forks: bool) -> AsyncIterator[Prepared]:
-    """Import what a check needs, which takes most of a second, and with `forks`, start a fork server.
+async def prepare(*, sandboxes: Sandboxes | None = None) -> AsyncIterator[Prepared]:
+    """Import what a check needs, which takes most of a second, and start a fork server, or those of the sandboxes.
 
     Restores the environment variables of this process at the end. Raises EngineError if checks cannot run here.
     """
@@ -84,7 +87,11 @@ async def prepare(*, forks: bool) -> AsyncIterator[Prepared]:
             await asyncio.to_thread(bytecode.compile_ros_modules, ros)
             tools = stack.enter_context(private_folders.temporary("tools"))
             sourced.write_programs(tools, ros, os.environ)
-            fork_server = stack.enter_context(start_fork_server(ros, NODE_MODULES)) if forks else None
+            fork_server = None
+            if sandboxes is not None:
+                stack.enter_context(sandboxes).start(ros, tools, NODE_MODULES)
+            else:
+                fork_server = stack.enter_context(start_fork_server(ros, NODE_MODULES))
             importlib.import_module("tutor.engine.runner")  # with rclpy, whose environment must be set by now
         except (ImportError, OSError, RuntimeError) as error:
             raise EngineError(f"ROS 2 cannot be used here: {error}") from error

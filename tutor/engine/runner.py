@@ -14,9 +14,9 @@ from tutor.content import Lesson
 from tutor.engine.bench import RosBench
 from tutor.engine.explanation import explain
 from tutor.engine.first_failure import judge_until_failure, skipped_after, skipped_verdict
-from tutor.engine.isolation import Isolation
 from tutor.engine.not_shown import items_not_shown, read_all_sources
 from tutor.engine.provisional import Provisional
+from tutor.engine.sandbox import Sandboxes
 from tutor.engine.so_far import SoFar
 from tutor.engine.start_limiter import StartLimiter
 from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
@@ -58,7 +58,7 @@ class Runner:
         only: frozenset[str] | None,
         on_event: OnEvent,
         start_limiter: StartLimiter | None = None,
-        isolation: Isolation | None = None,
+        sandboxes: Sandboxes | None = None,
         fork_server: ForkServerLink | None = None,
         *,
         tools: Path | None = None,
@@ -73,7 +73,7 @@ class Runner:
         self._shown = tuple(c for c in check.criteria if only is None or c.id in only)
         self._on_event = on_event
         self._start_limiter = start_limiter or StartLimiter()
-        self._isolation = isolation
+        self._sandboxes = sandboxes
         self._fork_server = fork_server
         self._tools = tools
         self._first = first
@@ -195,7 +195,7 @@ class Runner:
             provisional.report,
             self._start_limiter,
             self._check.expected_s,
-            self._isolation,
+            self._sandboxes,
             provisional.follow,
             lambda facts: self._take_facts(scenario, facts),
             fork_server=self._fork_server,

@@ -6,6 +6,7 @@ A dozen checks at once on two cores would starve each other so badly that none c
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import socket
 import time
@@ -17,10 +18,24 @@ LIMIT_S = 300.0
 
 _POLL_S = 0.1
 
+_KEPT = "_ROS_TUTOR_TURN_SOCKET"
+
 
 def turn_socket() -> socket.socket:
     """Create the socket with which to take a turn, among the checks in this process's current network namespace."""
     return socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+
+
+def kept_turn_socket() -> socket.socket:
+    """Create such a socket, or return that which this process had made before it restarted itself elsewhere."""
+    number = os.environ.pop(_KEPT, "")
+    if number.isdecimal():
+        with contextlib.suppress(OSError):
+            return socket.socket(fileno=int(number))
+    made = turn_socket()
+    made.set_inheritable(True)
+    os.environ[_KEPT] = str(made.fileno())
+    return made
 
 
 @asynccontextmanager

@@ -9,7 +9,7 @@ import select
 import signal
 import socket
 import subprocess
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 PROGRAM = Path(__file__).with_name("fork_server.py")
@@ -48,16 +48,20 @@ class ForkedSupervisor:
 class ForkServerLink:
     """A process that has imported modules; see `tutor.process.fork_server`. A context manager that ends it."""
 
-    def __init__(self, python: Path, env: Mapping[str, str], modules: Iterable[str]) -> None:
+    def __init__(
+        self, python: Path, env: Mapping[str, str], modules: Iterable[str], wrapper: Sequence[str] = ()
+    ) -> None:
         """Start it with the interpreter and the environment of the programs, without waiting for its imports.
 
-        Raises OSError if it cannot be started.
+        `wrapper`: a command prefix that runs it in a PID namespace of its own, and with it all that it forks. Raises
+        OSError if it cannot be started.
         """
+        self._wrapped = bool(wrapper)
         self._control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs:
             try:
                 self._process = subprocess.Popen(
-                    [str(python), str(PROGRAM), str(theirs.fileno()), ",".join(modules), _PADDING],
+                    [*wrapper, str(python), str(PROGRAM), str(theirs.fileno()), ",".join(modules), _PADDING],
                     # Python's streams depend on what they are when it starts: use the same kinds as the programs.
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.PIPE,
@@ -95,16 +99,27 @@ class ForkServerLink:
             answer, pidfds, _, _ = socket.recv_fds(ours, 16, 1)
             if not answer:
                 raise ConnectionResetError("the fork server has ended")
+            supervisor = ForkedSupervisor(_pid_of(pidfds[0]), pidfds[0])
         except OSError:  # a TimeoutError is one, too
-            self._process.kill()
-            self.close()
+            self._give_up()
             ours.close()
             return None
         except BaseException:
             ours.close()
             raise
         ours.setblocking(False)
-        return ForkedSupervisor(int(answer), pidfds[0]), ours
+        return supervisor, ours
+
+    def _give_up(self) -> None:
+        if self._wrapped:  # what it has forked would die with it
+            self._control.close()
+        else:
+            self._process.kill()
+            self.close()
+
+    def kill(self) -> None:
+        """Kill the server, and with it all that it has forked if it has a PID namespace of its own."""
+        self._process.kill()
 
     def close(self) -> None:
         """End the server. What it has forked goes on, but without a parent. Idempotent."""
@@ -114,6 +129,18 @@ class ForkServerLink:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.communicate()
+
+
+def _pid_of(pidfd: int) -> int:
+    """Return the pid that a process has here: in a PID namespace of its own, it knows another one.
+
+    Raises ProcessLookupError if it has ended.
+    """
+    with open(f"/proc/self/fdinfo/{pidfd}") as info:
+        pid = next((int(line.split()[1]) for line in info if line.startswith("Pid:")), 0)
+    if pid < 1:
+        raise ProcessLookupError("it has ended")
+    return pid
 
 
 def _resolve(future: asyncio.Future[None]) -> None:

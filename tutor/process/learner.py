@@ -168,6 +168,15 @@ class LearnerProcess:
         known = [Survivor(p.pid, orphans.command_line(p.pid)) for p in self._link.living_processes()]
         return [survivor for survivor in known if survivor.command]  # one without a command has ended meanwhile
 
+    def pids(self) -> list[int]:
+        """Return the pids of all processes of this run, from a recent process table; none once they are gone."""
+        return self._link.recent_pids()
+
+    def kill(self, why: str) -> None:
+        """Kill all of the learner's processes, and say why in what the program printed."""
+        self._feed("stderr", f"Killed: {why}\n".encode())
+        self._link.end()
+
     async def end(self) -> None:
         """Kill all of the learner's processes and wait until none is left. Idempotent.
 

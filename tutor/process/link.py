@@ -56,6 +56,7 @@ class SupervisorLink(asyncio.Protocol):
         self._finished = False
         self._ours: set[int] = set()  # the supervisor, and any wrapper processes around it
         self._wrapped = False
+        self._fork_server: ForkServerLink | None = None
         self._takeover_timer: asyncio.TimerHandle | None = None
 
     async def start(
@@ -69,13 +70,15 @@ class SupervisorLink(asyncio.Protocol):
 
         `wrapper`: a command prefix that runs the supervisor in its own PID namespace, as a child of the namespace's
         init process. The kernel kills the whole namespace when that one exits, and that one dies with us.
-        `fork_server`: where to fork it, if there is no wrapper.
+        `fork_server`: where to fork it. One that has a wrapper, and so a PID namespace, of its own is preferred to
+        `wrapper`, too.
 
         Raises OSError if the supervisor cannot be started.
         """
         prctl.guard()
         prctl.adopt_orphans(True)
-        forked = await fork_server.fork(streams) if fork_server is not None and not wrapper else None
+        forked = await fork_server.fork(streams) if fork_server is not None else None
+        self._fork_server = fork_server if forked else None
         self._supervisor, ours = forked or _start_supervisor(streams, wrapper)
         orphans.supervisors.add(self._supervisor.pid)
         self._ours.add(self._supervisor.pid)
@@ -100,12 +103,19 @@ class SupervisorLink(asyncio.Protocol):
         found = [p for p in descendants(self._supervisor.pid) if p.alive] or orphans.find_orphans(self._marks())
         return [p for p in found if p.pid not in self._ours]
 
+    def recent_pids(self) -> list[int]:
+        """Return the pids of the processes under the supervisor, from a recent process table; none once it is gone."""
+        return [process.pid for process in self._recent_processes()]
+
     def next_wake(self, by: float = 0.0) -> NextWake:
         """Return when a thread of the processes under the supervisor next wakes up by itself; see `next_wake`."""
-        if self._supervisor is None or self.gone.done():
-            return NextWake()
-        found = descendants_in(recent_processes(self._supervisor.pid), self._supervisor.pid)
+        found = self._recent_processes()
         return next_wake((p.pid for p in found if p.alive and p.pid not in self._ours), by)
+
+    def _recent_processes(self) -> list[Process]:
+        if self._supervisor is None or self.gone.done():
+            return []
+        return descendants_in(recent_processes(self._supervisor.pid), self._supervisor.pid)
 
     def end(self) -> None:
         """Start ending everything; `gone` resolves when that is done. Idempotent."""
@@ -136,6 +146,8 @@ class SupervisorLink(asyncio.Protocol):
         if self._finished:
             self._finish("")
         else:
+            if self._wrapped and self._fork_server is not None:
+                self._fork_server.kill()  # with its whole PID namespace
             self._end_orphans(self._marks(), self._loop.time() + _ORPHANS_LIMIT_S, clean_scans=0)
 
     def _handle_report(self, word: str, rest: str) -> None:
@@ -238,10 +250,16 @@ def _start_supervisor(
                 pass_fds=(theirs.fileno(),),
                 cwd="/",
                 # Otherwise the ROS wheels would make the interpreter start twice.
-                env={**os.environ, "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},
+                env={**_environment(wrapped=bool(wrapper)), "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},
                 start_new_session=True,
             )
         except OSError:
             ours.close()
             raise
     return supervisor, ours
+
+
+def _environment(*, wrapped: bool) -> dict[str, str]:
+    """Return our environment variables; of a wrapper, which its processes can read, only those that it needs."""
+    names = ("LANG", "LD_LIBRARY_PATH", "PATH") if wrapped else os.environ
+    return {name: os.environ[name] for name in names if name in os.environ}

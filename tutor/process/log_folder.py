@@ -8,6 +8,7 @@ import heapq
 import itertools
 import os
 import stat
+import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -32,14 +33,16 @@ _FILE_FLAGS = os.O_WRONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_C
 
 
 @contextmanager
-def temporary_log_folder() -> Iterator[Path]:
+def temporary_log_folder(parent: Path | None = None) -> Iterator[Path]:
     """Create a log folder, keep it small, and remove it on exit, whatever the processes have done to it.
 
-    Those processes must have ended by then. Needs a running event loop.
+    `parent`: where; by default, among our private folders. Those processes must have ended on exit. Needs a running
+    event loop.
     """
     loop = asyncio.get_running_loop()
-    path, folder = private_folders.create("check")  # the descriptor stays valid even if the path is replaced
+    path, folder = private_folders.create("check") if parent is None else _create_in(parent)
 
+    # The descriptor stays valid even if the path is replaced.
     next_check = loop.call_later(CHECK_INTERVAL_S, lambda: check())
 
     def check() -> None:
@@ -78,6 +81,11 @@ def keep_small(folder: int, max_bytes: int = MAX_BYTES) -> None:
         if _disk_bytes(os.fstat(file).st_blocks for file in files) > max_bytes:
             for file in files:
                 os.ftruncate(file, 0)  # loggers open it for appending, so they continue at the new end
+
+
+def _create_in(parent: Path) -> tuple[Path, int]:
+    path = Path(tempfile.mkdtemp(dir=parent))
+    return path, os.open(path, _FOLDER_FLAGS)
 
 
 def _disk_bytes(blocks: Iterable[int]) -> int:
