@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
@@ -14,60 +15,81 @@ _COUNT_ATTRIBUTES = (("failures", "failure"), ("errors", "error"), ("skipped", "
 
 
 def render(report: Report) -> str:
-    """Render one test suite per exercise and one test case per criterion.
+    """Render one test suite per exercise and one test case per criterion (see `add_cases`)."""
+    root = new_document(report.duration_s)
+    for exercise in report.exercises:
+        facts = {
+            **asdict(report.environment),
+            "verdict": exercise.verdict.value,
+            "submission": ", ".join(exercise.submission),
+        }
+        suite = add_suite(root, f"{exercise.id} {exercise.title}", exercise.duration_s, facts)
+        add_cases(suite, exercise, f"ros-tutor.{exercise.id}")
+        add_remarks(suite, [exercise])
+    if not report.exercises:
+        add_unjudged(add_suite(root, "check", report.duration_s, {}), "ros-tutor", report)
+    return to_xml(root)
+
+
+def new_document(duration_s: float) -> Element:
+    """Return a document without suites."""
+    return Element("testsuites", name="ros-tutor", time=_format_time(duration_s))
+
+
+def add_suite(root: Element, name: str, duration_s: float, properties: Mapping[str, str]) -> Element:
+    """Add a suite without cases."""
+    suite = SubElement(root, "testsuite", name=one_line(name), time=_format_time(duration_s))
+    element = SubElement(suite, "properties")
+    for key, value in properties.items():
+        SubElement(element, "property", name=key, value=one_line(value))
+    return suite
+
+
+def add_cases(suite: Element, exercise: ExerciseResult, classname: str, *, steps: bool = True) -> None:
+    """Add a case per criterion; without `steps`, a failure says nothing of what to do about it.
 
     A bonus criterion that did not pass is reported as "skipped", since a failure would turn a passed check red. A
     required criterion of an exercise that was not handed in is a failure, since nothing else would turn the check red.
     """
-    root = Element("testsuites", name="ros-tutor", time=_format_time(report.duration_s))
-    for exercise in report.exercises:
-        _add_suite(root, exercise, report)
-    if not report.exercises:
-        _add_message(root, report)
+    for criterion in exercise.criteria:
+        _add_case(suite, exercise, criterion, classname, steps)
+
+
+def add_remarks(suite: Element, exercises: Sequence[ExerciseResult]) -> None:
+    """Add what works, but will bite. The schema wants it after all cases."""
+    lines = []
+    for exercise in exercises:
+        if exercise.remarks:
+            lines.append(REMARKS_HEADING if len(exercises) == 1 else f"{exercise.id}: {REMARKS_HEADING}")
+            lines += [one_line(line, _MAX_LENGTH) for line in remark_lines(exercise)]
+    if lines:
+        SubElement(suite, "system-out").text = "\n".join(lines)
+
+
+def add_unjudged(suite: Element, classname: str, report: Report) -> None:
+    """Add one test that could not be judged: without any, readers of these files see nothing wrong."""
+    time = _format_time(report.duration_s)
+    case = SubElement(suite, "testcase", classname=one_line(classname), name="check", time=time)
+    SubElement(case, "error", type="could not be judged", message=one_line(report.message))
+
+
+def to_xml(root: Element) -> str:
+    """Count the cases of each suite, and return the document."""
+    for suite in root:
+        suite.set("tests", str(len(suite.findall("testcase"))))
+        for attribute, tag in _COUNT_ATTRIBUTES:
+            suite.set(attribute, str(len(suite.findall(f"testcase/{tag}"))))
     for name in ("tests", "failures", "errors"):
         root.set(name, str(sum(int(suite.get(name, "0")) for suite in root)))
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
 
 
-def _add_suite(root: Element, exercise: ExerciseResult, report: Report) -> None:
-    name = one_line(f"{exercise.id} {exercise.title}")
-    suite = SubElement(root, "testsuite", name=name, time=_format_time(exercise.duration_s))
-    properties = SubElement(suite, "properties")
-    facts = {
-        **asdict(report.environment),
-        "verdict": exercise.verdict.value,
-        "submission": ", ".join(exercise.submission),
-    }
-    for name, value in facts.items():
-        SubElement(properties, "property", name=name, value=one_line(value))
-    for criterion in exercise.criteria:
-        _add_case(suite, exercise, criterion)
-    if exercise.remarks:
-        lines = [REMARKS_HEADING, *(one_line(line, _MAX_LENGTH) for line in remark_lines(exercise))]
-        SubElement(suite, "system-out").text = "\n".join(lines)
-    suite.set("tests", str(len(exercise.criteria)))
-    for attribute, tag in _COUNT_ATTRIBUTES:
-        suite.set(attribute, str(len(suite.findall(f"testcase/{tag}"))))
-
-
-def _add_message(root: Element, report: Report) -> None:
-    """Add one test that could not be judged: without any, readers of these files see nothing wrong."""
-    time = _format_time(report.duration_s)
-    suite = SubElement(root, "testsuite", name="check", time=time, tests="1", failures="0", errors="1", skipped="0")
-    SubElement(suite, "properties")
-    case = SubElement(suite, "testcase", classname="ros-tutor", name="check", time=time)
-    SubElement(case, "error", type="could not be judged", message=one_line(report.message))
-
-
-def _add_case(suite: Element, exercise: ExerciseResult, criterion: CriterionResult) -> None:
-    case = SubElement(
-        suite,
-        "testcase",
-        classname=one_line(f"ros-tutor.{exercise.id}"),
-        name=one_line(criterion.id),
-        time=_format_time(criterion.duration_s),
-    )
+def _add_case(
+    suite: Element, exercise: ExerciseResult, criterion: CriterionResult, classname: str, steps: bool
+) -> None:
+    time = _format_time(criterion.duration_s)
+    case = SubElement(suite, "testcase", classname=one_line(classname), name=one_line(criterion.id), time=time)
     verdict = criterion.verdict
     if verdict.passed:
         return
@@ -81,7 +103,7 @@ def _add_case(suite: Element, exercise: ExerciseResult, criterion: CriterionResu
     else:
         outcome = SubElement(case, "failure", type=verdict.mistake or "failed", message=message)
     lines = [one_line(criterion.text)]
-    for label, text in details(verdict):
+    for label, text in details(verdict, steps=steps):
         lines.append(f"{label}: {one_line(text, _MAX_LENGTH)}")
     lines += [f"  {line}" for line in evidence_lines(verdict)]
     if exercise.missing:

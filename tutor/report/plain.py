@@ -36,14 +36,20 @@ def evidence_lines(verdict: Verdict, max_length: int = 500) -> list[str]:
     return [line if len(line) <= max_length else f"{line[: max_length - 3]}..." for line in lines]
 
 
-def details(verdict: Verdict) -> list[tuple[str, str]]:
-    """Return the non-empty texts of a verdict as (label, text) pairs, without the evidence."""
+def details(verdict: Verdict, *, steps: bool = True) -> list[tuple[str, str]]:
+    """Return the non-empty texts of a verdict as (label, text) pairs, without the evidence.
+
+    Without `steps`, what to do about a failure is left out.
+    """
+    advice = (
+        ("next step", verdict.step),
+        ("more", command("explain", verdict.mistake) if verdict.mistake and not verdict.same_as else ""),
+    )
     pairs = (
         ("expected", verdict.expected),
         ("observed", verdict.observed),
         ("why", verdict.cause),
-        ("next step", verdict.step),
-        ("more", command("explain", verdict.mistake) if verdict.mistake and not verdict.same_as else ""),
+        *(advice if steps else ()),
     )
     return [(label, printable(text).strip()) for label, text in pairs if text.strip()]
 
