@@ -1,12 +1,13 @@
-"""`ros-tutor grade`: check a whole class, and give points."""
+"""`ros-tutor grade`: check a whole class, give points, and write what the systems around a class take."""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from tutor.cli import context, terminal
 from tutor.cli.errors import FAULT, INTERRUPTED, PASSED
@@ -16,12 +17,13 @@ from tutor.judge.wording import counted
 
 if TYPE_CHECKING:
     from tutor.content import Course
-    from tutor.grade.grading import Plan
+    from tutor.grade.grading import Executor, Options, Plan
     from tutor.grade.points import Points
     from tutor.grade.results import Result, ResultFolder
     from tutor.grade.submissions import Work
 
-_FORMATS = ("text", "csv")
+_FORMATS = ("text", "csv", "json", "junit", "html", "canvas", "moodle", "gradescope", "classroom50", "check50")
+_STEPS = ("none", "words")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,13 +44,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--roster", metavar="FILE", type=Path, help="a CSV of folder, name, id and email")
     parser.add_argument("--points", metavar="FILE", type=Path, help="what criteria are worth (points.toml)")
     parser.add_argument("--output", metavar="RESULTS", type=Path, help="the folder of results (SUBMISSIONS-results)")
-    parser.add_argument("--format", choices=_FORMATS, default="text", help="text (default) or csv")
+    parser.add_argument("--format", choices=_FORMATS, default="text", help=f"{', '.join(_FORMATS)}")
+    parser.add_argument("--gradebook", metavar="FILE", type=Path, help="for canvas, moodle: the CSV it exported")
+    parser.add_argument("--steps", choices=_STEPS, default="words", help="tell learners no next step (none), or words")
     parser.add_argument("--jobs", metavar="N", type=int, help="checks at once (else as many as this machine can judge)")
     parser.add_argument("--limit", metavar="SECONDS", type=float, help="what is not judged by then is an error (300)")
     parser.add_argument("--again", action="store_true", help="check everything again")
     parser.add_argument("--no-isolation", action="store_true", help="run code that you have not read as yourself")
     parser.add_argument("--shard", metavar="K/N", help="only the Kth of N parts, for one of N machines")
     parser.add_argument("--collect", metavar="DIR", nargs="+", type=Path, help="merge results; check nothing")
+    parser.add_argument("--executor", choices=("local", "dask"), default="local", help="where checks run")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="Dask's scheduler, such as tcp://10.0.0.1:8786")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -67,7 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
     if results is None:
         terminal.say(f"interrupted; what was judged is in {folder.root}, and the same command goes on from there")
         return INTERRUPTED
-    return _report(results, arguments, course, points)
+    return _report(results, arguments, course, points, folder)
 
 
 def _check_options(arguments: argparse.Namespace) -> None:
@@ -79,6 +85,10 @@ def _check_options(arguments: argparse.Namespace) -> None:
         raise UsageError(f"--jobs {arguments.jobs}: at least one")
     if arguments.limit is not None and not arguments.limit > 0:
         raise UsageError(f"--limit {arguments.limit}: a number of seconds above 0")
+    if arguments.scheduler and arguments.executor != "dask":
+        raise UsageError("--scheduler needs --executor dask")
+    if arguments.gradebook is not None and arguments.format not in ("canvas", "moodle"):
+        raise UsageError("--gradebook is for --format canvas and moodle")
     _shard(arguments.shard)
 
 
@@ -91,6 +101,8 @@ def _output(arguments: argparse.Namespace) -> Path:
         output = source.with_name(f"{source.stem if source.is_file() else source.name}-results")
     if output.exists() and not output.is_dir():
         raise UsageError(f"--output {output}: this is a file, not a folder")
+    if arguments.submissions is not None and output.resolve().is_relative_to(arguments.submissions.resolve()):
+        raise UsageError(f"--output {output}: it is in {arguments.submissions}, and would be taken for a submission")
     return output
 
 
@@ -127,7 +139,7 @@ def _collect(folders: Sequence[Path], target: ResultFolder) -> list[Result]:
 def _grade(arguments: argparse.Namespace, course: Course, folder: ResultFolder) -> list[Result] | None:
     """Check what has no current result; return all results, or None if this was interrupted."""
     from tutor import private_folders
-    from tutor.grade.learners import Roster
+    from tutor.grade.roster import Roster
     from tutor.grade.submissions import find_work
 
     roster = Roster.read(arguments.roster) if arguments.roster else None
@@ -139,6 +151,7 @@ def _grade(arguments: argparse.Namespace, course: Course, folder: ResultFolder) 
             exercises=arguments.exercise or (),
             layout=arguments.layout,
             roster=roster,
+            note=terminal.say,
         )
         part, parts = _shard(arguments.shard)
         return _run(works[part - 1 :: parts], arguments, course, folder)
@@ -147,26 +160,31 @@ def _grade(arguments: argparse.Namespace, course: Course, folder: ResultFolder) 
 def _run(
     works: Sequence[Work], arguments: argparse.Namespace, course: Course, folder: ResultFolder
 ) -> list[Result] | None:
+    from dataclasses import replace
+
     from tutor.cli.grade_display import display_for
     from tutor.cli.judging import interruptible
-    from tutor.grade.grading import Grading, LocalExecutor, Options
-    from tutor.grade.machine import checks_at_once, cores, costs_from, estimate_s, words_for
+    from tutor.grade.grading import Grading, Options
+    from tutor.grade.machine import costs_from, estimate_s, words_for
     from tutor.grade.unit import DEFAULT_LIMIT_S
 
     folder.sweep()
     grading = Grading(course, folder)
     plan = grading.plan(works, again=arguments.again)
+    lessons: Path | None = getattr(arguments, "lessons", None)
     options = Options(
-        isolate=bool(plan.todo) and not arguments.no_isolation and _can_isolate(),
+        isolate=not arguments.no_isolation,
         limit_s=arguments.limit or DEFAULT_LIMIT_S,
-        lessons=getattr(arguments, "lessons", None),
+        lessons=lessons.absolute() if lessons is not None else None,
     )
-    executor = LocalExecutor(arguments.jobs or checks_at_once())
-    costs, available_cores = costs_from(folder), cores()
-    seconds = estimate_s((work.exercise for work in plan.todo), costs, executor.slots, available_cores)
-    _announce(plan, f"about {words_for(seconds)}, {counted(executor.slots, 'check')} at once")
-    display = display_for(plan, executor.slots, costs, available_cores)
-    return interruptible(lambda: grading.grade(plan, executor, options, display, costs), display)
+    with _open_place(arguments, plan, options) as place:
+        if plan.todo and options.isolate:
+            options = replace(options, isolate=_can_isolate(place.why_not_isolated()))
+        costs, slots = costs_from(folder), place.executor.slots
+        seconds = estimate_s((work.exercise for work in plan.todo), costs, slots, place.cores)
+        _announce(plan, f"about {words_for(seconds)}, {counted(slots, 'check')} at once")
+        display = display_for(plan, slots, costs, place.cores)
+        return interruptible(lambda: grading.grade(plan, place.executor, options, display, costs), display)
 
 
 def _announce(plan: Plan, estimate: str) -> None:
@@ -179,11 +197,43 @@ def _announce(plan: Plan, estimate: str) -> None:
         terminal.say(f"{counted(len(plan.todo), 'check')} to run: {estimate}")
 
 
-def _can_isolate() -> bool:
-    """Whether submissions can be isolated here; if not, ask whether to go on. Raises EngineError if it is not."""
-    from tutor.grade.isolation import why_not_isolated
+class _Place(NamedTuple):
+    """Where checks run. `cores`: how many there are; `why_not_isolated`: what keeps submissions from being isolated."""
 
-    problem = why_not_isolated()
+    executor: Executor
+    cores: float
+    why_not_isolated: Callable[[], EngineError | None]
+
+
+@contextmanager
+def _open_place(arguments: argparse.Namespace, plan: Plan, options: Options) -> Iterator[_Place]:
+    from tutor.grade.grading import LocalExecutor
+    from tutor.grade.machine import checks_at_once, cores
+    from tutor.process.isolation_support import try_isolation
+
+    if arguments.executor == "local" or not plan.todo:
+        yield _Place(LocalExecutor(arguments.jobs or checks_at_once()), cores(), try_isolation)
+        return
+    try:
+        from tutor.grade.dask_executor import open_executor
+    except ModuleNotFoundError as error:
+        raise EngineError(f"--executor dask needs Dask ({error})", "install ros-tutor[cluster]") from error
+    if not options.isolate:
+        terminal.say("without isolation, a submission can reach Dask, and run what it likes on each worker and here")
+    with open_executor(
+        arguments.scheduler,
+        arguments.jobs,
+        checks_at_once(),
+        options.lessons,
+        isolate=options.isolate,
+        live=terminal.can_animate(sys.stderr),
+        say=terminal.say,
+    ) as executor:
+        yield _Place(executor, executor.cores, lambda: executor.not_isolated)
+
+
+def _can_isolate(problem: EngineError | None) -> bool:
+    """Whether submissions can be isolated; if not, ask whether to go on. Raises EngineError if the answer is no."""
     if problem is None:
         return True
     what = f"submissions cannot be isolated here: {problem}"
@@ -200,14 +250,18 @@ def _can_isolate() -> bool:
 # --- the report ---
 
 
-def _report(results: Sequence[Result], arguments: argparse.Namespace, course: Course, points: Points) -> int:
+def _report(
+    results: Sequence[Result], arguments: argparse.Namespace, course: Course, points: Points, folder: ResultFolder
+) -> int:
+    from tutor.grade import formats
     from tutor.grade.gradebook import Gradebook
 
-    gradebook = Gradebook.of(results, course, points)
-    if arguments.format == "csv":
-        from tutor.grade.formats import csv_table
-
-        terminal.out(csv_table.render(gradebook))
+    gradebook = Gradebook.of(results, course, points, steps=arguments.steps == "words", title=_title(arguments, folder))
+    if arguments.format in formats.FILES:
+        written = formats.write(gradebook, arguments.format, folder.root)
+        terminal.out("".join(f"{context.display_path(path)}\n" for path in written))
+    elif arguments.format in formats.DOCUMENTS:
+        terminal.out(formats.render(gradebook, arguments.format, _read_template(arguments.gradebook)))
     else:
         from tutor.grade.formats import text
 
@@ -218,6 +272,13 @@ def _report(results: Sequence[Result], arguments: argparse.Namespace, course: Co
     return FAULT if gradebook.errors else PASSED
 
 
+def _title(arguments: argparse.Namespace, folder: ResultFolder) -> str:
+    source: Path | None = arguments.submissions
+    if source is None:
+        return folder.root.resolve().name.removesuffix("-results")
+    return source.stem if source.is_file() else source.resolve().name
+
+
 def _fault_of(result: Result) -> str:
     from tutor.judge.verdict import Status
 
@@ -225,3 +286,14 @@ def _fault_of(result: Result) -> str:
     criteria = judged.criteria if judged is not None else ()
     causes = [criterion.verdict.cause for criterion in criteria if criterion.verdict.status is Status.ERROR]
     return causes[0] if causes else result.report.message
+
+
+def _read_template(path: Path | None) -> str | None:
+    if path is None:
+        return None
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(
+            f"--gradebook {path}: cannot be read: {getattr(error, 'strerror', 'it is not UTF-8')}"
+        ) from error

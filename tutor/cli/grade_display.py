@@ -55,9 +55,9 @@ class _Remaining:
         self._whole_s = self._estimate()
         self._started = time.monotonic()
 
-    def finished(self, exercise: str) -> None:
-        if self._todo[exercise]:
-            self._todo[exercise] -= 1
+    def finished(self, result: Result) -> None:
+        if result.status != "missing" and result.attempt == 1:
+            self._todo[result.exercise] -= 1
 
     @property
     def seconds(self) -> float:
@@ -87,7 +87,7 @@ class _Lines:
 
     def finished(self, result: Result) -> None:
         self._done.add((result.learner.id, result.exercise))
-        self._remaining.finished(result.exercise)
+        self._remaining.finished(result)
         terminal.say(f"{len(self._done):4} of {self._total}  {_describe(result)}")
 
     def show(self, event: Event) -> None:
@@ -114,7 +114,7 @@ class _Table:
         self._live.start()
 
     def started(self, work: Work) -> None:
-        name = f"{work.learner.name}  {work.exercise}"
+        name = _one_line(f"{work.learner.name}  {work.exercise}")
         self._running[work.learner.id, work.exercise] = _Running(name, time.monotonic())
 
     def event(self, work: Work) -> OnEvent:
@@ -131,7 +131,7 @@ class _Table:
         self._running.pop(key, None)
         self._results.pop(key, None)  # so that a second attempt is the last one
         self._results[key] = result
-        self._remaining.finished(result.exercise)
+        self._remaining.finished(result)
 
     def show(self, event: Event) -> None:
         pass
@@ -151,12 +151,11 @@ class _Table:
         rows = max(3, self._console.height - 6 - len(self._running))
         for result in results[-min(_RECENT, rows) :]:
             text = Text(result.status, STYLES[result.status])
-            grid.add_row(Text(printable(f"{result.learner.name}  {result.exercise}")), text, Text(_tell(result), "dim"))
+            name = _one_line(f"{result.learner.name}  {result.exercise}")
+            grid.add_row(Text(name), text, Text(_one_line(_tell(result)), "dim"))
         for running in list(self._running.values()):
             passed = seconds(time.monotonic() - running.since)
-            grid.add_row(
-                Text(printable(running.name), "cyan"), Text(passed, "cyan"), Text(printable(running.doing), "dim")
-            )
+            grid.add_row(Text(running.name, "cyan"), Text(passed, "cyan"), Text(_one_line(running.doing), "dim"))
         done = len(results)
         left = f"about {words_for(self._remaining.seconds)} left" if done < self._total else ""
         counts = Counter(result.status for result in results)
@@ -177,7 +176,11 @@ def display_for(plan: Plan, slots: int, costs: Mapping[str, Cost], cores: float)
 
 
 def _describe(result: Result) -> str:
-    return f"{result.learner.name}  {result.exercise}  {result.status}  {_tell(result)}".rstrip()
+    return _one_line(f"{result.learner.name}  {result.exercise}  {result.status}  {_tell(result)}").rstrip()
+
+
+def _one_line(text: str) -> str:
+    return printable(text.replace("\n", " "))
 
 
 def _tell(result: Result) -> str:

@@ -1,27 +1,55 @@
-"""Unpacks archives that learners handed in, and packs the files of a submission for the process that judges it."""
+"""Unpacks archives that learners handed in."""
 
 from __future__ import annotations
 
-import os
+import errno
+import lzma
 import stat
+import struct
 import tarfile
 import zipfile
-from collections.abc import Iterator, Mapping
-from hashlib import sha256
-from io import BytesIO
-from pathlib import Path, PurePosixPath
+import zlib
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path, PurePath, PurePosixPath
+from typing import IO
 
-MAX_FILES, MAX_BYTES = 2000, 64 << 20
-"""Limits on what is taken from one submission, as for isolated checks."""
 
-_SUFFIXES = (".zip", ".tar", ".tar.gz", ".tgz", ".tar.xz", ".tar.bz2")
-_SKIPPED = frozenset(
-    ("__pycache__", "__MACOSX", "build", "install", "log", "node_modules", "venv", "env", "site-packages")
-)
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """How much is taken from an archive or a folder: this many files and folders, and bytes.
+
+    `all_or_nothing`: beyond that it is refused, rather than taken without its large files that are no source code.
+    """
+
+    files: int
+    bytes: int
+    all_or_nothing: bool = False
+
+
+ONE_SUBMISSION = Limits(1900, 60 << 20)
+"""A little less than isolated checks allow."""
+
+WHOLE_CLASS = Limits(200_000, 8 << 30, all_or_nothing=True)
+
+_SOURCE_BYTES = 1 << 20
+_PART_BYTES = 1 << 20
 _SOURCES = frozenset(
     (".py", ".xml", ".yaml", ".yml", ".json", ".toml", ".cfg", ".txt", ".md", ".msg", ".srv", ".action", ".launch", "")
 )
-_EPOCH = (1980, 1, 1, 0, 0, 0)
+_SUFFIXES = (".tar.gz", ".tar.xz", ".tar.bz2", ".zip", ".tar", ".tgz")
+_OTHER_SUFFIXES = (".rar", ".7z", ".gz", ".xz", ".bz2", ".zst")
+_SKIPPED = frozenset(
+    ("__pycache__", "__MACOSX", "build", "install", "log", "node_modules", "venv", "env", "site-packages")
+)
+MAX_DEPTH, MAX_PATH = 30, 1000
+"""What is deeper, or has a longer path, is left out."""
+
+_MAX_LEFT_OUT = 16
+"""Times the limits: what an archive may hold besides, which takes time to get past."""
+
+_NAME_ERRORS = (errno.ENAMETOOLONG, errno.EEXIST, errno.ENOTDIR, errno.EISDIR, errno.EINVAL, errno.EILSEQ)
 
 
 class BadArchive(Exception):
@@ -29,13 +57,13 @@ class BadArchive(Exception):
 
 
 def is_archive(path: Path) -> bool:
-    """Whether a file is an archive, judging by its name."""
-    return path.name.lower().endswith(_SUFFIXES) and path.is_file()
+    """Whether a file is an archive, judging by its name; not all can be unpacked."""
+    return path.name.lower().endswith((*_SUFFIXES, *_OTHER_SUFFIXES)) and path.is_file()
 
 
 def stem(path: Path) -> str:
     """Return the name of an archive without its suffix, or that of a file without its own."""
-    suffix = next((suffix for suffix in sorted(_SUFFIXES, key=len)[::-1] if path.name.lower().endswith(suffix)), "")
+    suffix = next((suffix for suffix in _SUFFIXES if path.name.lower().endswith(suffix)), "")
     return path.name[: len(path.name) - len(suffix)] if suffix else path.stem
 
 
@@ -44,133 +72,130 @@ def is_skipped(name: str) -> bool:
     return name.startswith(".") or name in _SKIPPED
 
 
-def unpack(archive: Path, folder: Path) -> None:
+# --- unpacking ---
+
+
+def unpack(archive: Path, folder: Path, limits: Limits = ONE_SUBMISSION) -> None:
     """Unpack regular files below `folder`; links, devices and names that lead out of it are left out.
 
-    Raises BadArchive for one that is damaged, encrypted or too large.
+    So are large files that are no source code once there are too many. Raises BadArchive for one that is damaged,
+    encrypted or too large, and OSError if this machine cannot read or write.
     """
+    name = archive.name.lower()
+    if not name.endswith(_SUFFIXES):
+        raise BadArchive("it is neither a zip nor a tar file")
     try:
-        if archive.name.lower().endswith(".zip"):
-            _unpack_zip(archive, folder)
+        if name.endswith(".zip"):
+            _unpack_zip(archive, folder, _Budget(limits))
         else:
-            _unpack_tar(archive, folder)
-    except (zipfile.BadZipFile, tarfile.TarError, EOFError, NotImplementedError, ValueError) as error:
+            _unpack_tar(archive, folder, _Budget(limits))
+    except (zipfile.BadZipFile, tarfile.TarError, zlib.error, lzma.LZMAError, struct.error, EOFError) as error:
+        raise BadArchive("it is damaged, or not an archive of this kind") from error
+    except (NotImplementedError, RecursionError, ValueError) as error:
         raise BadArchive("it is damaged, or not an archive of this kind") from error
     except RuntimeError as error:  # of zipfile, for a password
         raise BadArchive("it is encrypted") from error
     except OSError as error:
-        raise BadArchive(error.strerror or "it cannot be unpacked") from error
+        if error.errno in (None, errno.EINVAL):  # of a decompressor, or for a place before the beginning
+            raise BadArchive("it is damaged, or not an archive of this kind") from error
+        raise
 
 
-def _unpack_zip(archive: Path, folder: Path) -> None:
-    budget = _Budget()
+def _unpack_zip(archive: Path, folder: Path, budget: _Budget) -> None:
     with zipfile.ZipFile(archive) as content:
         for entry in content.infolist():
-            target = _target(entry.filename, folder)
-            mode = entry.external_attr >> 16
-            if entry.is_dir() or target is None or (mode and stat.S_IFMT(mode) not in (0, stat.S_IFREG)):
-                continue
-            with content.open(entry) as source:
-                _write(target, budget.read(source))
+            budget.pass_over(0)
+            if stat.S_IFMT(entry.external_attr >> 16) in (0, stat.S_IFREG) and not entry.is_dir():
+                _take(_Entry(entry.filename, entry.file_size, partial(content.open, entry)), folder, budget)
 
 
-def _unpack_tar(archive: Path, folder: Path) -> None:
-    budget = _Budget()
+def _unpack_tar(archive: Path, folder: Path, budget: _Budget) -> None:
     with tarfile.open(archive) as content:
         for entry in content:
-            target = _target(entry.name, folder)
-            source = content.extractfile(entry) if entry.isfile() and target is not None else None
-            if source is not None and target is not None:
-                _write(target, budget.read(source))
+            budget.pass_over(entry.size)
+            if entry.isfile():
+                _take(_Entry(entry.name, entry.size, partial(content.extractfile, entry)), folder, budget)
+
+
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    """A regular file in an archive. `size` is what the archive says of it."""
+
+    name: str
+    size: int
+    open: Callable[[], IO[bytes] | None]
 
 
 class _Budget:
-    """What may still be unpacked: the sizes that an archive states are not believed."""
+    """What may still be unpacked. The sizes that an archive states are not believed."""
 
-    def __init__(self) -> None:
-        self._files = MAX_FILES
-        self._bytes = MAX_BYTES
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+        self._left_out = Limits(_MAX_LEFT_OUT * limits.files, _MAX_LEFT_OUT * limits.bytes)
+        self._sources = self._others = limits
 
-    def read(self, source: object) -> bytes:
-        content: bytes = source.read(self._bytes + 1)  # type: ignore[attr-defined]
-        self._files -= 1
-        self._bytes -= len(content)
-        if self._files < 0 or self._bytes < 0:
-            raise BadArchive(f"it is too large: more than {MAX_FILES} files or {MAX_BYTES >> 20} MB")
-        return content
+    def pass_over(self, size: int) -> None:
+        """Count an entry that must be read to get to the next one. Raises BadArchive for too many."""
+        if size < 0:
+            raise ValueError("a size below 0")
+        self._left_out = _without(self._left_out, size)
+        if self._left_out.files < 0 or self._left_out.bytes < 0:
+            raise self._too_large()
 
-
-def _target(name: str, folder: Path) -> Path | None:
-    parts = PurePosixPath(name.replace("\\", "/")).parts
-    if not parts or parts[0] == "/" or ".." in parts or any(is_skipped(part) for part in parts[:-1]):
+    def read(self, entry: _Entry) -> Iterator[bytes] | None:
+        """Return the content, in parts; None if it is no source code and there is no room for it. Raises BadArchive."""
+        wanted = self._limits.all_or_nothing or is_source(PurePosixPath(entry.name), entry.size)
+        left = self._sources if wanted else self._others
+        if left.files > 0 and left.bytes >= entry.size:
+            return self._parts(entry, wanted)
+        if wanted:
+            raise self._too_large()
         return None
-    return folder.joinpath(*parts)
+
+    def _parts(self, entry: _Entry, wanted: bool) -> Iterator[bytes]:
+        left = _without(self._sources if wanted else self._others, 0)
+        source = entry.open()
+        if source is not None:
+            with source:
+                while part := source.read(_PART_BYTES):
+                    left = replace(left, bytes=left.bytes - len(part))
+                    if left.bytes < 0:
+                        raise self._too_large()
+                    yield part
+        if wanted:
+            self._sources = left
+        else:
+            self._others = left
+
+    def _too_large(self) -> BadArchive:
+        return BadArchive(f"it is too large: more than {self._limits.files} files or {self._limits.bytes >> 20} MB")
 
 
-def _write(target: Path, content: bytes) -> None:
-    target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_bytes(content)
+def _without(limits: Limits, size: int) -> Limits:
+    return replace(limits, files=limits.files - 1, bytes=limits.bytes - size)
 
 
-# --- packing ---
+def is_source(path: PurePath, size: int) -> bool:
+    """Whether a file may be source code: by its suffix, and not too large, in bytes."""
+    return path.suffix.lower() in _SOURCES and size <= _SOURCE_BYTES
 
 
-def pack(files: Mapping[str, Path]) -> tuple[bytes, str]:
-    """Pack files, by the name that they have in the archive, and return it with their `digest_of`. Raises OSError."""
-    buffer, digest = BytesIO(), sha256()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, path in sorted(files.items()):
-            entry = zipfile.ZipInfo(name, _EPOCH)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = (stat.S_IFREG | (0o755 if os.access(path, os.X_OK) else 0o644)) << 16
-            content = path.read_bytes()
-            archive.writestr(entry, content)
-            digest.update(_line_of(name, content))
-    return buffer.getvalue(), digest.hexdigest()
-
-
-def unpack_packed(packed: bytes, folder: Path) -> None:
-    """Unpack what `pack` made below `folder`. Raises OSError."""
-    with zipfile.ZipFile(BytesIO(packed)) as archive:
-        for entry in archive.infolist():
-            target = folder.joinpath(*PurePosixPath(entry.filename).parts)
-            _write(target, archive.read(entry))
-            target.chmod(entry.external_attr >> 16 & 0o777)
-
-
-def digest_of(files: Mapping[str, Path]) -> str:
-    """Return a digest of the names and contents of files. Raises OSError."""
-    digest = sha256()
-    for name, path in sorted(files.items()):
-        digest.update(_line_of(name, path.read_bytes()))
-    return digest.hexdigest()
-
-
-def _line_of(name: str, content: bytes) -> bytes:
-    return f"{name!r} {sha256(content).hexdigest()}\n".encode("utf-8", "surrogatepass")
-
-
-def files_below(folder: Path, submission: Path) -> dict[str, Path]:
-    """Return the files below `folder` of a submission, by relative path; only source files if there are too many."""
-    every = {path.relative_to(folder).as_posix(): path for path in _walk(folder) if is_own_file(path, submission)}
-    size = sum(path.stat().st_size for path in every.values())
-    if len(every) <= MAX_FILES and size <= MAX_BYTES:
-        return every
-    sources = {name: path for name, path in every.items() if path.suffix in _SOURCES and path.stat().st_size < 1 << 20}
-    return dict(list(sources.items())[:MAX_FILES])
-
-
-def _walk(folder: Path) -> Iterator[Path]:
-    for parent, folders, names in os.walk(folder):
-        folders[:] = sorted(name for name in folders if not is_skipped(name))
-        for name in sorted(names):
-            if not name.endswith(".pyc"):
-                yield Path(parent, name)
-
-
-def is_own_file(path: Path, submission: Path) -> bool:
-    """Whether this is a regular file of the submission's folder, not a link that leads out of it."""
+def _take(entry: _Entry, folder: Path, budget: _Budget) -> None:
+    parts = PurePosixPath(entry.name.replace("\\", "/")).parts
+    if not parts or parts[0] == "/" or ".." in parts or any(is_skipped(part) for part in parts[:-1]):
+        return
+    if len(parts) > MAX_DEPTH or len(entry.name) > MAX_PATH:
+        return
+    content = budget.read(entry)
+    if content is None:
+        return
+    target = folder.joinpath(*parts)
     try:
-        return path.is_file() and path.resolve().is_relative_to(submission.resolve())
-    except (OSError, RuntimeError):
-        return False
+        target.parent.mkdir(parents=True, exist_ok=True)
+        file = target.open("wb")
+    except OSError as error:
+        if error.errno in _NAME_ERRORS:  # no such name, or one that stands for a file and for a folder
+            return
+        raise
+    with file:
+        file.writelines(content)

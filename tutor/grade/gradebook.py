@@ -23,26 +23,42 @@ class Total:
 
 @dataclass(frozen=True, slots=True)
 class Gradebook:
-    """All results of a class. `lessons` in the course's order, `learners` by name."""
+    """All results of a class. `lessons` in the course's order, `learners` by name.
+
+    `steps`: whether learners are told the next step of a failure. `title`: of the class, for headings.
+    """
 
     lessons: tuple[Lesson, ...]
     learners: tuple[Learner, ...]
     points: Points
     results: dict[tuple[str, str], Result] = field(default_factory=dict)
+    steps: bool = True
+    title: str = "Class"
 
     @classmethod
-    def of(cls, results: Iterable[Result], course: Course, points: Points) -> Gradebook:
+    def of(
+        cls, results: Iterable[Result], course: Course, points: Points, *, steps: bool = True, title: str = "Class"
+    ) -> Gradebook:
         """Make a gradebook of these results; those of exercises that the course does not have are left out."""
         by_key = {(result.learner.id, result.exercise): result for result in results if course.knows(result.exercise)}
         learners = {result.learner.id: result.learner for result in by_key.values()}
         ordered = sorted(learners.values(), key=lambda learner: (learner.name.casefold(), learner.id))
         seen = {exercise for _, exercise in by_key}
         lessons = tuple(lesson for lesson in course.lessons if lesson.id in seen)
-        return cls(lessons, tuple(ordered), points, by_key)
+        return cls(lessons, tuple(ordered), points, by_key, steps, title)
 
     def result(self, learner: Learner, lesson: Lesson) -> Result | None:
         """Return a result; None if this exercise has not been graded for this learner."""
         return self.results.get((learner.id, lesson.id))
+
+    def results_of(self, learner: Learner) -> Sequence[Result]:
+        """Return a learner's results, in the course's order."""
+        results = (self.result(learner, lesson) for lesson in self.lessons)
+        return [result for result in results if result is not None]
+
+    def max_score(self, lesson: Lesson) -> float:
+        """Return what an exercise is worth, without bonus."""
+        return next(self.points.score(result).max_score for (_, id), result in self.results.items() if id == lesson.id)
 
     def score(self, learner: Learner, lesson: Lesson) -> Score | None:
         """Return the points of a learner's exercise; None if it has not been graded."""
@@ -60,12 +76,12 @@ class Gradebook:
 
     @property
     def errors(self) -> Sequence[Result]:
-        """The results that could not be judged, by learner and exercise."""
+        """The results of which some points are not known, since a fault left them unjudged, by learner and exercise."""
         return [
             result
             for learner in self.learners
             for lesson in self.lessons
-            if (result := self.result(learner, lesson)) is not None and result.status == "error"
+            if (result := self.result(learner, lesson)) is not None and self.points.score(result).score is None
         ]
 
     def mistakes(self, lesson: Lesson) -> list[tuple[str, str, int]]:

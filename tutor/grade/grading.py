@@ -6,15 +6,14 @@ import asyncio
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
-from hashlib import sha256
 from pathlib import Path
 from typing import Protocol
 
 from tutor import __version__
 from tutor.content import Course, Lesson
-from tutor.grade.archives import pack
 from tutor.grade.machine import COSTS, DEFAULT_COST, Cost
-from tutor.grade.results import Result, ResultFolder, Version
+from tutor.grade.packing import digest_of, pack
+from tutor.grade.results import Result, ResultFolder, Version, encode
 from tutor.grade.submissions import Work
 from tutor.grade.unit import DEFAULT_LIMIT_S, OnEvent, Outcome, Unit, run_unit
 from tutor.judge.result import Environment, Report
@@ -77,11 +76,15 @@ class Options:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What there is to do. `kept`: results that are current. `missing`: nothing to judge. `todo`: to check."""
+    """What there is to do. `kept`: results that are current. `missing`: nothing to judge. `todo`: to check.
+
+    `renamed`: those of `kept` whose learner was known by another name, or had another row in the roster.
+    """
 
     todo: tuple[Work, ...]
     missing: tuple[Work, ...]
     kept: tuple[Result, ...]
+    renamed: tuple[Result, ...] = ()
 
 
 class Grading:
@@ -94,16 +97,18 @@ class Grading:
 
     def plan(self, works: Sequence[Work], *, again: bool = False) -> Plan:
         """Decide what to do. A result is current if submission, course and version are those it was made with."""
-        todo, missing, kept = [], [], []
+        todo, missing, kept, renamed = [], [], [], []
         for work in works:
             result = None if again else self._folder.read(work.learner, work.exercise)
-            if not work.files:
+            if work.missing:
                 missing.append(work)
-            elif result is not None and result.status in ("passed", "failed") and self._is_current(result, work):
-                kept.append(replace(result, learner=work.learner))
-            else:
+            elif work.fault or result is None or not self._is_current(result, work):
                 todo.append(work)
-        return Plan(tuple(todo), tuple(missing), tuple(kept))
+            else:
+                kept.append(replace(result, learner=work.learner))
+                if result.learner != work.learner:
+                    renamed.append(kept[-1])
+        return Plan(tuple(todo), tuple(missing), tuple(kept), tuple(renamed))
 
     async def grade(
         self,
@@ -118,10 +123,10 @@ class Grading:
         Long checks come first, so that none of them begins last. Raises StorageError.
         """
         results = [*plan.kept]
-        for result in plan.kept:
-            self._folder.save(result)  # a roster may have changed what is said of the learner
+        for result in plan.renamed:
+            self._folder.save(result)
         for work in plan.missing:
-            results.append(self._save(self._missing(work), watcher))
+            results.append(self._save_missing(work, watcher))
         semaphore = asyncio.Semaphore(executor.slots)
 
         async def check(work: Work, attempt: int = 1) -> Result:
@@ -140,22 +145,43 @@ class Grading:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
         for work, result in zip(ordered, checked, strict=True):
-            if result.status == "error":  # alone, since the others may be why
-                result = await check(work, MAX_ATTEMPTS)
+            if result.unjudged:  # alone, since the others may be why
+                repeated = await check(work, MAX_ATTEMPTS)
+                if repeated.status != "error" or result.status == "error":
+                    result = repeated
+                else:  # only a bonus was unjudged the first time
+                    result = self._save(replace(result, attempt=MAX_ATTEMPTS), watcher)
             results.append(result)
+        for result in results:
+            self._restore(result)
         return results
+
+    def _restore(self, result: Result) -> None:
+        """Write a result again if its file is another one by now: a submission that is not isolated can change it."""
+        found = self._folder.read(result.learner, result.exercise)
+        if found is None or encode(found) != encode(result):
+            self._folder.save(result)
 
     def _save(self, result: Result, watcher: Watcher) -> Result:
         self._folder.save(result)
         watcher.finished(result)
         return result
 
+    def _save_missing(self, work: Work, watcher: Watcher) -> Result:
+        result, before = self._missing(work), self._folder.read(work.learner, work.exercise)
+        if before is not None and encode(replace(before, graded_at=result.graded_at)) == encode(result):
+            result = before  # nothing has changed since, so neither does the file
+            watcher.finished(result)
+            return result
+        return self._save(result, watcher)
+
     def _result(self, work: Work, report: Report, attempt: int = 1) -> Result:
         now = datetime.now(UTC).isoformat(timespec="seconds")
         return Result(work.learner, work.exercise, now, work.digest, self._version(work.exercise), report, 0.0, attempt)
 
     def _is_current(self, result: Result, work: Work) -> bool:
-        return result.digest == work.digest and result.version == self._version(work.exercise)
+        made_with = (result.digest, result.version)
+        return not result.unjudged and made_with == (work.digest, self._version(work.exercise))
 
     def _version(self, exercise: str) -> Version:
         if exercise not in self._versions:
@@ -168,10 +194,12 @@ class Grading:
 
 
 async def _run(work: Work, executor: Executor, options: Options, on_event: OnEvent) -> Outcome:
+    if work.fault:
+        return Outcome(None, fault=work.fault)
     try:
         packed, digest = await asyncio.to_thread(pack, work.files)
     except OSError as error:
-        return Outcome(None, fault=f"cannot read {error.filename}: {error.strerror}")
+        return Outcome(None, fault=f"{error.filename} cannot be read: {error.strerror}")
     if digest != work.digest:
         return Outcome(None, fault="the files were changed while the class was graded")
     key = f"{work.learner.id}/{work.exercise}"
@@ -184,12 +212,12 @@ def _environment() -> Environment:
 
 
 def course_digest(lesson: Lesson) -> str:
-    """Return a digest of everything that a lesson's verdict depends on: its criteria and the code of its check."""
+    """Return a digest of what a lesson's verdict depends on: its criteria and skeleton, and the code of its check."""
     check = lesson.check
-    folder = check.parent if check.name == "__init__.py" else check
-    sources = [*folder.rglob("*")] if folder.is_dir() else [folder]
-    sources += [lesson.folder / "lesson.md", *folder.parent.glob("*.py")]
-    total = sha256()
-    for path in sorted({path for path in sources if path.is_file() and path.suffix != ".pyc"}):
-        total.update(f"{path.relative_to(folder.parents[1])}\n".encode() + sha256(path.read_bytes()).digest())
-    return total.hexdigest()
+    code = check.parent if check.name == "__init__.py" else check
+    files = {"lesson.md": lesson.folder / "lesson.md"}
+    files |= {f"skeleton/{file.name}": file.skeleton for file in lesson.files}
+    for top in (code, *code.parent.glob("*.py")):
+        below = top.rglob("*") if top.is_dir() else (top,)
+        files |= {f"checks/{path.relative_to(code.parent)}": path for path in below if path.is_file()}
+    return digest_of({name: path for name, path in files.items() if "__pycache__" not in path.parts})

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
-from statistics import median
+from statistics import mean
 
 from tutor.grade.results import Result
 
@@ -58,7 +58,9 @@ def memory_mb() -> float:
     free = int(fields["MemAvailable"].split()[0]) / 1024
     try:
         limit, used = (int((_CGROUP / name).read_text()) for name in ("memory.max", "memory.current"))
-        return min(free, (limit - used) / (1 << 20))
+        fields = dict(line.split() for line in (_CGROUP / "memory.stat").read_text().splitlines())
+        reclaimable = int(fields.get("inactive_file", "0"))  # of the page cache
+        return min(free, (limit - used + reclaimable) / (1 << 20))
     except (OSError, ValueError):
         return free
 
@@ -69,15 +71,15 @@ def checks_at_once() -> int:
 
 
 def costs_from(results: Iterable[Result]) -> dict[str, Cost]:
-    """Return the cost of each exercise as measured in earlier results: medians, or what is known otherwise."""
+    """Return the cost of each exercise as measured in earlier results: means, or what is known otherwise."""
     seen: dict[str, list[Result]] = defaultdict(list)
     for result in results:
         if result.status in ("passed", "failed") and result.cpu_s:
             seen[result.exercise].append(result)
     measured = {
         exercise: Cost(
-            median(result.cpu_s for result in results),
-            min(COSTS.get(exercise, DEFAULT_COST).wall_s, median(result.report.duration_s for result in results)),
+            mean(result.cpu_s for result in results),
+            min(COSTS.get(exercise, DEFAULT_COST).wall_s, mean(result.report.duration_s for result in results)),
         )
         for exercise, results in seen.items()
         if len(results) >= 3

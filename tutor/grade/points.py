@@ -10,8 +10,9 @@ A file that uses everything there is:
 
 from __future__ import annotations
 
+import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ from tutor.grade.results import Result
 from tutor.judge.verdict import Status
 
 DEFAULT_POINTS = 10.0
+_DIGITS = 9
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +38,10 @@ class CriterionScore:
 
 @dataclass(frozen=True, slots=True)
 class Score:
-    """The points of one exercise; `score` is None if any required criterion could not be judged: no points, no zero."""
+    """The points of one exercise.
+
+    `score` is None if a required criterion, or a bonus that is worth points, could not be judged: no points, no zero.
+    """
 
     score: float | None
     max_score: float
@@ -45,9 +50,19 @@ class Score:
 
 @dataclass(frozen=True, slots=True)
 class _Rule:
+    """`weights` by criterion; what has none counts for nothing, unless no required criterion has one."""
+
     points: float
     bonus: float = 0.0
     weights: Mapping[str, float] = field(default_factory=dict)
+
+    def required_weights(self, criteria: Sequence[str]) -> dict[str, float]:
+        """Return the points of each of the required criteria."""
+        weights = {name: self.weights.get(name, 0.0) for name in criteria}
+        if not any(name in self.weights for name in criteria):
+            weights = dict.fromkeys(criteria, 1.0)
+        total = sum(weights.values())
+        return {name: self.points * weight / total if total else 0.0 for name, weight in weights.items()}
 
 
 class Points:
@@ -61,10 +76,12 @@ class Points:
     def read(cls, path: Path, course: Course) -> Points:
         """Read a `points.toml`. Raises UsageError, which names what is wrong in it."""
         try:
-            document = tomllib.loads(path.read_text(encoding="utf-8"))
+            document = tomllib.loads(path.read_text(encoding="utf-8-sig"))
         except OSError as error:
             raise UsageError(f"{path} cannot be read: {error.strerror}") from error
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        except UnicodeDecodeError as error:
+            raise UsageError(f"{path}: it is not UTF-8") from error
+        except tomllib.TOMLDecodeError as error:
             raise UsageError(f"{path}: {error}") from error
         default = _number(document.pop("default", DEFAULT_POINTS), f"{path}: default")
         rules = {}
@@ -82,31 +99,27 @@ class Points:
         if judged is None:
             return Score(None, rule.points, ())
         required = [criterion.id for criterion in judged.criteria if not criterion.bonus]
-        weights = {name: rule.weights.get(name, 0.0 if rule.weights else 1.0) for name in required}
-        total = sum(weights.values()) or 1.0
+        weights = rule.required_weights(required)
         scores = []
         for criterion in judged.criteria:
-            worth = rule.points * weights[criterion.id] / total if criterion.id in weights else 0.0
-            if criterion.bonus:
-                worth = rule.weights.get(criterion.id, rule.bonus)
+            worth = rule.weights.get(criterion.id, rule.bonus) if criterion.bonus else weights[criterion.id]
             status = criterion.verdict.status
-            unknown = status is Status.ERROR and not judged.missing
+            unknown = status is Status.ERROR and not judged.missing and (worth > 0 or not criterion.bonus)
             score = None if unknown else worth if status is Status.PASSED else 0.0
             scores.append(CriterionScore(criterion.id, score, worth, criterion.bonus))
         known = [each.score for each in scores if each.score is not None]
-        unjudged = any(each.score is None and not each.bonus for each in scores)
-        return Score(None if unjudged else sum(known), rule.points, tuple(scores))
+        # As sums of thirds are not whole.
+        total = round(sum(known), _DIGITS) if len(known) == len(scores) else None
+        return Score(total, rule.points, tuple(scores))
 
 
 def _tables(document: Mapping[str, Any]) -> list[tuple[str, Any]]:
     """Return the tables of exercises: TOML reads [i1.1] as a table in a table, unless the name is quoted."""
-    found = []
+    found: list[tuple[str, Any]] = []
     for name, table in document.items():
-        inner = (
-            {key: value for key, value in table.items() if isinstance(value, dict)} if isinstance(table, dict) else {}
-        )
-        if inner and "points" not in table and "criteria" not in table:
-            found += [(f"{name}.{key}", value) for key, value in inner.items()]
+        is_nested = isinstance(table, dict) and table and all(isinstance(inner, dict) for inner in table.values())
+        if is_nested and list(table) != ["criteria"]:
+            found += _tables({f"{name}.{key}": inner for key, inner in table.items()})
         else:
             found.append((name, table))
     return found
@@ -120,17 +133,23 @@ def _read_rule(table: Any, lesson: Lesson, default: float, place: str) -> _Rule:
             raise UsageError(f"{place}: {key} is unknown; there are points, bonus and criteria")
     known = [criterion.id for criterion in lesson.criteria]
     weights = table.get("criteria", {})
+    if not isinstance(weights, dict):
+        raise UsageError(f"{place}: criteria: expected a table with a number for each criterion")
     for name in weights:
         if name not in known:
             raise UsageError(f"{place}: there is no criterion {name}; there are {', '.join(known)}")
-    return _Rule(
+    rule = _Rule(
         _number(table.get("points", default), f"{place}: points"),
         _number(table.get("bonus", 0.0), f"{place}: bonus"),
         {name: _number(value, f"{place}: {name}") for name, value in weights.items()},
     )
+    required = [criterion.id for criterion in lesson.criteria if not criterion.bonus]
+    if rule.points and not any(rule.required_weights(required).values()):
+        raise UsageError(f"{place}: no required criterion has a weight above 0, so the points can never be reached")
+    return rule
 
 
 def _number(value: Any, place: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or value < 0:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < math.inf:
         raise UsageError(f"{place}: expected a number of points, not {value!r}")
     return float(value)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+
+from msgspec import to_builtins
 
 from tutor.errors import StorageError
-from tutor.grade.learners import Learner
+from tutor.grade.learners import Learner, safe_name
+from tutor.json_codec import convert_to, read_document
 from tutor.judge.result import ExerciseResult, Report
 from tutor.judge.verdict import Status
 from tutor.report import json_report
@@ -49,6 +52,14 @@ class Result:
         return self.report.exercises[0] if self.report.exercises else None
 
     @property
+    def unjudged(self) -> bool:
+        """Whether a fault left any criterion without a verdict, be it a bonus."""
+        if self.status == "missing":
+            return False
+        criteria = self.judged.criteria if self.judged is not None else ()
+        return not criteria or any(criterion.verdict.status is Status.ERROR for criterion in criteria)
+
+    @property
     def status(self) -> str:
         """`passed`, `failed`, `missing` (nothing to judge), or `error` (a fault of the tool or the machine)."""
         judged = self.judged
@@ -79,23 +90,33 @@ class ResultFolder:
             path.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise StorageError.of(f"create {path.parent}", error) from error
-        write_atomically(path, encode(result))
+        try:
+            write_atomically(path, encode(result))
+        except StorageError as error:
+            if not isinstance(error.__cause__, FileNotFoundError):
+                raise
+            write_atomically(path, encode(result))  # another machine has just swept this folder
 
     def read(self, learner: Learner, exercise: str) -> Result | None:
         """Return the result of a learner's exercise; None if there is none, or it cannot be understood."""
-        return _read(self.path_of(learner, exercise))
+        result = _read(self.path_of(learner, exercise))
+        return result if result is not None and result.exercise == exercise else None
 
     def __iter__(self) -> Iterator[Result]:
         """Yield every result, by learner and exercise."""
         for path in sorted(self.root.glob("*/*.json")):
             result = None if path.name.startswith(".") else _read(path)
-            if result is not None:
+            if result is not None and self.path_of(result.learner, result.exercise) == path:
                 yield result
 
     def sweep(self) -> None:
-        """Remove files that a killed process had not finished writing."""
-        for path in self.root.glob("*/.*.tmp"):
-            path.unlink(missing_ok=True)
+        """Remove files that a killed process had not finished writing. Raises StorageError."""
+        for pattern in (".*.tmp", "*/.*.tmp"):
+            for path in self.root.glob(pattern):
+                try:
+                    path.unlink(missing_ok=True)
+                except OSError as error:
+                    raise StorageError.of(f"remove {path}", error) from error
 
 
 def _read(path: Path) -> Result | None:
@@ -131,12 +152,10 @@ def encode(result: Result) -> str:
 
 
 def decode(text: str) -> Result:
-    """Read the document of a result. Raises ValueError."""
+    """Read the document of a result, which may come from another machine. Raises ValueError."""
+    document = read_document(text, SCHEMA)
     try:
-        document: Mapping[str, Any] = json.loads(text)
-        if document["schema"] != SCHEMA:
-            raise ValueError(f"not a {SCHEMA}")
-        return Result(
+        result = Result(
             learner=Learner(**document["learner"]),
             exercise=document["exercise"],
             graded_at=document["graded_at"],
@@ -146,5 +165,15 @@ def decode(text: str) -> Result:
             cpu_s=document["cpu_s"],
             attempt=document["attempt"],
         )
-    except (KeyError, TypeError, RecursionError) as error:
+    except (AttributeError, KeyError, TypeError) as error:
         raise ValueError("it is damaged") from error
+    convert_to(Result, to_builtins(result))  # are all values of the right type?
+    exercises = [exercise.id for exercise in result.report.exercises]
+    if result.learner.id != safe_name(result.learner.id) or exercises not in ([], [result.exercise]):
+        raise ValueError("it is damaged")
+    judged = result.judged
+    criteria = judged.criteria if judged is not None else ()
+    seconds = (result.cpu_s, result.report.duration_s, *(criterion.duration_s for criterion in criteria))
+    if not all(map(math.isfinite, seconds)):
+        raise ValueError("it is damaged")
+    return result

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tutor import interpreter, private_folders
-from tutor.grade.archives import unpack_packed
+from tutor.grade import private_paths
+from tutor.grade.packing import unpack_packed
 from tutor.judge.events import WAITING, CheckFinished, Event, Progress, ResourcesUsed
 from tutor.judge.result import Report
 from tutor.session.engine_child import EngineChild
@@ -95,7 +96,7 @@ async def _run(unit: Unit, path: Path, cwd: Path, on_event: OnEvent) -> Outcome:
     finally:
         await child.stop()
     if report is not None:
-        return Outcome(report, cpu_s)
+        return Outcome(private_paths.clean(report), cpu_s)
     tail = next((line for line in reversed(child.output_tail) if line.strip()), "")
     return Outcome(None, fault=tail or f"the check's process ended with exit code {code}")
 
