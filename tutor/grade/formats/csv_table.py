@@ -22,9 +22,15 @@ COLUMNS = (
     "mistakes",
 )
 
+_FORMULA = ("=", "+", "-", "@", "\uff1d", "\uff0b", "\uff0d", "\uff20")
+"""What begins a formula; the full-width forms do in Japanese."""
 
-def render(gradebook: Gradebook) -> str:
-    """Render UTF-8 text with a header line. `score` is empty where a fault of the tool left the work unjudged."""
+
+def render(gradebook: Gradebook, template: str | None = None) -> str:
+    """Render UTF-8 text with a header line. `score` is empty where a fault of the tool left the work unjudged.
+
+    `failed`: the required criteria that were not met, those included that were skipped because of another.
+    """
     out = StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(COLUMNS)
@@ -36,7 +42,11 @@ def render(gradebook: Gradebook) -> str:
             judged = result.judged
             criteria = judged.criteria if judged is not None else ()
             passed = [criterion.id for criterion in criteria if criterion.verdict.passed]
-            failed = [criterion.id for criterion in criteria if not criterion.verdict.passed and not criterion.bonus]
+            failed = [
+                criterion.id
+                for criterion, worth in zip(criteria, score.criteria, strict=True)
+                if not criterion.verdict.passed and not criterion.bonus and worth.score is not None
+            ]
             row = (
                 learner.id,
                 learner.name,
@@ -62,4 +72,4 @@ def number(value: float) -> str:
 def as_text(cell: str) -> str:
     """Return a cell that no spreadsheet takes for a formula, without control characters."""
     text = printable(cell)
-    return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t")) else text
+    return f"'{text}" if text.lstrip().startswith(_FORMULA) else text
