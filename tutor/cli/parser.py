@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 from tutor.cli import (
     author,
+    autograder,
     check,
     checklist,
     completion,
@@ -87,6 +88,7 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     add("doctor", doctor.run, doctor.add_arguments, "say which ROS is used, and what is wrong with the machine")
     add("help", help_command.run, help_command.add_arguments, "show the help for a command, or all commands")
     add("grade", grade.run, grade.add_arguments, "check a whole class, with points, for teachers")
+    add("autograder", autograder.run, autograder.add_arguments, "make what Gradescope or Classroom 50 runs")
     add("author", author.run, author.add_arguments, "verify a course, for course authors")
     return parser
 
