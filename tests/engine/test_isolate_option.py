@@ -18,6 +18,7 @@ import pytest
 
 from tests.report.shape import assert_report_shape
 from tests.ros.own_network import OWN_NETWORK, needs_own_network
+from tutor import private_folders
 from tutor.content import load_course
 from tutor.interpreter import module_command
 from tutor.judge.events import WAITING
@@ -246,6 +247,18 @@ def test_a_submissions_changes_to_its_own_files_are_undone(tmp_path: Path) -> No
     code, report, stderr = check(str(tmp_path), "--isolate", "--criterion", "publishes")
     assert code == 0, (report, stderr)
     assert (tmp_path / FILE).read_text() == source
+
+
+@pytest.mark.usefixtures("isolation")
+def test_a_launch_file_in_a_private_folder_is_not_swept_away_by_the_launch() -> None:
+    """Where `grade` unpacks submissions. Programs of ours remove what is in such folders, and not in use."""
+    with private_folders.temporary("grade") as folder:
+        shutil.copytree(load_course().find("i2.2").folder / "solution", folder / "submission")
+        words = ["check", "i2.2", str(folder / "submission"), "--isolate", "--criterion", "starts"]
+        ran = subprocess.run(
+            [*module_command("tutor"), *words], capture_output=True, text=True, timeout=120, check=False
+        )
+    assert ran.returncode == 0, ran.stdout
 
 
 @pytest.mark.usefixtures("isolation")

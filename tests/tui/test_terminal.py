@@ -9,8 +9,6 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 from tests.benchmarks.terminal import Terminal
 from tests.tui import fakes
 from tests.tui.conftest import is_alive

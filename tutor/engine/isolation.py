@@ -28,6 +28,10 @@ and the processes and threads of a submission: of all its runs together, which a
 DISK_MB, FILES = 256, 10_000
 """Limits on all that a submission writes, which is in memory."""
 
+TEMPORARY = Path("/tmp/isolated")
+"""Where a submission's programs make temporary files. Not in /tmp itself, where its own folder may be: programs of ours
+would take that for the leftovers of a killed process, since its lock is outside."""
+
 _SYSTEM_FOLDERS = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/opt/ros")
 _ETC_FILES = ("ld.so.cache", "alternatives", "passwd", "group", "hosts", "nsswitch.conf", "localtime", "timezone")
 _NAMESPACES = ("--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try")
@@ -136,7 +140,7 @@ def restrict_environment(env: dict[str, str]) -> None:
     for name in set(env) - _VARIABLES:
         if not name.startswith(_VARIABLE_PREFIXES):
             del env[name]
-    env |= {"HOME": "/tmp", "TMPDIR": "/tmp"}
+    env |= {"HOME": "/tmp", "TMPDIR": str(TEMPORARY)}
 
 
 def readable_folders(env: Mapping[str, str]) -> Iterator[Path]:

@@ -17,7 +17,7 @@ from typing import Self
 
 from tutor import private_folders
 from tutor.engine.forking import node_env, start_fork_server
-from tutor.engine.isolation import DISK_MB, FILES, Isolation, readable_folders, restrict_environment
+from tutor.engine.isolation import DISK_MB, FILES, TEMPORARY, Isolation, readable_folders, restrict_environment
 from tutor.errors import EngineError
 from tutor.process import namespaces
 from tutor.process.fork_link import ForkServerLink
@@ -48,7 +48,7 @@ class Sandbox:
         self._logs = disk / "logs"
         self._given = disk / "given"
         copy, tmp, shm = disk / "submission", disk / "tmp", disk / "shm"
-        for each in (self._logs, self._given, tmp, shm):
+        for each in (self._logs, self._given, tmp, tmp / TEMPORARY.relative_to("/tmp"), shm):
             each.mkdir()
         _copy_submission(folder, copy)
         env = node_env(ros, 0, Path(os.devnull), None)
