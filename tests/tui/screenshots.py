@@ -258,6 +258,15 @@ class Album:
             assert result is not None
             assert (result.verdict is Status.PASSED) == passing
             await self.take(pilot, "passed" if passing else "failed")
+            if passing:
+                await pilot.press("V")
+                await pilot.pause(0.5)
+                await self.take(pilot, "solution")
+                await pilot.press("z")
+                await pilot.pause(0.3)
+                await self.take(pilot, "solution-zoomed")
+                await pilot.press("z", "escape")
+                await pilot.pause(0.2)
             await pilot.press("6")
             await pilot.pause(0.3)
             await self.take(pilot, "checklist" if passing else "checklist-begun")
