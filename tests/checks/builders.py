@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from tutor.judge.check import Check
+from tutor.judge.check import Check, EarlyJudge, Judge
 from tutor.judge.trace import CallAnswer, Ending, Exit, LogRecord, OutputLine, Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Failure, Status, Undecided, Verdict
@@ -146,6 +146,17 @@ def assert_passed(verdict: Verdict | None) -> None:
 
 def assert_undecided(verdict: Verdict) -> None:
     assert isinstance(verdict, Undecided), verdict
+
+
+def judge_of(check: Check, criterion: str) -> Judge:
+    """The judge of a criterion."""
+    return next(each.judge for each in check.criteria if each.id == criterion)
+
+
+def early_judge_of(check: Check, criterion: str) -> EarlyJudge:
+    """The early judge of a criterion that has one."""
+    ((_, judge),) = next(each.early for each in check.criteria if each.id == criterion)
+    return judge
 
 
 def explained(verdict: Verdict, check: Check) -> Verdict:

@@ -11,31 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i1_1 import CHECK
-from checks.i1_1.facts import (
-    MATCHED_S,
-    TOPIC,
-    TYPE,
-    UNITS,
-    CollectedValues,
-    NameProbe,
-    NameProbes,
-    PlainStart,
-    RateProbe,
-    RateProbes,
-    are_inverted,
-    possible_units,
-)
-from checks.i1_1.judges import (
-    judge_echo,
-    judge_name,
-    judge_publishes,
-    judge_random,
-    judge_range,
-    judge_range_so_far,
-    judge_rate,
-    judge_shutdown,
-)
+from checks.i1_1_sensor_publisher import CHECK, TEMPERATURE
 from tests.checks import builders
 from tests.checks.builders import (
     CRASHED,
@@ -45,19 +21,35 @@ from tests.checks.builders import (
     START,
     assert_passed,
     assert_skipped,
+    early_judge_of,
     ending,
     graph,
+    judge_of,
     log,
     parameter,
     sample,
     samples,
     trace,
 )
+from tutor.exercise.logs_parameter import NameProbe, NameProbes
+from tutor.exercise.publishing import MATCHED_S, PublishingRun
+from tutor.exercise.rate_units import UNITS, RateProbe, RateProbes, are_inverted, possible_units
+from tutor.exercise.values import CollectedValues
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Echo, Trace
 from tutor.ros_model import Parameter, QoS, TopicEndpoint
 
+TOPIC, TYPE = TEMPERATURE.name, TEMPERATURE.type
+
 assert_failed = partial(builders.assert_failed, check=CHECK)
+
+judge_publishes = judge_of(CHECK, "publishes")
+judge_range, judge_range_so_far = judge_of(CHECK, "range"), early_judge_of(CHECK, "range")
+judge_random = judge_of(CHECK, "random")
+judge_echo = judge_of(CHECK, "echo")
+judge_rate = judge_of(CHECK, "rate")
+judge_name = judge_of(CHECK, "sensor-name")
+judge_shutdown = judge_of(CHECK, "shutdown")
 
 PUBLISHING = graph(publishers={TOPIC: TYPE})
 MESSAGES = samples(TOPIC, 2.0, data=23.5)
@@ -67,9 +59,9 @@ def echo(*types: str, shown: bool = True) -> Echo:
     return Echo(TOPIC, types, QoS(), MESSAGES[:1] if shown else (), 14.0)
 
 
-def plain_start(seen: Trace, **more: Any) -> PlainStart:
+def plain_start(seen: Trace, **more: Any) -> PublishingRun:
     facts = {"parameters": (), "echo": echo(TYPE), "ending": ending(0), **more}
-    return PlainStart(seen, **facts)
+    return PublishingRun(TOPIC, seen, **facts)
 
 
 @pytest.mark.parametrize("parameters", [None, ()])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from checks.i1_1.log_calls import logs_the_same_on_each_message
+from tutor.exercise.log_calls import logs_the_same_on_each_message
 
 NODE = """\
 import random

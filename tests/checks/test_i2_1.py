@@ -10,32 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i2_1 import CHECK
-from checks.i2_1.facts import (
-    BAD_RATES,
-    DOWN_HZ,
-    ENABLED,
-    LAUNCH_HZ,
-    PREFIX,
-    RATE,
-    SLOW_LAUNCH_HZ,
-    TOPIC,
-    TYPE,
-    UP_HZ,
-    VALIDATION_HZ,
-    AtomicRequests,
-    BadRates,
-    DisabledStart,
-    ParameterStarts,
-    PlainStart,
-    RateChanges,
-    RatedStart,
-    RuntimeChanges,
-    messages_naming_rate,
-)
-from checks.i2_1.judges import judge_bad_launch, judge_defaults, judge_launch, judge_launch_so_far, judge_shutdown
-from checks.i2_1.runtime import judge_changes, judge_runtime, judge_timer
-from checks.i2_1.validation import judge_atomic, judge_validation, judge_validation_so_far
+from checks.i2_1_parameterized_publisher import BAD_RATES, CHATTER, CHECK
 from tests.checks import builders
 from tests.checks.builders import (
     CRASH,
@@ -46,9 +21,11 @@ from tests.checks.builders import (
     answer,
     assert_passed,
     assert_skipped,
+    early_judge_of,
     ending,
     exited,
     graph,
+    judge_of,
     log,
     parameter,
     refused,
@@ -57,12 +34,33 @@ from tests.checks.builders import (
     trace,
 )
 from tests.judge.crashes import crash
+from tutor.exercise.bad_values import AtomicRequests, BadValues
+from tutor.exercise.defaults import DeclaringRun
+from tutor.exercise.names_bad_value import messages_naming
+from tutor.exercise.rate_at_run_time import RateChanges
+from tutor.exercise.run_time_changes import RunTimeChanges
+from tutor.exercise.set_at_start import PublishingStarted, SilentStarted, StartedWithParameters
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import Parameter
 
+TOPIC, TYPE = CHATTER.name, CHATTER.type
+PREFIX, RATE, ENABLED = "message_prefix", "publish_rate", "enabled"
+LAUNCH_HZ, SLOW_LAUNCH_HZ = 5.0, 1.5
+UP_HZ, DOWN_HZ = 10.0, 0.75
+VALIDATION_HZ = 3.0
+
 assert_failed = partial(builders.assert_failed, check=CHECK)
+
+judge_defaults = judge_of(CHECK, "defaults")
+judge_launch, judge_launch_so_far = judge_of(CHECK, "launch-params"), early_judge_of(CHECK, "launch-params")
+judge_runtime, judge_changes = judge_of(CHECK, "runtime-params"), early_judge_of(CHECK, "runtime-params")
+judge_validation, judge_validation_so_far = judge_of(CHECK, "validation"), early_judge_of(CHECK, "validation")
+judge_timer = judge_of(CHECK, "timer")
+judge_atomic = judge_of(CHECK, "atomic")
+judge_bad_launch = judge_of(CHECK, "launch-validation")
+judge_shutdown = judge_of(CHECK, "shutdown")
 
 PUBLISHING = graph(publishers={TOPIC: TYPE})
 RUNNING = trace(*samples(TOPIC, 1.0), graph=PUBLISHING)
@@ -80,8 +78,8 @@ def rate(hz: float) -> Rate:
 GOOD = (parameter(PREFIX, "string", "Hello"), parameter(RATE, "double", 1.0), parameter(ENABLED, "boolean", True))
 
 
-def plain_start(parameters: tuple[Parameter, ...] | None = GOOD, seen: Trace = RUNNING, **more: Any) -> PlainStart:
-    return PlainStart(seen, parameters, more.get("ending", ending(0)))
+def plain_start(parameters: tuple[Parameter, ...] | None = GOOD, seen: Trace = RUNNING, **more: Any) -> DeclaringRun:
+    return DeclaringRun(seen, parameters, more.get("ending", ending(0)))
 
 
 @pytest.mark.parametrize("parameters", [GOOD, tuple(reversed(GOOD)), (*GOOD, parameter("more", "integer", 3))])
@@ -110,7 +108,7 @@ def good_except(wrong: Parameter) -> tuple[Parameter, ...]:
         (plain_start(good_except(parameter(ENABLED, "boolean", False))), "wrong default", "as false, not as true"),
     ],
 )
-def test_defaults_fail(found: PlainStart, cause: str, word: str) -> None:
+def test_defaults_fail(found: DeclaringRun, cause: str, word: str) -> None:
     assert_failed(judge_defaults(found), cause, word)
 
 
@@ -126,15 +124,13 @@ def parameter_starts(
     first_after_enable: Sample | None = None,
     slow_hz: float | None = SLOW_LAUNCH_HZ,
     slow: Trace = RUNNING,
-) -> ParameterStarts:
+) -> StartedWithParameters:
     seen = loud or trace(*samples(TOPIC, LAUNCH_HZ, data=data_sent), graph=PUBLISHING)
     enabled = None if reported is None else parameter(ENABLED, "boolean", reported)
     slow_rate = rate(slow_hz) if slow_hz else None
-    return ParameterStarts(
-        "Ahoy7",
-        RatedStart(seen, rate(hz) if hz else None, 10),
-        RatedStart(slow, slow_rate, 4),
-        DisabledStart(disabled, enabled, 2.2, first_after_enable),
+    fast = PublishingStarted(seen, rate(hz) if hz else None, 10)
+    return StartedWithParameters(
+        (fast, PublishingStarted(slow, slow_rate, 4)), (SilentStarted(disabled, enabled, 2.2, first_after_enable),)
     )
 
 
@@ -157,7 +153,7 @@ OLD_PREFIX_LAST = trace(*PREFIXED, sample(TOPIC, "Hello 11", 1004.0), graph=PUBL
         parameter_starts(loud=OLD_PREFIX_FIRST),
     ],
 )
-def test_launch_passes(found: ParameterStarts) -> None:
+def test_launch_passes(found: StartedWithParameters) -> None:
     assert_passed(judge_launch(found))
 
 
@@ -200,20 +196,20 @@ def test_launch_passes(found: ParameterStarts) -> None:
         ),
     ],
 )
-def test_launch_fails(found: ParameterStarts, cause: str, word: str) -> None:
+def test_launch_fails(found: StartedWithParameters, cause: str, word: str) -> None:
     assert_failed(judge_launch(found), cause, word)
 
 
 @pytest.mark.parametrize(
     ("fast", "cause"),
     [
-        (RatedStart(CRASHED, None, 0), "unhandled exception"),
-        (RatedStart(SILENT, None, 0), "no messages"),
-        (RatedStart(RUNNING, rate(LAUNCH_HZ), 10), "parameter ignored"),
+        (PublishingStarted(CRASHED, None, 0), "unhandled exception"),
+        (PublishingStarted(SILENT, None, 0), "no messages"),
+        (PublishingStarted(RUNNING, rate(LAUNCH_HZ), 10), "parameter ignored"),
     ],
 )
-def test_a_fast_start_alone_fails_launch(fast: RatedStart, cause: str) -> None:
-    verdict = judge_launch_so_far(ParameterStarts("Ahoy7", fast))
+def test_a_fast_start_alone_fails_launch(fast: PublishingStarted, cause: str) -> None:
+    verdict = judge_launch_so_far(StartedWithParameters((fast, None), (None,)))
     assert verdict is not None
     assert_failed(verdict, cause)
 
@@ -221,27 +217,36 @@ def test_a_fast_start_alone_fails_launch(fast: RatedStart, cause: str) -> None:
 @pytest.mark.parametrize(
     ("fast", "cause"),
     [
-        (RatedStart(trace(*PREFIXED, graph=graph(("/node",) * 2)), rate(10.0), 10), "second node of the same name"),
-        (RatedStart(trace(*PREFIXED, graph=PUBLISHING), Rate(10.0, 20, 1.9, 0.01), 20), "messages in bursts"),
+        (
+            PublishingStarted(trace(*PREFIXED, graph=graph(("/node",) * 2)), rate(10.0), 10),
+            "second node of the same name",
+        ),
+        (PublishingStarted(trace(*PREFIXED, graph=PUBLISHING), Rate(10.0, 20, 1.9, 0.01), 20), "messages in bursts"),
     ],
 )
 def test_a_wrong_rate_at_start_up_has_a_cause_that_does_not_depend_on_the_other_start(
-    fast: RatedStart, cause: str
+    fast: PublishingStarted, cause: str
 ) -> None:
-    assert_failed(judge_launch(replace(parameter_starts(), fast=fast)), cause)
+    assert_failed(
+        judge_launch(replace(parameter_starts(), publishing=(fast, *parameter_starts().publishing[1:]))), cause
+    )
 
 
 @pytest.mark.parametrize(
     "found",
     [
-        ParameterStarts("Ahoy7", slow=RatedStart(CRASHED, None, 0)),  # the fast start may fail for a clearer cause
-        ParameterStarts("Ahoy7", RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(LAUNCH_HZ), 10)),
-        ParameterStarts("Ahoy7", RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(1.0), 10)),
+        StartedWithParameters(
+            (None, PublishingStarted(CRASHED, None, 0)), (None,)
+        ),  # the fast start may fail for a clearer cause
+        StartedWithParameters(
+            (PublishingStarted(trace(*PREFIXED, graph=PUBLISHING), rate(LAUNCH_HZ), 10), None), (None,)
+        ),
+        StartedWithParameters((PublishingStarted(trace(*PREFIXED, graph=PUBLISHING), rate(1.0), 10), None), (None,)),
         # With 2 Hz in the slow start, too, it is the rate that is ignored.
-        ParameterStarts("Ahoy7", RatedStart(trace(*PREFIXED, graph=PUBLISHING), rate(2.0), 10)),
+        StartedWithParameters((PublishingStarted(trace(*PREFIXED, graph=PUBLISHING), rate(2.0), 10), None), (None,)),
     ],
 )
-def test_launch_is_left_open_until_all_starts_have_ended(found: ParameterStarts) -> None:
+def test_launch_is_left_open_until_all_starts_have_ended(found: StartedWithParameters) -> None:
     assert judge_launch_so_far(found) is None
 
 
@@ -278,11 +283,11 @@ def test_a_second_timer_is_found_whichever_start_shows_it(hz: float, slow_hz: fl
 AFTER_RESUME = samples(TOPIC, 1.0, count=3, data="Gruezi9 5")
 
 
-def runtime_changes(**changes: Any) -> RuntimeChanges:
+def runtime_changes(**changes: Any) -> RunTimeChanges:
     facts: dict[str, Any] = {
         "trace": RUNNING,
-        "set_prefix": answer({PREFIX: "Servus7"}),
-        "after_prefix": sample(TOPIC, "Servus7 3", 1003.0),
+        "set_value": answer({PREFIX: "Servus7"}),
+        "after_value": sample(TOPIC, "Servus7 3", 1003.0),
         "set_off": answer({ENABLED: False}),
         "set_later": answer({PREFIX: "Gruezi9"}),
         "set_on": answer({ENABLED: True}),
@@ -292,7 +297,7 @@ def runtime_changes(**changes: Any) -> RuntimeChanges:
         "rate": rate(1.0),
         **changes,
     }
-    return RuntimeChanges(**facts)
+    return RunTimeChanges(**facts)
 
 
 STOPPED_EARLY = runtime_changes(set_later=None, set_on=None, resumed=None, after_resume=(), rate=None)
@@ -308,13 +313,13 @@ def not_set(reason: str, answered: bool = True) -> SetAnswer:
 WRONG_TYPE = "Wrong parameter type, expected 'Type.STRING' got 'Type.BOOL'"
 
 
-def judge_with_timer(seen: RuntimeChanges, timer: RateChanges | None = None) -> Verdict:
+def judge_with_timer(seen: RunTimeChanges, timer: RateChanges | None = None) -> Verdict:
     return judge_runtime(seen, timer or rate_changes())
 
 
 def test_runtime_passes() -> None:
     assert_passed(judge_with_timer(runtime_changes()))
-    assert_passed(judge_with_timer(runtime_changes(after_prefix=sample(TOPIC, "say Servus7", 1003.0))))
+    assert_passed(judge_with_timer(runtime_changes(after_value=sample(TOPIC, "say Servus7", 1003.0))))
     assert_passed(judge_with_timer(runtime_changes(after_resume=samples(TOPIC, 1.0, data="Gruezi9: Hello World"))))
     assert_passed(judge_with_timer(runtime_changes(rate=rate(2.1), base_hz=2.0)))
 
@@ -353,16 +358,16 @@ def test_a_timer_that_a_rate_change_also_leaves_behind_is_reported_once() -> Non
 @pytest.mark.parametrize(
     ("found", "cause", "word"),
     [
-        (RuntimeChanges(CRASHED), "unhandled exception", "to start with"),
-        (RuntimeChanges(SILENT), "no spin", ""),
-        (RuntimeChanges(RUNNING), "no spin", "no parameter call"),
-        (runtime_changes(set_prefix=not_set("", answered=False)), "no answer", "no answer in 5 s"),
+        (RunTimeChanges(CRASHED), "unhandled exception", "to start with"),
+        (RunTimeChanges(SILENT), "no spin", ""),
+        (RunTimeChanges(RUNNING), "no spin", "no parameter call"),
+        (runtime_changes(set_value=not_set("", answered=False)), "no answer", "no answer in 5 s"),
         (runtime_changes(set_off=not_set("", answered=False), trace=BROKEN_LATER), "unhandled exception", "line 12"),
         (runtime_changes(set_off=not_set("Callback returned an invalid type")), "callback returns None", ""),
         (runtime_changes(set_off=not_set(WRONG_TYPE)), "wrong parameter type", "is of type string, not boolean"),
         (runtime_changes(set_on=not_set("enabled has not been declared")), "parameter not declared", ""),
         (runtime_changes(set_on=not_set("no way")), "good value refused", "no way"),
-        (runtime_changes(after_prefix=None), "parameter ignored", 'still read "Hello"'),
+        (runtime_changes(after_value=None), "parameter ignored", 'still read "Hello"'),
         (runtime_changes(sent_while_off=samples(TOPIC, 1.0, count=2)), "parameter ignored", "2 messages"),
         (runtime_changes(set_later=not_set("no way")), "good value refused", "no way"),
         (runtime_changes(set_later=not_set("", answered=False), set_on=None), "no answer", "no answer in 5 s"),
@@ -385,21 +390,21 @@ def test_a_timer_that_a_rate_change_also_leaves_behind_is_reported_once() -> Non
         (runtime_changes(resumed=None, trace=BROKEN_LATER), "unhandled exception", "line 12"),
     ],
 )
-def test_runtime_fails(found: RuntimeChanges, cause: str, word: str) -> None:
+def test_runtime_fails(found: RunTimeChanges, cause: str, word: str) -> None:
     assert_failed(judge_with_timer(found), cause, word)
 
 
 @pytest.mark.parametrize(
     ("found", "cause"),
     [
-        (replace(STOPPED_EARLY, set_prefix=not_set("no way"), after_prefix=None, set_off=None), "good value refused"),
-        (replace(STOPPED_EARLY, after_prefix=None, set_off=None), "parameter ignored"),
+        (replace(STOPPED_EARLY, set_value=not_set("no way"), after_value=None, set_off=None), "good value refused"),
+        (replace(STOPPED_EARLY, after_value=None, set_off=None), "parameter ignored"),
         (replace(STOPPED_EARLY, set_off=not_set("no way")), "good value refused"),
         (replace(STOPPED_EARLY, sent_while_off=tuple(samples(TOPIC, 1.0, count=2))), "parameter ignored"),
         (runtime_changes(after_resume=samples(TOPIC, 1.0, data="Hello 5")), "parameter ignored"),
     ],
 )
-def test_a_change_without_effect_fails_whatever_follows(found: RuntimeChanges, cause: str) -> None:
+def test_a_change_without_effect_fails_whatever_follows(found: RunTimeChanges, cause: str) -> None:
     for verdict in (judge_changes(found), judge_with_timer(found), judge_with_timer(found, rate_changes(UP_HZ, None))):
         assert_failed(verdict, cause)
 
@@ -414,8 +419,10 @@ def test_a_changed_rate_is_judged_only_with_the_timer() -> None:
 REFUSED = tuple((refused({RATE: bad}), 1.0) for bad in BAD_RATES)
 
 
-def bad_rates(*rejected: tuple[SetAnswer, Any], hz: float | None = 1.0, seen: Trace = RUNNING, **more: Any) -> BadRates:
-    return BadRates(seen, rejected=rejected or REFUSED, rate=rate(hz) if hz else None, messages=4, **more)
+def bad_rates(
+    *rejected: tuple[SetAnswer, Any], hz: float | None = 1.0, seen: Trace = RUNNING, **more: Any
+) -> BadValues:
+    return BadValues(seen, rejected=rejected or REFUSED, rate=rate(hz) if hz else None, messages=4, **more)
 
 
 @pytest.mark.parametrize(
@@ -435,7 +442,7 @@ def bad_rates(*rejected: tuple[SetAnswer, Any], hz: float | None = 1.0, seen: Tr
         ),
     ],
 )
-def test_validation_passes(found: BadRates) -> None:
+def test_validation_passes(found: BadValues) -> None:
     assert_passed(judge_validation(found, WITHOUT_RATE_BEFORE))
 
 
@@ -462,10 +469,10 @@ def test_validation_is_not_judged_where_a_good_rate_is_rejected() -> None:
 
 def test_answers_that_are_right_so_far_pass() -> None:
     assert_passed(judge_validation_so_far(bad_rates(hz=None)))
-    assert_passed(judge_validation_so_far(BadRates(RUNNING, rejected=REFUSED[:1])))
+    assert_passed(judge_validation_so_far(BadValues(RUNNING, rejected=REFUSED[:1])))
 
 
-def bad_rates_with(which: SetAnswer, value: Any = 1.0) -> BadRates:
+def bad_rates_with(which: SetAnswer, value: Any = 1.0) -> BadValues:
     return bad_rates(REFUSED[0], (which, value))
 
 
@@ -475,8 +482,8 @@ BAD = {RATE: -1.0}
 @pytest.mark.parametrize(
     ("found", "cause", "word"),
     [
-        (BadRates(CRASHED), "unhandled exception", ""),
-        (BadRates(RUNNING), "no spin", ""),
+        (BadValues(CRASHED), "unhandled exception", ""),
+        (BadValues(RUNNING), "no spin", ""),
         (bad_rates_with(answer(BAD)), "no validation", "-1.0 was accepted"),
         (bad_rates((answer({RATE: 0.0}), 0.0)), "no validation", "0.0 was accepted"),
         (bad_rates_with(refused(BAD, "")), "no reason given", "-1.0"),
@@ -513,7 +520,7 @@ BAD = {RATE: -1.0}
         (bad_rates(hz=None, seen=BROKEN_LATER), "unhandled exception", "line 12"),
     ],
 )
-def test_validation_fails(found: BadRates, cause: str, word: str) -> None:
+def test_validation_fails(found: BadValues, cause: str, word: str) -> None:
     assert_failed(judge_validation(found, WITHOUT_RATE_BEFORE), cause, word)
 
 
@@ -588,7 +595,9 @@ def test_a_rate_that_was_never_right_only_has_to_stay() -> None:
     assert_failed(judge_validation(bad_rates(hz=5.0), fixed), "value changed all the same")
     assert_failed(judge_validation(bad_rates(hz=None), fixed), "value changed all the same")
     refused_at = [(answer, VALIDATION_HZ) for answer, _ in REFUSED]
-    fallen = bad_rates(*refused_at, hz=1.0, base_hz=VALIDATION_HZ, before=VALIDATION_HZ)
+    fallen = bad_rates(
+        *refused_at, hz=1.0, base_hz=VALIDATION_HZ, before=VALIDATION_HZ, rate_before=rate(VALIDATION_HZ)
+    )
     assert_failed(judge_validation(fallen, runtime_changes()), "value changed all the same")
 
 
@@ -627,7 +636,7 @@ def test_atomic_fails(found: AtomicRequests, cause: str, word: str) -> None:
 def test_atomic_is_not_judged_where_good_values_are_rejected(prefix_set: bool, rate_set: bool, see: str) -> None:
     good = {PREFIX: "Whole1", RATE: 3.0}
     found = atomic_requests(set_good=refused(good, WRONG_TYPE))
-    switched = runtime_changes(set_prefix=answer({PREFIX: "a"}, successful=prefix_set))
+    switched = runtime_changes(set_value=answer({PREFIX: "a"}, successful=prefix_set))
     retimed = RateChanges(RUNNING, ((answer({RATE: 10.0}, successful=rate_set), None, 0),))
     verdict = judge_atomic(found, switched, retimed)
     assert verdict.status is Status.SKIPPED
@@ -637,7 +646,7 @@ def test_atomic_is_not_judged_where_good_values_are_rejected(prefix_set: bool, r
 
 
 COMPLAINT = "publish_rate must be > 0"
-TOOK_RATE = ParameterStarts("Ahoy7", RatedStart(RUNNING, rate(LAUNCH_HZ), 10, took_rate=True))
+TOOK_RATE = StartedWithParameters((PublishingStarted(RUNNING, rate(LAUNCH_HZ), 10, took_rate=True), None), (None,))
 
 
 def start(bad: float, **more: Any) -> Trace:
@@ -704,7 +713,7 @@ def test_bad_launch_fails(seen: list[Trace], cause: str, word: str) -> None:
 
 def test_messages_naming_the_rate() -> None:
     seen = trace(logs=[log("publish_rate 1"), log("rate 2")], out="my publish_rate", err=crash("publish_rate"))
-    assert messages_naming_rate(seen) == [
+    assert messages_naming(RATE, seen) == [
         "publish_rate 1",
         "my publish_rate",
         "NameError: name 'publish_rate' is not defined",
@@ -715,6 +724,6 @@ def test_shutdown() -> None:
     assert_passed(judge_shutdown(plain_start()))
     assert_passed(judge_shutdown(plain_start(ending=ending(130))))
     assert_failed(judge_shutdown(plain_start(ending=ending(1, err=KEYBOARD_INTERRUPT))), "traceback on exit")
-    assert_skipped(judge_shutdown(plain_start(seen=CRASHED, ending=None)), "`runtime-params` shows why")
+    assert_skipped(judge_shutdown(plain_start(seen=CRASHED, ending=None)), "`launch-params` shows why")
     silent = replace(plain_start(seen=CRASHED, ending=None), parameters=None)
     assert_skipped(judge_shutdown(silent), "`defaults` shows why")

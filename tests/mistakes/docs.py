@@ -50,6 +50,8 @@ PAGE_OF = {
     "creation": "topics",
     "messages": "topics",
     "qos": "topics",
+    "published_values": "topics",
+    "stopped_topics": "topics",
     "topics": "topics",
     "bad_values": "parameters",
     "parameter": "parameters",

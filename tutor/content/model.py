@@ -75,10 +75,16 @@ class Lesson:
 
     @property
     def check(self) -> Path:
-        """The package or module that judges this exercise, in the `checks` folder beside the `lessons` folder."""
-        name = self.folder.parent.parent / "checks" / self.folder.name
-        package = name / "__init__.py"
-        return package if package.is_file() else name.with_name(f"{name.name}.py")
+        """The module or package that judges this exercise, in the `checks` folder beside the `lessons` folder.
+
+        It has the name of the lesson's folder, which may go on with what the exercise is: i1_1_sensor_publisher.py.
+        """
+        folder, name = self.folder.parent.parent / "checks", self.folder.name
+        found = [path for pattern in (name, f"{name}_*") for path in sorted(folder.glob(pattern)) if path.is_dir()]
+        packages = [path / "__init__.py" for path in found]
+        modules = [path for pattern in (name, f"{name}_*") for path in sorted(folder.glob(f"{pattern}.py"))]
+        existing = [path for path in (*packages, *modules) if path.is_file()]
+        return existing[0] if existing else folder / f"{name}.py"
 
 
 @dataclass(frozen=True, slots=True)

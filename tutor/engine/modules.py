@@ -26,7 +26,7 @@ def load_check(lesson: Lesson) -> Check:
     if not source.is_file():
         raise EngineError(f"there is no check for {lesson.id}: {source} is missing", f"write {source}")
     try:
-        check = getattr(_import_check(lesson.folder.name, source), "CHECK", None)
+        check = getattr(_import_check(source), "CHECK", None)
     except TableError as error:
         raise EngineError(f"the check of {lesson.id} has a table that cannot be used: {error}", "fix it") from error
     except Exception as error:
@@ -64,11 +64,12 @@ def _load_catalogue(check: Check) -> Catalogue:
     return catalogue
 
 
-def _import_check(name: str, source: Path) -> ModuleType:
+def _import_check(source: Path) -> ModuleType:
     """Import `checks.NAME`, from our own course or from another, whose folder is put first in the package's path."""
     import checks
 
-    folder = str((source.parent.parent if source.name == "__init__.py" else source.parent).resolve())
+    path = source.parent if source.name == "__init__.py" else source
+    name, folder = path.stem, str(path.parent.resolve())
     checks.__path__[:] = [folder, *(path for path in checks.__path__ if path != folder)]
     loaded = sys.modules.get(f"checks.{name}")
     if loaded is not None and Path(loaded.__file__ or "") != source.resolve():  # from a course loaded before

@@ -234,7 +234,7 @@ class Runner:
         for criterion in self._check.criteria:
             early = self._early.get(criterion.id)
             for source, judge in criterion.early:
-                if early is None or early.done() or source is not scenario:
+                if early is None or early.done() or source != scenario:
                     continue
                 verdict = judge(facts)
                 if verdict is not None and verdict.status is Status.FAILED:

@@ -4,6 +4,7 @@ Among entries with the same kind of evidence, the earlier one is asked first.
 """
 
 # ruff: noqa: I001
+from tutor.mistakes.themes import stopped_topics as stopped_topics
 from tutor.mistakes.themes import clients as clients
 from tutor.mistakes.themes import answers as answers
 from tutor.mistakes.themes import missing_attributes as missing_attributes
@@ -28,9 +29,11 @@ from tutor.mistakes.themes import launch_nodes as launch_nodes
 from tutor.mistakes.themes import nodes as nodes
 from tutor.mistakes.themes import parentheses as parentheses
 from tutor.mistakes.themes import messages as messages
+from tutor.mistakes.themes import published_values as published_values
 from tutor.mistakes.themes import qos as qos
 from tutor.mistakes.themes import topics as topics
 from tutor.mistakes.themes import timer_periods as timer_periods
+from tutor.mistakes.themes import parameter_effects as parameter_effects
 from tutor.mistakes.themes import timer_delays as timer_delays
 from tutor.mistakes.themes import replaced_timers as replaced_timers
 from tutor.mistakes.themes import timers as timers

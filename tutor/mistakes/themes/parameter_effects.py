@@ -1,14 +1,12 @@
-"""I2.1: the mistakes in what a parameter does, which only this exercise can see."""
+"""Parameters that are set on a running node, and have an effect that they should not have."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from tutor.judge.symptom import Symptom
-from tutor.mistakes import Case, Catalogue, Evidence, Found
+from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-
-CATALOGUE = Catalogue()
 
 
 def _seen(case: Case, how: str) -> Iterator[Found]:
@@ -16,7 +14,7 @@ def _seen(case: Case, how: str) -> Iterator[Found]:
         yield Found({"name": case.about("parameter")})
 
 
-@CATALOGUE.mistake(
+@mistake(
     "does-not-resume",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
@@ -46,7 +44,7 @@ def does_not_resume(case: Case) -> Iterator[Found]:
     return _seen(case, "does not resume")
 
 
-@CATALOGUE.mistake(
+@mistake(
     "value-inverted",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.RUN,
@@ -73,7 +71,7 @@ def inverted(case: Case) -> Iterator[Found]:
     return _seen(case, "inverted")
 
 
-@CATALOGUE.mistake(
+@mistake(
     "messages-stop",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
@@ -104,7 +102,7 @@ def stops(case: Case) -> Iterator[Found]:
     return _seen(case, "stops")
 
 
-@CATALOGUE.mistake(
+@mistake(
     "restarted-by-another-parameter",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
@@ -133,7 +131,7 @@ def restarted(case: Case) -> Iterator[Found]:
     return _seen(case, "restarts")
 
 
-@CATALOGUE.mistake(
+@mistake(
     "old-value-kept-beside-the-new-one",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
@@ -159,7 +157,7 @@ def added(case: Case) -> Iterator[Found]:
     return _seen(case, "adds")
 
 
-@CATALOGUE.mistake(
+@mistake(
     "messages-held-back",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
@@ -186,7 +184,7 @@ def held_back(case: Case) -> Iterator[Found]:
     return _seen(case, "held back")
 
 
-@CATALOGUE.mistake(
+@mistake(
     "rate-changed-by-another-parameter",
     explains=[Symptom.CHANGE_IGNORED],
     evidence=Evidence.SYMPTOM,
@@ -217,7 +215,7 @@ def rate_changed(case: Case) -> Iterator[Found]:
     return _seen(case, "rate changed")
 
 
-@CATALOGUE.mistake(
+@mistake(
     "only-one-change-followed",
     explains=[Symptom.WRONG_RATE],
     evidence=Evidence.SYMPTOM,

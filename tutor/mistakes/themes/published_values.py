@@ -1,4 +1,4 @@
-"""I1.1: the mistakes in what is published, which only this exercise can know."""
+"""Values on a topic that are wrong: out of range, or not random."""
 
 from __future__ import annotations
 
@@ -8,17 +8,15 @@ from collections.abc import Iterator
 
 from tutor.judge.randomness import Pattern
 from tutor.judge.symptom import Symptom
-from tutor.mistakes import Case, Catalogue, Evidence, Found, found
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.themes.messages import field_values, is_int, narrow_float, unknown_field
 from tutor.source import NodeFile
 
-CATALOGUE = Catalogue()
-
 _DRAWING = ("uniform", "random", "randint", "randrange", "gauss", "normalvariate", "normal", "triangular", "choice")
 
 
-@CATALOGUE.mistake(
+@mistake(
     "int-in-a-float-field",
     name="an int in a float field",
     explains=[Symptom.WRONG_VALUES],
@@ -56,7 +54,7 @@ def int_in_float(case: Case) -> Iterator[Found]:
     yield Found({"what": "something that is no Python float, such as an int, is put into the message"})
 
 
-@CATALOGUE.mistake(
+@mistake(
     "initial-value-out-of-range",
     explains=[Symptom.WRONG_VALUES],
     says="{line}: the node starts with {value:g}, and publishes it before it draws a value: {code}",
@@ -99,13 +97,13 @@ def _is_set_to(node: ast.Assign, value: float) -> bool:
     return isinstance(node.targets[0], ast.Attribute) and isinstance(constant, int | float) and constant == value
 
 
-@CATALOGUE.mistake(
+@mistake(
     "out-of-range",
     explains=[Symptom.WRONG_VALUES],
     evidence=Evidence.SYMPTOM,
     says="{what}",
     do="Look at how a value is drawn, and at which numbers that can give.",
-    example=in_run(Symptom.WRONG_VALUES, wrong=(75.0,), lowest=3.0, highest=5.0, fahrenheit=True),
+    example=in_run(Symptom.WRONG_VALUES, wrong=(75.0,), lowest=3.0, highest=5.0, other_unit="degrees Fahrenheit"),
 )
 def out_of_range(case: Case) -> Iterator[Found]:
     """Values leave the range.
@@ -124,9 +122,9 @@ def out_of_range(case: Case) -> Iterator[Found]:
     See it: the plot in Live, which shows the range.
     """
     if case.about("wrong"):
-        lowest, highest = case.about("lowest"), case.about("highest")
+        lowest, highest, unit = case.about("lowest"), case.about("highest"), case.about("other_unit")
         what = f"some values are not in {lowest} to {highest}"
-        yield Found({"what": "these look like degrees Fahrenheit" if case.about("fahrenheit") else what})
+        yield Found({"what": f"these look like {unit}" if unit else what})
 
 
 def _pattern(case: Case, *names: str) -> Iterator[Found]:
@@ -151,7 +149,7 @@ def _draws_in(file: NodeFile, functions: list[ast.FunctionDef | ast.AsyncFunctio
     return any(file.function_around(call) in functions for call in file.calls(*_DRAWING))
 
 
-@CATALOGUE.mistake(
+@mistake(
     "constant-value",
     explains=[Symptom.WRONG_VALUES],
     evidence=Evidence.RUN,
@@ -180,7 +178,7 @@ def constant(case: Case) -> Iterator[Found]:
     return _pattern(case, "constant value")
 
 
-@CATALOGUE.mistake(
+@mistake(
     "ramp",
     explains=[Symptom.WRONG_VALUES],
     evidence=Evidence.RUN,
@@ -206,7 +204,7 @@ def ramp(case: Case) -> Iterator[Found]:
     return _pattern(case, "ramp")
 
 
-@CATALOGUE.mistake(
+@mistake(
     "short-cycle",
     name="pattern in the values",
     explains=[Symptom.WRONG_VALUES],
@@ -232,69 +230,3 @@ def cycle(case: Case) -> Iterator[Found]:
     """
     if case.about("pattern") is not None:
         yield from _pattern(case, case.about("pattern").name)
-
-
-@CATALOGUE.mistake(
-    "another-type-on-the-topic",
-    name="wrong type",
-    explains=[Symptom.NO_MESSAGES],
-    evidence=Evidence.RUN,
-    says="{topic} carries two types, {types}: a tool that takes the type from the topic cannot choose",
-    do="Give everything on this topic the type that is asked for.",
-    example=in_run(Symptom.NO_MESSAGES, topic="/ring", types=("std_msgs/msg/Bool", "std_msgs/msg/String")),
-)
-def two_types(case: Case) -> Iterator[Found]:
-    """Two types are on one topic.
-
-    Publishers and subscriptions of two types never meet, even if the name is the same, and `ros2 topic echo` refuses to
-    choose.
-
-    Bad:
-
-        self.create_publisher(Bool, 'ring', 10)
-        self.create_publisher(String, 'ring', 10)
-
-    Good:
-
-        self.create_publisher(Bool, 'ring', 10)
-
-    See it: `ros2 topic list -t`.
-    """
-    types = case.about("types", ())
-    if len(types) > 1:
-        yield Found({"topic": case.about("topic"), "types": " and ".join(types)})
-
-
-@CATALOGUE.mistake(
-    "stops-publishing",
-    name="no messages",
-    explains=[Symptom.NO_MESSAGES],
-    evidence=Evidence.SYMPTOM,
-    says="{what}",
-    do="Let a timer publish for as long as the node lives, with a QoS that keeps a message until it is read.",
-    example=in_run(Symptom.NO_MESSAGES, some=True),
-)
-def stops(case: Case) -> Iterator[Found]:
-    """A node stops publishing.
-
-    One message from __init__, or a few, are gone before anybody listens. What should be there for whoever comes later
-    has to be sent again and again.
-
-    Bad:
-
-        def __init__(self):
-            self.ring_once()
-
-    Good:
-
-        def __init__(self):
-            self.create_timer(1.0, self.ring_once)
-
-    See it: `ros2 topic hz TOPIC`.
-    """
-    if case.about("gone"):
-        yield Found({"what": "the publisher was gone when a new subscriber looked for it"})
-    elif case.about("qos"):
-        yield Found({"what": f"a new subscriber got nothing ({case.about('qos')})"})
-    elif case.about("some"):
-        yield Found({"what": "the node stops publishing, or publishes far too rarely"})

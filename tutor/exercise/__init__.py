@@ -1,0 +1,61 @@
+"""What an exercise is written in: the public interface for those who write one.
+
+An exercise is one file that names what the learner's programs have (`Program`, `Topic`, `Parameter`, `Service`), and
+declares a criterion for each line of the lesson's acceptance criteria, in one of the forms below:
+
+    GREETING = Topic("/greeting", "std_msgs/msg/String")
+
+    greets = Publishes("greets", GREETING)
+
+    CHECK = check(
+        "h1.1",
+        Program("greeter.py"),
+        greets,
+        Contains("says-hello", GREETING, "hello", after=greets),
+        EndsCleanly("shutdown", bonus=True),
+    )
+
+How the program is started, how long is waited, and what a busy machine may excuse is the forms' business.
+"""
+
+from tutor.exercise.defaults import Defaults
+from tutor.exercise.ends_cleanly import EndsCleanly
+from tutor.exercise.form import Form, check
+from tutor.exercise.in_range import InRange, OtherUnit, Varies
+from tutor.exercise.logs_parameter import LogsParameter
+from tutor.exercise.names_bad_value import NamesBadValue
+from tutor.exercise.nouns import Parameter, Program, Service, SetsRate, ShownIn, SwitchesOff, Topic
+from tutor.exercise.publishes import Contains, Publishes, ShownByEcho
+from tutor.exercise.rate_at_run_time import RateAtRunTime
+from tutor.exercise.rate_at_start import RateAtStart
+from tutor.exercise.rejects import Rejects, RejectsAtomically
+from tutor.exercise.set_at_run_time import SetAtRunTime
+from tutor.exercise.set_at_start import SetAtStart
+
+__all__ = [
+    "Contains",
+    "Defaults",
+    "EndsCleanly",
+    "Form",
+    "InRange",
+    "LogsParameter",
+    "NamesBadValue",
+    "OtherUnit",
+    "Parameter",
+    "Program",
+    "Publishes",
+    "RateAtRunTime",
+    "RateAtStart",
+    "Rejects",
+    "RejectsAtomically",
+    "Service",
+    "SetAtRunTime",
+    "SetAtStart",
+    "SetsRate",
+    "ShownByEcho",
+    "ShownIn",
+    "SwitchesOff",
+    "Topic",
+    "Varies",
+    "check",
+]

@@ -1,0 +1,104 @@
+"""What all forms have in common, and how an exercise becomes a check that the engine runs."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from tutor.exercise.nouns import Parameter, Program
+from tutor.exercise.parameters import ParameterNode
+from tutor.judge.bench import Scenario
+from tutor.judge.check import Check, Criterion, EarlyJudge
+from tutor.judge.verdict import Verdict
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """The program of an exercise and its criteria, in the order in which they are shown."""
+
+    program: Program
+    forms: tuple[Form, ...]
+
+    def first[F: Form](self, kind: type[F], suits: Callable[[F], bool] = lambda form: True) -> F | None:
+        """The first criterion of this form for which `suits` is true."""
+        return next((form for form in self.forms if isinstance(form, kind) and suits(form)), None)
+
+
+@dataclass(frozen=True)
+class Form(ABC):
+    """An acceptance criterion of a recurring form.
+
+    `id`: as in the lesson. `after`: the criteria that must pass first, since this one would only repeat their failure.
+    `bonus`: it is judged and shown, and changes no verdict.
+    """
+
+    id: str
+    after: Form | tuple[Form, ...] = field(default=(), kw_only=True)
+    bonus: bool = field(default=False, kw_only=True)
+
+    @property
+    def used_parameters(self) -> tuple[Parameter, ...]:
+        """The parameters that this criterion names."""
+        return tuple(_parameters_in([getattr(self, each.name) for each in fields(self) if each.name != "after"]))
+
+    @abstractmethod
+    def criterion(self, exercise: Exercise) -> Criterion:
+        """The criterion as the engine judges it: scenarios, which are values and run once if equal, and a judge."""
+
+    def ended_start(self, exercise: Exercise) -> Scenario[Any] | None:
+        """A start without parameters that this criterion alone is judged on, if it ends with Ctrl+C.
+
+        Its facts have `trace` and `ending`; see `EndsCleanly`.
+        """
+        return None
+
+    def judged(
+        self,
+        judge: Callable[..., Verdict],
+        *scenarios: Scenario[Any],
+        early: tuple[tuple[Scenario[Any], EarlyJudge], ...] = (),
+    ) -> Criterion:
+        """The criterion that takes the facts of these scenarios; see `tutor.judge.check.Criterion`."""
+        after = (self.after,) if isinstance(self.after, Form) else self.after
+        return Criterion(self.id, judge, scenarios, tuple(form.id for form in after), self.bonus, early)
+
+
+def _parameters_in(value: object) -> Iterator[Parameter]:
+    if isinstance(value, Parameter):
+        yield value
+    elif isinstance(value, list | tuple | dict):
+        for item in value:  # of a dict, its keys: parameters and the values that they are set to
+            yield from _parameters_in(item)
+
+
+def parameter_node(exercise: Exercise) -> ParameterNode:
+    """The node with all parameters that the exercise names.
+
+    Raises ValueError if none of them has an effect on a topic, by which its changes can be seen.
+    """
+    parameters = tuple(dict.fromkeys(parameter for form in exercise.forms for parameter in form.used_parameters))
+    topics = [parameter.effect.topic for parameter in parameters if parameter.effect is not None]
+    if not topics:
+        raise ValueError("no parameter has an effect: give one ShownIn(topic), SetsRate(topic) or SwitchesOff(topic)")
+    return ParameterNode(exercise.program, topics[0], parameters)
+
+
+def check(
+    exercise: str,
+    program: Program,
+    *criteria: Form,
+    expected_s: float = 0.0,
+    expected_reason: str = "",
+    mistakes: str = "",
+) -> Check:
+    """The check of an exercise, to be assigned to CHECK.
+
+    `exercise`: its id, such as "i1.1". `expected_s`: the longest wait, in seconds, that a criterion needs with the
+    solution, and `expected_reason` what it waits for. `mistakes`: the module with a catalogue of mistakes that only
+    this exercise can know. Raises ValueError if an id is repeated, or a criterion comes before one that it is `after`.
+    """
+    context = Exercise(program, criteria)
+    judged = tuple(form.criterion(context) for form in criteria)
+    return Check(exercise, judged, expected_s, expected_reason, mistakes)

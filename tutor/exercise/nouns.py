@@ -1,0 +1,126 @@
+"""What an exercise talks about: the learner's programs, and the topics, parameters and services of their nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from tutor.judge.bench import Run
+from tutor.judge.trace import Sample, Trace
+
+Value = bool | int | float | str
+"""What a parameter can be set to."""
+
+_TYPES = {bool: "boolean", int: "integer", float: "double", str: "string"}
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program that the learner writes. `file`: its file, as the lesson names it."""
+
+    file: str
+
+
+@dataclass(frozen=True)
+class Topic:
+    """A topic with its full name and type, such as "/chatter" and "std_msgs/msg/String".
+
+    `field`: the field that is judged, with dots into nested messages ("pose.position.x"). `unit`: of its values, as it
+    is to be shown. `low` and `high`: the range that they must be in, both ends included.
+    """
+
+    name: str
+    type: str
+    field: str = "data"
+    unit: str = ""
+    low: float | None = None
+    high: float | None = None
+
+    @property
+    def watched(self) -> dict[str, str]:
+        """The topic and its type, as the bench wants to know what to subscribe to."""
+        return {self.name: self.type}
+
+    def value(self, sample: Sample) -> Any:
+        """The value of `field` in a message."""
+        value: Any = sample.message
+        for name in self.field.split("."):
+            value = value[name]
+        return value
+
+    def values(self, seen: Run | Trace) -> list[Any]:
+        """The values of `field` in all messages of a run so far."""
+        return [self.value(sample) for sample in seen.samples_on(self.name)]
+
+    def show(self, sample: Sample) -> str:
+        """The field of a message as `ros2 topic echo` prints it."""
+        return f"{self.field.rpartition('.')[2]}: {self.value(sample)}"
+
+    def has_publisher(self, run: Run) -> bool:
+        """Whether the node has a publisher on this topic, of whatever type."""
+        return any(publisher.topic == self.name for publisher in run.graph.publishers)
+
+
+@dataclass(frozen=True)
+class ShownIn:
+    """The effect of a parameter whose value is in the messages: a text as a part of the field, others as they are."""
+
+    topic: Topic
+
+    def shows(self, value: Value, sample: Sample) -> bool:
+        """Whether a message shows this value."""
+        shown = self.topic.value(sample)
+        return value in str(shown) if isinstance(value, str) else bool(shown == value)
+
+
+@dataclass(frozen=True)
+class SetsRate:
+    """The effect of a parameter that sets a topic's rate, in Hz."""
+
+    topic: Topic
+
+
+@dataclass(frozen=True)
+class SwitchesOff:
+    """The effect of a parameter with which nothing is published while it is false."""
+
+    topic: Topic
+
+
+Effect = ShownIn | SetsRate | SwitchesOff
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter with its name and default, whose type is the parameter's type, and what it does."""
+
+    name: str
+    default: Value
+    effect: Effect | None = None
+
+    @property
+    def type(self) -> str:
+        """Its type as ROS calls it: "boolean", "integer", "double" or "string"."""
+        return _TYPES[type(self.default)]
+
+
+@dataclass(frozen=True)
+class Service:
+    """A service with its full name and type.
+
+    `request`: the fields of the request, in the order of the arguments of `computes`, the function that gives the right
+    value of the field `response`. `sign`: how a request of two numbers is shown, as in "6 + 3".
+    """
+
+    name: str
+    type: str
+    request: tuple[str, ...] = ()
+    response: str = ""
+    computes: Callable[..., Any] | None = None
+    sign: str = ""
+
+
+def show(value: object) -> str:
+    """A parameter's value as it is written on the command line."""
+    return str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, str) else str(value)

@@ -1,0 +1,308 @@
+"""A form: parameters that are given at start-up take effect."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from tutor.exercise.form import Exercise, Form, parameter_node
+from tutor.exercise.nouns import Parameter, SetsRate, ShownIn, SwitchesOff, Topic, Value
+from tutor.exercise.parameters import (
+    ANSWER_S,
+    MESSAGE_GAP_S,
+    ParameterNode,
+    are_alike,
+    find_parameter,
+    read,
+    set_values,
+)
+from tutor.judge import tracebacks
+from tutor.judge.bench import Bench, Run
+from tutor.judge.check import Criterion
+from tutor.judge.rates import TOLERANCE, Rate, describe, measure
+from tutor.judge.symptom import Observation, Symptom
+from tutor.judge.trace import Sample, Trace
+from tutor.judge.verdict import Verdict, failed, passed
+from tutor.judge.waiting import IDLE_S, measure_steady_rate, wait_for_message, wait_until_seen, window_s
+from tutor.judge.wording import counted, output_tail
+from tutor.ros_model import Parameter as Reported
+
+
+@dataclass(frozen=True)
+class Given:
+    """The parameters that a program is started with."""
+
+    values: tuple[tuple[Parameter, Value], ...]
+
+    @property
+    def arguments(self) -> dict[str, Value]:
+        """The values by name."""
+        return {parameter.name: value for parameter, value in self.values}
+
+    @property
+    def rate(self) -> tuple[Parameter, float] | None:
+        """The parameter that sets the rate, and the rate in Hz."""
+        return next(((p, float(value)) for p, value in self.values if isinstance(p.effect, SetsRate)), None)
+
+    @property
+    def shown(self) -> tuple[Parameter, ShownIn, Value] | None:
+        """The parameter that messages show, where, and its value."""
+        return next(((p, p.effect, value) for p, value in self.values if isinstance(p.effect, ShownIn)), None)
+
+    @property
+    def topic(self) -> Topic:
+        """The topic on which the effects show."""
+        return next(parameter.effect.topic for parameter, _ in self.values if parameter.effect is not None)
+
+    @property
+    def switch(self) -> Parameter | None:
+        """The parameter that is given as false, so that nothing is published."""
+        return next((p for p, value in self.values if isinstance(p.effect, SwitchesOff) and value is False), None)
+
+    def find_without(self, samples: Sequence[Sample]) -> list[Sample]:
+        """Those of the last two messages without the value: an earlier one may have been sent before it was read."""
+        if self.shown is None:
+            return []
+        _, effect, value = self.shown
+        return [sample for sample in samples[-2:] if not effect.shows(value, sample)]
+
+    def __str__(self) -> str:
+        return " ".join(f"{p.name}:={str(v).lower() if isinstance(v, bool) else v}" for p, v in self.values)
+
+
+@dataclass(frozen=True)
+class PublishingStarted:
+    """A start with parameters: the rate measured, if one was given, and the number of messages it is based on.
+
+    `took_rate`: whether the node took the given rate: it publishes at it, or reports it as the parameter's value.
+    """
+
+    trace: Trace
+    rate: Rate | None
+    messages: int
+    took_rate: bool = False
+
+
+@dataclass(frozen=True)
+class SilentStarted:
+    """A start with a switch as false: what the node reports of it, and how long, in seconds, its silence was observed.
+
+    `first_after_enable`: its first message once it is switched on; tried only if it began without a publisher.
+    """
+
+    trace: Trace
+    reported: Reported | None
+    quiet_s: float
+    first_after_enable: Sample | None = None
+
+
+@dataclass(frozen=True)
+class StartedWithParameters:
+    """Starts with parameters, in the order of the form's; None for each that has not ended yet."""
+
+    publishing: tuple[PublishingStarted | None, ...]
+    silent: tuple[SilentStarted | None, ...] = ()
+
+    @property
+    def took_rate(self) -> bool:
+        """Whether the node took a good rate at start-up."""
+        return any(start is not None and start.took_rate for start in self.publishing)
+
+
+@dataclass(frozen=True)
+class StartWithParameters:
+    """Start once with each of these sets of parameters."""
+
+    node: ParameterNode
+    publishing: tuple[Given, ...]
+    silent: tuple[Given, ...]
+
+    async def __call__(self, bench: Bench) -> StartedWithParameters:
+        async def start_first() -> PublishingStarted:
+            first = await self._start(bench, self.publishing[0])
+            others = (None,) * (len(self.publishing) - 1)
+            bench.report_facts(StartedWithParameters((first, *others), (None,) * len(self.silent)))
+            return first
+
+        publishing = [start_first()] if self.publishing else []
+        publishing += [self._start(bench, given) for given in self.publishing[1:]]
+        silent = [self._start_silent(bench, given) for given in self.silent]
+        published, kept_silent = await asyncio.gather(asyncio.gather(*publishing), asyncio.gather(*silent))
+        return StartedWithParameters(tuple(published), tuple(kept_silent))
+
+    async def _start(self, bench: Bench, given: Given) -> PublishingStarted:
+        node, topic = self.node, self.node.topic
+        hz = given.rate[1] if given.rate is not None else node.default_hz
+        async with bench.start(
+            node.program.file, parameters=given.arguments, watch=topic.watched, expected_s=5 / hz
+        ) as run:
+            bench.report_progress(0.2, str(given))
+            # Longer than the period, in seconds, of a node that takes the rate for a period.
+            gap_s = max((start.rate[1] for start in self.publishing if start.rate), default=MESSAGE_GAP_S) + 1
+            if not await wait_for_message(run, topic.name, topic.type, message_gap_s=gap_s):
+                return await self._started(run, given, None, 0)
+            since = run.samples_on(topic.name)[0].source_time
+            if given.shown is not None:
+                await run.until(lambda: run.now() >= since + window_s(hz), window_s(hz) + 1.0, idle_s=IDLE_S)
+                samples = run.samples_on(topic.name)
+                # What does not show the value has failed, so a rough rate will do.
+                if given.rate is None or given.find_without(samples):
+                    return await self._started(run, given, measure(samples), len(samples))
+            return await self._started(run, given, *await measure_steady_rate(run, topic.name, hz, since=since))
+
+    async def _started(self, run: Run, given: Given, rate: Rate | None, messages: int) -> PublishingStarted:
+        """The facts of a start; a node that publishes at another rate than the given one is asked for it."""
+        trace, took_rate = run.trace(), False
+        if given.rate is not None:
+            parameter, hz = given.rate
+            took_rate = rate is not None and rate.agrees_with(hz)
+            if not took_rate and run.exit is None and run.graph.parameter_nodes:
+                took_rate = await read(run, parameter) == (hz,)
+        return PublishingStarted(trace, rate, messages, took_rate)
+
+    async def _start_silent(self, bench: Bench, given: Given) -> SilentStarted:
+        node, topic = self.node, self.node.topic
+        switch = given.switch
+        assert switch is not None
+        async with bench.start(
+            node.program.file, parameters=given.arguments, watch=topic.watched, expected_s=2.5
+        ) as run:
+            bench.report_progress(0.3, f"{switch.name}:=false, listening for silence")
+            name = await node.find(bench, run)
+            declared = await run.parameters(ANSWER_S) if name else None
+            await wait_until_seen(run, lambda: topic.has_publisher(run))
+            since = run.now()
+            # Two periods of the default rate, in case the rate given here has no effect.
+            await run.until(
+                lambda: bool(run.samples_on(topic.name)) or run.now() - since >= 2.2 / node.default_hz,
+                4.0,
+                idle_s=IDLE_S,
+            )
+            trace, quiet_s, first_after_enable = run.trace(), run.now() - since, None
+            if name and not trace.samples_on(topic.name) and not topic.has_publisher(run):
+                # The node may create its publisher only once it is enabled.
+                bench.report_progress(0.7, f"setting {switch.name} to true")
+                await set_values(run, name, (switch, True))
+                await node.wait_for_message(run)
+                first_after_enable = next(iter(run.samples_on(topic.name)), None)
+            return SilentStarted(trace, find_parameter(declared or (), switch), quiet_s, first_after_enable)
+
+
+@dataclass(frozen=True)
+class SetAtStart(Form):
+    """Parameters given at start-up (`--ros-args -p name:=value`) take effect.
+
+    `starts`: for each start, the parameters and the values that it is given. What a parameter's effect is says what
+    must be seen: the value in the messages, the rate, or silence while a switch is false. A failure of the first start
+    that publishes is told before the others are over. Give one start two things at once, such as a text and a rate, and
+    another a rate that shows rounding: 1.5 Hz is out of tolerance from 1 and 2 Hz.
+    """
+
+    starts: tuple[Mapping[Parameter, Value], ...]
+
+    def scenario(self, exercise: Exercise) -> StartWithParameters:
+        """All starts: those that publish, and those that are silent."""
+        return StartWithParameters(parameter_node(exercise), self._publishing, self._silent)
+
+    @property
+    def _publishing(self) -> tuple[Given, ...]:
+        return tuple(given for given in self._given if given.switch is None)
+
+    @property
+    def _silent(self) -> tuple[Given, ...]:
+        return tuple(given for given in self._given if given.switch is not None)
+
+    @property
+    def _given(self) -> list[Given]:
+        return [Given(tuple(start.items())) for start in self.starts]
+
+    @property
+    def _expected(self) -> str:
+        *most, last = dict.fromkeys(parameter.name for start in self.starts for parameter in start)
+        names = f"{', '.join(most)} and {last}" if most else last
+        return f"--ros-args -p sets {names}, and each takes effect"
+
+    def criterion(self, exercise: Exercise) -> Criterion:
+        scenario = self.scenario(exercise)
+        return self.judged(self.judge, scenario, early=((scenario, self.judge_so_far),))
+
+    def judge(self, seen: StartedWithParameters) -> Verdict:
+        """Judge all starts; those that are not over yet show nothing."""
+        observed: list[str] = []
+        for number, (given, start) in enumerate(zip(self._publishing, seen.publishing, strict=True)):
+            others = [other for other in seen.publishing if other is not None and other is not start]
+            if start is not None and (failure := self._judge_publishing(given, start, others, first=number == 0)):
+                return failure
+            if start is not None and (samples := start.trace.samples_on(given.topic.name)):
+                observed.append(f'with {given}: "{given.topic.value(samples[-1])}" at {start.rate}')
+        for given, silence in zip(self._silent, seen.silent, strict=True):
+            if silence is not None and (failure := self._judge_silence(given, silence)):
+                return failure
+            if silence is not None:
+                observed.append(f"with {given}: silence for {silence.quiet_s:.1f} s")
+        return passed(self._expected, "; ".join(observed))
+
+    def judge_so_far(self, seen: StartedWithParameters) -> Verdict | None:
+        """Judge by the first start alone, where the others can show nothing more about why it fails."""
+        given, start = self._publishing[0], seen.publishing[0]
+        failure = self._judge_publishing(given, start, [], first=True) if start is not None else None
+        if failure is None or start is None:
+            return None
+        samples = start.trace.samples_on(given.topic.name)
+        is_rate_wrong = bool(samples) and not given.find_without(samples)
+        return None if is_rate_wrong and None in seen.publishing[1:] else self.judge(seen)
+
+    def _judge_publishing(
+        self, given: Given, start: PublishingStarted, others: Sequence[PublishingStarted], *, first: bool
+    ) -> Verdict | None:
+        """Return the failure that a start shows; those before it showed none."""
+        topic, samples = given.topic, start.trace.samples_on(given.topic.name)
+        if not samples and (first or given.rate is None):
+            missing = Symptom.NO_MESSAGES.seen(start.trace, topic=topic.name, type=topic.type)
+            observed = f"with {given}: no message on {topic.name}"
+            return failed(self._expected, observed, missing, output_tail(start.trace))
+        if without := given.find_without(samples):
+            assert given.shown is not None
+            ignored = _ignored(given.shown[0], start.trace)
+            shown = [str(given.topic.value(sample)) for sample in samples[:6]]
+            return failed(self._expected, f'with {given}: "{given.topic.value(without[-1])}"', ignored, shown)
+        if given.rate is None or (start.rate is not None and start.rate.agrees_with(given.rate[1])):
+            return None
+        parameter, hz = given.rate
+        alike = start.rate is not None and any(are_alike(start.rate, other.rate) for other in others)
+        is_default = start.rate is not None and start.rate.agrees_with(float(parameter.default))
+        wrong = Symptom.WRONG_RATE.seen(
+            start.trace,
+            parameter=parameter.name,
+            wanted_hz=hz,
+            rate=start.rate,
+            unchanged=first and (is_default or alike),  # a later one fails only where an earlier one was followed
+            inverted=start.rate is None or start.rate.agrees_with(1 / hz),
+            at_start=True,
+        )
+        measured = describe(start.rate, start.messages)
+        return failed(self._expected, f"with {given}: {measured}, not {hz} Hz ±{TOLERANCE:.0%}", wrong)
+
+    def _judge_silence(self, given: Given, start: SilentStarted) -> Verdict | None:
+        """Return the failure that a start with a switch as false shows."""
+        trace, topic, switch = start.trace, given.topic.name, given.switch
+        assert switch is not None
+        if loud := trace.samples_on(topic):
+            shown = [str(given.topic.value(sample)) for sample in loud[:3]]
+            observed = f"with {given}: {counted(len(loud), 'message')}"
+            return failed(self._expected, observed, _ignored(switch, trace), shown)
+        broken = trace.exit is not None or tracebacks.last_traceback(trace) is not None or not trace.graph.nodes
+        held = start.reported.value if start.reported else None
+        offered = any(publisher.topic == topic for publisher in trace.graph.publishers)
+        # A silent node with a publisher is disabled even if it answers no parameter call; one without a publisher must
+        # also send messages once it is enabled.
+        silent_on_purpose = held in (False, None) if offered else held is False and start.first_after_enable is not None
+        if not broken and silent_on_purpose:
+            return None
+        observed = f"with {given}: silence, but not because {switch.name} is false"
+        return failed(self._expected, observed, _ignored(switch, trace), output_tail(trace))
+
+
+def _ignored(parameter: Parameter, trace: Trace) -> Observation:
+    return Symptom.CHANGE_IGNORED.seen(trace, parameter=parameter.name, at_start=True)
