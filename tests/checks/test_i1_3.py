@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -10,22 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i1_3 import CHECK, judges
-from checks.i1_3.client import judge_client
-from checks.i1_3.division import judge_division
-from checks.i1_3.facts import (
-    DIVISIONS_AFTER_ZERO,
-    OPERATOR_SIGNS,
-    TYPE,
-    ClientRun,
-    Division,
-    ServiceCalls,
-    correct_result,
-    find_complaints,
-    missing_services,
-)
-from checks.i1_3.judges import judge_services, judge_shutdown
-from checks.i1_3.scenarios import random_operands
+from checks.i1_3_calculator_service import CHECK, SERVICES, TYPE, random_operands
 from tests.checks import builders
 from tests.checks.builders import (
     CRASH,
@@ -40,15 +26,42 @@ from tests.checks.builders import (
     explained,
     frame,
     graph,
+    judge_of,
     log,
     trace,
 )
+from tutor.exercise import Program
+from tutor.exercise.client_run import ClientRun
+from tutor.exercise.service_calls import Server, ServiceCalls
+from tutor.exercise.survives_bad_call import CallsAroundBad, find_complaints
 from tutor.judge.trace import CallAnswer, LogRecord, ServedRequest, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import Graph, ServiceEndpoint
 
 assert_failed = partial(builders.assert_failed, check=CHECK)
+
+judge_services = judge_of(CHECK, "services")
+judge_operations_after = judge_of(CHECK, "operations")
+judge_division = judge_of(CHECK, "divide-by-zero")
+judge_client = judge_of(CHECK, "client")
+judge_shutdown = judge_of(CHECK, "shutdown")
+
+COMPUTES = {service.name: service.computes for service in SERVICES}
+OPERATOR_SIGNS = {service.name: service.sign for service in SERVICES}
+DIVISIONS_AFTER_ZERO = ((18, 3), (-9, 0), (0, 0), (35, 5))
+
+
+def correct_result(service: str, a: int, b: int) -> int:
+    """The right result; 0 for a division by zero."""
+    computes = COMPUTES[service]
+    assert computes is not None
+    return computes(a, b) or 0
+
+
+def missing_services(servers: Sequence[ServiceEndpoint]) -> list[str]:
+    return [service.name for service in Server(Program("server.py"), SERVICES).missing(servers)]
+
 
 ALL = graph(services=dict.fromkeys(OPERATOR_SIGNS, TYPE))
 SERVING = trace(graph=ALL)
@@ -64,7 +77,7 @@ ANSWERS = tuple(right_answer(service) for service in OPERATOR_SIGNS)
 
 
 def judge_operations(seen: ServiceCalls) -> Verdict:
-    return judges.judge_operations(seen, ServiceCalls(SERVING, ANSWERS))
+    return judge_operations_after(seen, ServiceCalls(SERVING, ANSWERS))
 
 
 def services(**types: str) -> Graph:
@@ -135,11 +148,11 @@ def test_a_server_that_a_call_ends_is_told_by_operations_whether_the_answer_got_
     seen = ServiceCalls(dead, (*ANSWERS[:3], called("/divide", 6, 3, last)))
     assert_skipped(judge_services(seen), "`operations` shows why")
     assert_failed(
-        judges.judge_operations(ServiceCalls(dead, (called("/divide", 60, 3, None),)), seen), "unhandled exception"
+        judge_operations_after(ServiceCalls(dead, (called("/divide", 60, 3, None),)), seen), "unhandled exception"
     )
     good = called("/divide", 84, 7, last)
-    assert_skipped(judge_division(Division(dead, good)), "`operations` shows why")
-    assert_skipped(judge_division(Division(dead, good, (good, called("/divide", 84, 7, None)))), "`operations`")
+    assert_skipped(judge_division(CallsAroundBad(dead, good)), "`operations` shows why")
+    assert_skipped(judge_division(CallsAroundBad(dead, good, (good, called("/divide", 84, 7, None)))), "`operations`")
 
 
 def test_a_service_of_the_wrong_type_is_missing() -> None:
@@ -255,7 +268,7 @@ def test_an_exception_in_a_callback_is_named() -> None:
     ],
 )
 def test_operations_are_skipped_if_services_failed(seen: ServiceCalls) -> None:
-    assert_skipped(judges.judge_operations(ServiceCalls(SERVING, ANSWERS), seen), "`services` did not pass")
+    assert_skipped(judge_operations_after(ServiceCalls(SERVING, ANSWERS), seen), "`services` did not pass")
 
 
 @pytest.mark.parametrize("answers", [(), ANSWERS[:3]])
@@ -280,9 +293,9 @@ def division(
     after: tuple[CallAnswer, ...] = after_zero(6, 0, 0, 7),
     seen: Trace = SERVING,
     before: int | None = 12,
-) -> Division:
+) -> CallsAroundBad:
     good = called("/divide", 84, 7, before)
-    return Division(
+    return CallsAroundBad(
         seen,
         good,
         (good, good),
@@ -445,10 +458,10 @@ def test_an_error_is_found_among_other_messages(text: str, around: list[LogRecor
 @pytest.mark.parametrize(
     ("seen", "cause", "word"),
     [
-        (Division(CRASHED), "unhandled exception", "84"),
-        (Division(trace(graph=NODE_UP)), "no answer", "84"),
+        (CallsAroundBad(CRASHED), "unhandled exception", "84"),
+        (CallsAroundBad(trace(graph=NODE_UP)), "no answer", "84"),
         (division(before=None), "no answer", "84"),
-        (division(by_zero=None), "no answer", "when b is 0"),
+        (division(by_zero=None), "no answer", "10 ÷ 0"),
         (division(by_zero=None, seen=trace(err=CRASH, exit=exited(1))), "unhandled exception", "line 12"),
         (division(), "not logged", "nothing that the node logs"),
         (division(before=588), "not logged", "84 ÷ 7 is answered 588"),
@@ -480,7 +493,7 @@ def test_an_error_is_found_among_other_messages(text: str, around: list[LogRecor
         (division(seen=trace(exit=exited(0, after_s=9.0))), "exit at once", ""),
     ],
 )
-def test_division_fails(seen: Division, cause: str, word: str) -> None:
+def test_division_fails(seen: CallsAroundBad, cause: str, word: str) -> None:
     assert_failed(judge_division(seen), cause, word)
 
 

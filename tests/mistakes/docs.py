@@ -40,6 +40,7 @@ TITLES = {
 PAGE_OF = {
     "early_ends": "nodes",
     "missing_attributes": "nodes",
+    "missing_files": "nodes",
     "no_node": "nodes",
     "nodes": "nodes",
     "process": "nodes",
@@ -60,6 +61,7 @@ PAGE_OF = {
     "responses": "services",
     "services": "services",
     "wrong_answers": "services",
+    "wrong_results": "services",
     "asynchronous": "callbacks",
     "blocked_callbacks": "callbacks",
     "callback": "callbacks",
@@ -69,6 +71,7 @@ PAGE_OF = {
     "log_options": "logging",
     "logged_exceptions": "logging",
     "logging": "logging",
+    "usual_messages": "logging",
     "ending": "ending",
     "exit_codes": "ending",
     "lasting_threads": "ending",

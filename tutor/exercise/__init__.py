@@ -18,6 +18,7 @@ declares a criterion for each line of the lesson's acceptance criteria, in one o
 How the program is started, how long is waited, and what a busy machine may excuse is the forms' business.
 """
 
+from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.defaults import Defaults
 from tutor.exercise.ends_cleanly import EndsCleanly
 from tutor.exercise.form import Form, check
@@ -29,10 +30,17 @@ from tutor.exercise.publishes import Contains, Publishes, ShownByEcho
 from tutor.exercise.rate_at_run_time import RateAtRunTime
 from tutor.exercise.rate_at_start import RateAtStart
 from tutor.exercise.rejects import Rejects, RejectsAtomically
+from tutor.exercise.serves import Answers, Serves
+from tutor.exercise.service_calls import Question
 from tutor.exercise.set_at_run_time import SetAtRunTime
 from tutor.exercise.set_at_start import SetAtStart
+from tutor.exercise.survives_bad_call import SurvivesBadCall
+from tutor.exercise.words import SAYS_ERROR
 
 __all__ = [
+    "SAYS_ERROR",
+    "Answers",
+    "CallsAll",
     "Contains",
     "Defaults",
     "EndsCleanly",
@@ -44,16 +52,19 @@ __all__ = [
     "Parameter",
     "Program",
     "Publishes",
+    "Question",
     "RateAtRunTime",
     "RateAtStart",
     "Rejects",
     "RejectsAtomically",
+    "Serves",
     "Service",
     "SetAtRunTime",
     "SetAtStart",
     "SetsRate",
     "ShownByEcho",
     "ShownIn",
+    "SurvivesBadCall",
     "SwitchesOff",
     "Topic",
     "Varies",

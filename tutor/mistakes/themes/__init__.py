@@ -5,6 +5,8 @@ Among entries with the same kind of evidence, the earlier one is asked first.
 
 # ruff: noqa: I001
 from tutor.mistakes.themes import stopped_topics as stopped_topics
+from tutor.mistakes.themes import missing_files as missing_files
+from tutor.mistakes.themes import usual_messages as usual_messages
 from tutor.mistakes.themes import clients as clients
 from tutor.mistakes.themes import answers as answers
 from tutor.mistakes.themes import missing_attributes as missing_attributes
@@ -50,6 +52,7 @@ from tutor.mistakes.themes import threads as threads
 from tutor.mistakes.themes import attributes as attributes
 from tutor.mistakes.themes import clocks as clocks
 from tutor.mistakes.themes import python as python
+from tutor.mistakes.themes import wrong_results as wrong_results
 from tutor.mistakes.themes import log_options as log_options
 from tutor.mistakes.themes import logging as logging
 from tutor.mistakes.themes import ending as ending

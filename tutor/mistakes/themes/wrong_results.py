@@ -1,70 +1,62 @@
-"""I1.3: the mistakes that only this exercise can know: what a wrong result is the result of."""
+"""Services that compute a wrong result: what it is the result of instead."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
-from checks.i1_3.facts import OPERATOR_SIGNS, SAYS_ERROR, correct_result
 from tutor.judge.symptom import Observation, Symptom
-from tutor.judge.trace import CallAnswer, LogRecord
-from tutor.mistakes import Case, Catalogue, Evidence, Found
+from tutor.judge.trace import CallAnswer
+from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.themes.python import late_binding
 
-CATALOGUE = Catalogue()
-
 _BIG = 5 * 10**9
 
+Result = tuple[int, int, int]
+"""Both operands of a call, and the result that it was answered with."""
 
-def _answered(service: str, *calls: tuple[int, int, int]) -> Callable[[str], Observation]:
-    """An observation of these calls: both operands and the answer, the first of which is wrong."""
+Operation = Callable[[int, int], int | None]
+"""Computes the right result of two operands; None if any answer is right."""
+
+_BELLS: dict[str, Operation] = {
+    "/add": lambda a, b: a + b,
+    "/subtract": lambda a, b: a - b,
+    "/divide": lambda a, b: a // b if b else None,
+}
+
+
+def _answered(service: str, *calls: Result) -> Callable[[str], Observation]:
+    """An observation of these calls, the first of which is answered wrongly."""
     answers = tuple(CallAnswer(service, {"a": a, "b": b}, {"sum": got}, 0.0, 0.1) for a, b, got in calls)
-    return in_run(Symptom.WRONG_ANSWER, service=service, answer=answers[0], calls=answers)
+    return in_run(
+        Symptom.WRONG_ANSWER, service=service, answer=answers[0], calls=answers, field="sum", operations=_BELLS
+    )
 
 
-def _results(case: Case, service: str) -> list[tuple[int, int, int]]:
-    """What a service answered: both operands and the result of each call."""
-    calls = [each for each in case.about("calls", ()) if each.service == service and each.response is not None]
-    return [(each.request["a"], each.request["b"], each.response["sum"]) for each in calls]
+def _operations(case: Case) -> dict[str, Operation]:
+    """What each service should compute, by name; empty unless all take two whole numbers."""
+    operations: dict[str, Any] = case.about("operations", {})
+    calls = [call for call in case.about("calls", ()) if call.response is not None]
+    numbers = [[*call.request.values(), call.response.get(case.about("field"))] for call in calls]
+    return operations if all(len(each) == 3 and all(type(n) is int for n in each) for each in numbers) else {}
 
 
-def _wrong(case: Case) -> tuple[str, list[tuple[int, int, int]]]:
+def _results(case: Case, service: str) -> list[Result]:
+    """What a service answered."""
+    calls = [call for call in case.about("calls", ()) if call.service == service and call.response is not None]
+    return [(*call.request.values(), call.response[case.about("field")]) for call in calls]
+
+
+def _wrong(case: Case) -> tuple[str, list[Result]]:
     """The service with the wrong answer, and all its wrong results."""
-    service = case.about("service", "")
-    results = _results(case, service) if service in OPERATOR_SIGNS else []
-    return service, [(a, b, got) for a, b, got in results if got != correct_result(service, a, b)]
+    service, operations = case.about("service", ""), _operations(case)
+    if (right := operations.get(service)) is None:
+        return service, []
+    return service, [(a, b, got) for a, b, got in _results(case, service) if right(a, b) not in (None, got)]
 
 
-@CATALOGUE.mistake(
-    "client-file-missing",
-    name="file missing",
-    explains=[Symptom.CALLS_MISSING],
-    evidence=Evidence.PROCESS,
-    says="there is no {file} among the files",
-    do="Write the client in {file}, next to {beside}.",
-    example=in_run(Symptom.CALLS_MISSING, file="bell_client.py", beside="bell_server.py"),
-)
-def file_missing(case: Case) -> Iterator[Found]:
-    """One of the files is not there.
-
-    An exercise with two programs has two files, each of which is started by its name.
-
-    Bad:
-
-        # bell_client.py is still to be written
-
-    Good:
-
-        # bell_client.py
-        bell = node.create_client(Trigger, 'ring')
-
-    See it: `ls`.
-    """
-    if case.about("file"):
-        yield Found({"file": case.about("file"), "beside": case.about("beside")})
-
-
-@CATALOGUE.mistake(
+@mistake(
     "another-operation",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
@@ -91,19 +83,20 @@ def another_operation(case: Case) -> Iterator[Found]:
     service, wrong = _wrong(case)
     if not any(got for _, _, got in wrong):
         return
-    alike = [other for other in OPERATOR_SIGNS if _answers_like(_results(case, service), other)]
+    operations = _operations(case)
+    alike = [name for name, other in operations.items() if _answers_like(_results(case, service), other)]
     everywhere = [
-        other for other in alike if all(_answers_like(_results(case, each), other) for each in OPERATOR_SIGNS)
+        name for name in alike if all(_answers_like(_results(case, each), operations[name]) for each in operations)
     ]
     if alike and not (everywhere and any(late_binding(case))):
         yield Found({"service": service, "other": alike[0]})
 
 
-def _answers_like(results: list[tuple[int, int, int]], other: str) -> bool:
-    return all(got == correct_result(other, a, b) for a, b, got in results if b or other != "/divide")
+def _answers_like(results: list[Result], other: Operation) -> bool:
+    return all(other(a, b) in (None, got) for a, b, got in results)
 
 
-@CATALOGUE.mistake(
+@mistake(
     "operands-the-wrong-way-round",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
@@ -127,14 +120,15 @@ def wrong_way_round(case: Case) -> Iterator[Found]:
     See it: call it with two numbers, then the other way round.
     """
     service, wrong = _wrong(case)
+    right = _operations(case).get(service)
     told = [(a, b, got) for a, b, got in wrong if a]
-    if all(got == abs(correct_result(service, a, b)) for a, b, got in _results(case, service) if b):
+    if right is None or all(_size(right(a, b)) in (None, got) for a, b, got in _results(case, service)):
         return  # the order is right, and the sign is lost
-    if any(got for _, _, got in told) and all(got == correct_result(service, b, a) for a, b, got in told):
+    if any(got for _, _, got in told) and all(got == right(b, a) for a, b, got in told):
         yield Found({"service": service})
 
 
-@CATALOGUE.mistake(
+@mistake(
     "negative-operands-refused",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
@@ -164,12 +158,12 @@ def negatives_refused(case: Case) -> Iterator[Found]:
         yield Found({"service": service, "got": wrong[0][2]})
 
 
-@CATALOGUE.mistake(
+@mistake(
     "zero-refused",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
-    says="{service} computes with every other number, but not when b is 0, which only a division must refuse",
-    do="Test for zero only in the callback of /divide.",
+    says="{service} computes with every other number, but not with a 0 as the second one, which it need not refuse",
+    do="Test for zero only where a number is divided by it.",
     example=_answered("/add", (7, 0, 0), (6, 3, 9)),
 )
 def zero_refused(case: Case) -> Iterator[Found]:
@@ -193,7 +187,7 @@ def zero_refused(case: Case) -> Iterator[Found]:
         yield Found({"service": service})
 
 
-@CATALOGUE.mistake(
+@mistake(
     "sign-lost",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
@@ -217,13 +211,19 @@ def sign_lost(case: Case) -> Iterator[Found]:
     See it: call it with a negative number.
     """
     service, wrong = _wrong(case)
-    lost = all(abs(got) == abs(correct_result(service, a, b)) for a, b, got in wrong)
-    never_there = all(got == correct_result(service, abs(a), abs(b)) for a, b, got in wrong)
-    if wrong and (lost or never_there):
-        yield Found({"service": service})
+    right = _operations(case).get(service)
+    if wrong and right is not None:
+        lost = all(abs(got) == _size(right(a, b)) for a, b, got in wrong)
+        never_there = all(got == right(abs(a), abs(b)) for a, b, got in wrong)
+        if lost or never_there:
+            yield Found({"service": service})
 
 
-@CATALOGUE.mistake(
+def _size(number: int | None) -> int | None:
+    return None if number is None else abs(number)
+
+
+@mistake(
     "cut-to-32-bits",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
@@ -248,38 +248,6 @@ def cut_off(case: Case) -> Iterator[Found]:
     See it: compute with numbers beyond 2147483647.
     """
     service, wrong = _wrong(case)
-    if wrong and all((got - correct_result(service, a, b)) % 2**32 == 0 for a, b, got in wrong):
+    right = _operations(case).get(service)
+    if wrong and right is not None and all((got - (right(a, b) or 0)) % 2**32 == 0 for a, b, got in wrong):
         yield Found({"service": service})
-
-
-@CATALOGUE.mistake(
-    "the-same-message-for-every-call",
-    explains=[Symptom.NOT_LOGGED],
-    evidence=Evidence.RUN,
-    says="a valid division is logged in the same words as one by zero, so the message reports no error: {message}",
-    do="Log the error only when b is 0.",
-    example=in_run(
-        Symptom.NOT_LOGGED,
-        ordinary=(LogRecord(40, "node", "error", 0.0, 0.0),),
-        logged=(LogRecord(40, "node", "error", 0.0, 0.0),),
-    ),
-)
-def same_message(case: Case) -> Iterator[Found]:
-    """The same message appears whether or not something went wrong.
-
-    A message reports an error only if it does not also appear when all is well. Otherwise, whoever reads the log cannot
-    tell the two apart.
-
-    Bad:
-
-        self.get_logger().error('door open, or door stuck')
-
-    Good:
-
-        self.get_logger().error('door stuck')
-
-    See it: the log, after a call that works.
-    """
-    usual = [log.text for log in case.about("ordinary", ()) if log.level >= 30 or SAYS_ERROR.search(log.text)]
-    if usual and case.about("logged"):
-        yield Found({"message": usual[-1]})
