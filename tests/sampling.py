@@ -10,7 +10,7 @@ from pathlib import Path
 
 from tutor.content.submissions import RIGHT, WRONG, Case
 
-SHARED_CODE = tuple(f"tutor/{package}/" for package in ("engine", "judge", "process", "ros", "bundled_ros"))
+SHARED_CODE = tuple(f"tutor/{package}/" for package in ("engine", "exercise", "judge", "process", "ros", "bundled_ros"))
 ROOT = Path(__file__).parents[1]
 MISTAKES = (
     "wrong topic",
@@ -64,16 +64,15 @@ def changed(cases: Sequence[Case], paths: Iterable[str]) -> list[Case]:
     """
     folders = {"/".join(Path(path).parts[:5]) for path in paths if path.startswith("tests/submissions/")}
     files = {(ROOT / path).resolve() for path in paths}
-    exercises = {
-        Path(path).parts[1] for path in paths if path.startswith(("checks/", "lessons/")) and path.count("/") > 1
-    }
+    own_code = [Path(path).parts[1] for path in paths if path.startswith(("checks/", "lessons/"))]
     shared = any(path.startswith(SHARED_CODE) for path in paths)
     chosen = sample(cases) if shared else []
 
     def is_affected(case: Case) -> bool:
         exercise = case.exercise.replace(".", "_")
         own = f"tests/submissions/{exercise}/{case.kind}/{case.folder.name}" in folders
-        return exercise in exercises or own or any(link.resolve() in files for link in _symlinks(case.folder))
+        changed_code = any(f"{Path(name).stem}_".startswith(f"{exercise}_") for name in own_code)
+        return changed_code or own or any(link.resolve() in files for link in _symlinks(case.folder))
 
     return [case for case in cases if case in chosen or is_affected(case)]
 

@@ -39,7 +39,7 @@ from tutor.exercise.defaults import DeclaringRun
 from tutor.exercise.names_bad_value import messages_naming
 from tutor.exercise.rate_at_run_time import RateChanges
 from tutor.exercise.run_time_changes import RunTimeChanges
-from tutor.exercise.set_at_start import PublishingStarted, SilentStarted, StartedWithParameters
+from tutor.exercise.set_at_start import Started, StartedWithParameters
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.verdict import Status, Verdict
@@ -128,10 +128,9 @@ def parameter_starts(
     seen = loud or trace(*samples(TOPIC, LAUNCH_HZ, data=data_sent), graph=PUBLISHING)
     enabled = None if reported is None else parameter(ENABLED, "boolean", reported)
     slow_rate = rate(slow_hz) if slow_hz else None
-    fast = PublishingStarted(seen, rate(hz) if hz else None, 10)
-    return StartedWithParameters(
-        (fast, PublishingStarted(slow, slow_rate, 4)), (SilentStarted(disabled, enabled, 2.2, first_after_enable),)
-    )
+    fast = Started(seen, rate(hz) if hz else None, 10)
+    silent = Started(disabled, reported=enabled, quiet_s=2.2, first_after_enable=first_after_enable)
+    return StartedWithParameters((fast, Started(slow, slow_rate, 4), silent))
 
 
 FIRST_AFTER_ENABLE = sample(TOPIC, "Hello 1", 1005.0)
@@ -203,13 +202,13 @@ def test_launch_fails(found: StartedWithParameters, cause: str, word: str) -> No
 @pytest.mark.parametrize(
     ("fast", "cause"),
     [
-        (PublishingStarted(CRASHED, None, 0), "unhandled exception"),
-        (PublishingStarted(SILENT, None, 0), "no messages"),
-        (PublishingStarted(RUNNING, rate(LAUNCH_HZ), 10), "parameter ignored"),
+        (Started(CRASHED, None, 0), "unhandled exception"),
+        (Started(SILENT, None, 0), "no messages"),
+        (Started(RUNNING, rate(LAUNCH_HZ), 10), "parameter ignored"),
     ],
 )
-def test_a_fast_start_alone_fails_launch(fast: PublishingStarted, cause: str) -> None:
-    verdict = judge_launch_so_far(StartedWithParameters((fast, None), (None,)))
+def test_a_fast_start_alone_fails_launch(fast: Started, cause: str) -> None:
+    verdict = judge_launch_so_far(StartedWithParameters((fast, None, None)))
     assert verdict is not None
     assert_failed(verdict, cause)
 
@@ -218,32 +217,26 @@ def test_a_fast_start_alone_fails_launch(fast: PublishingStarted, cause: str) ->
     ("fast", "cause"),
     [
         (
-            PublishingStarted(trace(*PREFIXED, graph=graph(("/node",) * 2)), rate(10.0), 10),
+            Started(trace(*PREFIXED, graph=graph(("/node",) * 2)), rate(10.0), 10),
             "second node of the same name",
         ),
-        (PublishingStarted(trace(*PREFIXED, graph=PUBLISHING), Rate(10.0, 20, 1.9, 0.01), 20), "messages in bursts"),
+        (Started(trace(*PREFIXED, graph=PUBLISHING), Rate(10.0, 20, 1.9, 0.01), 20), "messages in bursts"),
     ],
 )
 def test_a_wrong_rate_at_start_up_has_a_cause_that_does_not_depend_on_the_other_start(
-    fast: PublishingStarted, cause: str
+    fast: Started, cause: str
 ) -> None:
-    assert_failed(
-        judge_launch(replace(parameter_starts(), publishing=(fast, *parameter_starts().publishing[1:]))), cause
-    )
+    assert_failed(judge_launch(replace(parameter_starts(), starts=(fast, *parameter_starts().starts[1:]))), cause)
 
 
 @pytest.mark.parametrize(
     "found",
     [
-        StartedWithParameters(
-            (None, PublishingStarted(CRASHED, None, 0)), (None,)
-        ),  # the fast start may fail for a clearer cause
-        StartedWithParameters(
-            (PublishingStarted(trace(*PREFIXED, graph=PUBLISHING), rate(LAUNCH_HZ), 10), None), (None,)
-        ),
-        StartedWithParameters((PublishingStarted(trace(*PREFIXED, graph=PUBLISHING), rate(1.0), 10), None), (None,)),
+        StartedWithParameters((None, Started(CRASHED), None)),  # the fast start may fail for a clearer cause
+        StartedWithParameters((Started(trace(*PREFIXED, graph=PUBLISHING), rate(LAUNCH_HZ), 10), None, None)),
+        StartedWithParameters((Started(trace(*PREFIXED, graph=PUBLISHING), rate(1.0), 10), None, None)),
         # With 2 Hz in the slow start, too, it is the rate that is ignored.
-        StartedWithParameters((PublishingStarted(trace(*PREFIXED, graph=PUBLISHING), rate(2.0), 10), None), (None,)),
+        StartedWithParameters((Started(trace(*PREFIXED, graph=PUBLISHING), rate(2.0), 10), None, None)),
     ],
 )
 def test_launch_is_left_open_until_all_starts_have_ended(found: StartedWithParameters) -> None:
@@ -646,7 +639,7 @@ def test_atomic_is_not_judged_where_good_values_are_rejected(prefix_set: bool, r
 
 
 COMPLAINT = "publish_rate must be > 0"
-TOOK_RATE = StartedWithParameters((PublishingStarted(RUNNING, rate(LAUNCH_HZ), 10, took_rate=True), None), (None,))
+TOOK_RATE = StartedWithParameters((Started(RUNNING, rate(LAUNCH_HZ), 10, took_rate=True), None, None))
 
 
 def start(bad: float, **more: Any) -> Trace:

@@ -62,9 +62,10 @@ def own_course(tmp_path: Path) -> Path:
     """A course of an author's own: a copy of one of ours under another id, with its test submissions."""
     root = tmp_path / "own"
     shutil.copytree(loader.BUNDLED / "lessons" / "i1_3", root / "lessons" / "x1_3", ignore=_CACHES)
-    shutil.copytree(loader.BUNDLED / "checks" / "i1_3", root / "checks" / "x1_3", ignore=_CACHES)
+    (root / "checks").mkdir()
+    shutil.copy(loader.BUNDLED / "checks" / "i1_3_calculator_service.py", root / "checks" / "x1_3.py")
     shutil.copytree(loader.BUNDLED / "tests" / "submissions" / "i1_3", root / "tests" / "submissions" / "x1_3")
-    for file in (root / "lessons/x1_3/lesson.md", root / "checks/x1_3/__init__.py"):
+    for file in (root / "lessons/x1_3/lesson.md", root / "checks/x1_3.py"):
         file.write_text(file.read_text().replace("i1.3", "x1.3"))
     return root
 
@@ -159,7 +160,7 @@ def test_findings_of_every_kind_are_reported_together(run: Run, prover: FakeProv
 def test_a_check_that_cannot_be_loaded_is_a_finding_and_not_run(
     run: Run, prover: FakeProver, own_course: Path, source: str
 ) -> None:
-    (own_course / "checks/x1_3/__init__.py").write_text(source)
+    (own_course / "checks/x1_3.py").write_text(source)
     result = run("author", "check", "--lessons", own_course)
     assert result.code == 1
     assert "checks/x1_3/__init__.py: it cannot be loaded: " in result.out

@@ -34,7 +34,11 @@ def test_an_outside_course_has_mistakes_of_its_own() -> None:
 @pytest.mark.parametrize("place", ["package", "module"])
 def test_an_error_in_an_outside_check_names_the_authors_file(tmp_path: Path, place: str) -> None:
     course = shutil.copytree(COURSE, tmp_path / "course")
-    file = course / "checks" / "h1_1" / ("__init__.py" if place == "package" else "judges.py")
+    package = course / "checks" / "h1_1" / "__init__.py"
+    file = package if place == "package" else package.with_name("words.py")
+    if file is not package:
+        file.write_text("")
+        package.write_text(package.read_text() + "\nfrom checks.h1_1 import words\n")
     file.write_text(file.read_text() + "\nimport no_such_module\n")
     answer = run_check(course, "--solution")
     assert answer.returncode == 3, answer

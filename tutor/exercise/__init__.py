@@ -30,6 +30,8 @@ from tutor.exercise.publishes import Contains, Publishes, ShownByEcho
 from tutor.exercise.rate_at_run_time import RateAtRunTime
 from tutor.exercise.rate_at_start import RateAtStart
 from tutor.exercise.rejects import Rejects, RejectsAtomically
+from tutor.exercise.running_node import Fields, Node
+from tutor.exercise.script import criterion
 from tutor.exercise.serves import Answers, Serves
 from tutor.exercise.service_calls import Question
 from tutor.exercise.set_at_run_time import SetAtRunTime
@@ -44,10 +46,12 @@ __all__ = [
     "Contains",
     "Defaults",
     "EndsCleanly",
+    "Fields",
     "Form",
     "InRange",
     "LogsParameter",
     "NamesBadValue",
+    "Node",
     "OtherUnit",
     "Parameter",
     "Program",
@@ -69,4 +73,5 @@ __all__ = [
     "Topic",
     "Varies",
     "check",
+    "criterion",
 ]

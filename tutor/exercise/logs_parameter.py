@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from tutor.exercise.form import Exercise, Form
-from tutor.exercise.log_calls import logs_the_same_on_each_message
 from tutor.exercise.nouns import Program, Topic
 from tutor.exercise.publishing import ANSWER_S, AskForParameters, PublishingStart, cancel
 from tutor.judge.bench import Bench, Run
@@ -17,6 +16,7 @@ from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.verdict import Verdict, failed, passed
 from tutor.judge.waiting import IDLE_S, MESSAGE_GAP_S, RESENT_S, wait_until_seen
 from tutor.ros_model import Parameter
+from tutor.source.log_calls import logs_the_same_on_each_message
 
 USUALLY_LOGGED_S = 3.0
 """Most nodes have logged their name within this time."""

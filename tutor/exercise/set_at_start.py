@@ -72,28 +72,21 @@ class Given:
 
 
 @dataclass(frozen=True)
-class PublishingStarted:
-    """A start with parameters: the rate measured, if one was given, and the number of messages it is based on.
+class Started:
+    """A start with parameters.
 
-    `took_rate`: whether the node took the given rate: it publishes at it, or reports it as the parameter's value.
+    `rate`: measured, if one was given, from this number of `messages`; `took_rate`: the node took it: it publishes at
+    it, or reports it as the parameter's value. With a switch as false, `reported` is what the node reports of it, and
+    `quiet_s` how long, in seconds, its silence was observed; `first_after_enable`: its first message once it is
+    switched on, tried only if it began without a publisher.
     """
 
     trace: Trace
-    rate: Rate | None
-    messages: int
+    rate: Rate | None = None
+    messages: int = 0
     took_rate: bool = False
-
-
-@dataclass(frozen=True)
-class SilentStarted:
-    """A start with a switch as false: what the node reports of it, and how long, in seconds, its silence was observed.
-
-    `first_after_enable`: its first message once it is switched on; tried only if it began without a publisher.
-    """
-
-    trace: Trace
-    reported: Reported | None
-    quiet_s: float
+    reported: Reported | None = None
+    quiet_s: float = 0.0
     first_after_enable: Sample | None = None
 
 
@@ -101,13 +94,12 @@ class SilentStarted:
 class StartedWithParameters:
     """Starts with parameters, in the order of the form's; None for each that has not ended yet."""
 
-    publishing: tuple[PublishingStarted | None, ...]
-    silent: tuple[SilentStarted | None, ...] = ()
+    starts: tuple[Started | None, ...]
 
     @property
     def took_rate(self) -> bool:
         """Whether the node took a good rate at start-up."""
-        return any(start is not None and start.took_rate for start in self.publishing)
+        return any(start is not None and start.took_rate for start in self.starts)
 
 
 @dataclass(frozen=True)
@@ -115,23 +107,24 @@ class StartWithParameters:
     """Start once with each of these sets of parameters."""
 
     node: ParameterNode
-    publishing: tuple[Given, ...]
-    silent: tuple[Given, ...]
+    starts: tuple[Given, ...]
 
     async def __call__(self, bench: Bench) -> StartedWithParameters:
-        async def start_first() -> PublishingStarted:
-            first = await self._start(bench, self.publishing[0])
-            others = (None,) * (len(self.publishing) - 1)
-            bench.report_facts(StartedWithParameters((first, *others), (None,) * len(self.silent)))
-            return first
+        first, *others = self.starts
 
-        publishing = [start_first()] if self.publishing else []
-        publishing += [self._start(bench, given) for given in self.publishing[1:]]
-        silent = [self._start_silent(bench, given) for given in self.silent]
-        published, kept_silent = await asyncio.gather(asyncio.gather(*publishing), asyncio.gather(*silent))
-        return StartedWithParameters(tuple(published), tuple(kept_silent))
+        async def start_first() -> Started:
+            started = await self._start(bench, first)
+            bench.report_facts(StartedWithParameters((started, *(None for _ in others))))
+            return started
 
-    async def _start(self, bench: Bench, given: Given) -> PublishingStarted:
+        return StartedWithParameters(
+            tuple(await asyncio.gather(start_first(), *(self._start(bench, given) for given in others)))
+        )
+
+    async def _start(self, bench: Bench, given: Given) -> Started:
+        return await (self._listen(bench, given) if given.switch is None else self._hear_silence(bench, given))
+
+    async def _listen(self, bench: Bench, given: Given) -> Started:
         node, topic = self.node, self.node.topic
         hz = given.rate[1] if given.rate is not None else node.default_hz
         async with bench.start(
@@ -139,7 +132,7 @@ class StartWithParameters:
         ) as run:
             bench.report_progress(0.2, str(given))
             # Longer than the period, in seconds, of a node that takes the rate for a period.
-            gap_s = max((start.rate[1] for start in self.publishing if start.rate), default=MESSAGE_GAP_S) + 1
+            gap_s = max((start.rate[1] for start in self.starts if start.rate), default=MESSAGE_GAP_S) + 1
             if not await wait_for_message(run, topic.name, topic.type, message_gap_s=gap_s):
                 return await self._started(run, given, None, 0)
             since = run.samples_on(topic.name)[0].source_time
@@ -151,7 +144,7 @@ class StartWithParameters:
                     return await self._started(run, given, measure(samples), len(samples))
             return await self._started(run, given, *await measure_steady_rate(run, topic.name, hz, since=since))
 
-    async def _started(self, run: Run, given: Given, rate: Rate | None, messages: int) -> PublishingStarted:
+    async def _started(self, run: Run, given: Given, rate: Rate | None, messages: int) -> Started:
         """The facts of a start; a node that publishes at another rate than the given one is asked for it."""
         trace, took_rate = run.trace(), False
         if given.rate is not None:
@@ -159,9 +152,9 @@ class StartWithParameters:
             took_rate = rate is not None and rate.agrees_with(hz)
             if not took_rate and run.exit is None and run.graph.parameter_nodes:
                 took_rate = await read(run, parameter) == (hz,)
-        return PublishingStarted(trace, rate, messages, took_rate)
+        return Started(trace, rate, messages, took_rate)
 
-    async def _start_silent(self, bench: Bench, given: Given) -> SilentStarted:
+    async def _hear_silence(self, bench: Bench, given: Given) -> Started:
         node, topic = self.node, self.node.topic
         switch = given.switch
         assert switch is not None
@@ -186,7 +179,8 @@ class StartWithParameters:
                 await set_values(run, name, (switch, True))
                 await node.wait_for_message(run)
                 first_after_enable = next(iter(run.samples_on(topic.name)), None)
-            return SilentStarted(trace, find_parameter(declared or (), switch), quiet_s, first_after_enable)
+            reported = find_parameter(declared or (), switch)
+            return Started(trace, reported=reported, quiet_s=quiet_s, first_after_enable=first_after_enable)
 
 
 @dataclass(frozen=True)
@@ -203,19 +197,11 @@ class SetAtStart(Form):
 
     def scenario(self, exercise: Exercise) -> StartWithParameters:
         """All starts: those that publish, and those that are silent."""
-        return StartWithParameters(parameter_node(exercise), self._publishing, self._silent)
+        return StartWithParameters(parameter_node(exercise), self._given)
 
     @property
-    def _publishing(self) -> tuple[Given, ...]:
-        return tuple(given for given in self._given if given.switch is None)
-
-    @property
-    def _silent(self) -> tuple[Given, ...]:
-        return tuple(given for given in self._given if given.switch is not None)
-
-    @property
-    def _given(self) -> list[Given]:
-        return [Given(tuple(start.items())) for start in self.starts]
+    def _given(self) -> tuple[Given, ...]:
+        return tuple(Given(tuple(start.items())) for start in self.starts)
 
     @property
     def _expected(self) -> str:
@@ -230,35 +216,34 @@ class SetAtStart(Form):
     def judge(self, seen: StartedWithParameters) -> Verdict:
         """Judge all starts; those that are not over yet show nothing."""
         observed: list[str] = []
-        for number, (given, start) in enumerate(zip(self._publishing, seen.publishing, strict=True)):
-            others = [other for other in seen.publishing if other is not None and other is not start]
-            if start is not None and (failure := self._judge_publishing(given, start, others, first=number == 0)):
+        for number, (given, start) in enumerate(zip(self._given, seen.starts, strict=True)):
+            if start is None:
+                continue
+            if failure := self._judge_start(number, start, seen):
                 return failure
-            if start is not None and (samples := start.trace.samples_on(given.topic.name)):
-                observed.append(f'with {given}: "{given.topic.value(samples[-1])}" at {start.rate}')
-        for given, silence in zip(self._silent, seen.silent, strict=True):
-            if silence is not None and (failure := self._judge_silence(given, silence)):
-                return failure
-            if silence is not None:
-                observed.append(f"with {given}: silence for {silence.quiet_s:.1f} s")
+            samples = start.trace.samples_on(given.topic.name)
+            silence = f"silence for {start.quiet_s:.1f} s"
+            shown = f'"{given.topic.value(samples[-1])}" at {start.rate}' if samples else silence
+            observed.append(f"with {given}: {shown}")
         return passed(self._expected, "; ".join(observed))
 
     def judge_so_far(self, seen: StartedWithParameters) -> Verdict | None:
         """Judge by the first start alone, where the others can show nothing more about why it fails."""
-        given, start = self._publishing[0], seen.publishing[0]
-        failure = self._judge_publishing(given, start, [], first=True) if start is not None else None
-        if failure is None or start is None:
+        given, start = self._given[0], seen.starts[0]
+        if start is None or given.switch is not None or self._judge_start(0, start, seen) is None:
             return None
         samples = start.trace.samples_on(given.topic.name)
         is_rate_wrong = bool(samples) and not given.find_without(samples)
-        return None if is_rate_wrong and None in seen.publishing[1:] else self.judge(seen)
+        rates = [other for each, other in zip(self._given, seen.starts, strict=True) if each.switch is None]
+        return None if is_rate_wrong and None in rates else self.judge(seen)
 
-    def _judge_publishing(
-        self, given: Given, start: PublishingStarted, others: Sequence[PublishingStarted], *, first: bool
-    ) -> Verdict | None:
+    def _judge_start(self, number: int, start: Started, seen: StartedWithParameters) -> Verdict | None:
         """Return the failure that a start shows; those before it showed none."""
+        given, before = self._given[number], self._given[:number]
+        if given.switch is not None:
+            return self._judge_silence(given, given.switch, start)
         topic, samples = given.topic, start.trace.samples_on(given.topic.name)
-        if not samples and (first or given.rate is None):
+        if not samples and (not before or given.rate is None):
             missing = Symptom.NO_MESSAGES.seen(start.trace, topic=topic.name, type=topic.type)
             observed = f"with {given}: no message on {topic.name}"
             return failed(self._expected, observed, missing, output_tail(start.trace))
@@ -270,24 +255,24 @@ class SetAtStart(Form):
         if given.rate is None or (start.rate is not None and start.rate.agrees_with(given.rate[1])):
             return None
         parameter, hz = given.rate
-        alike = start.rate is not None and any(are_alike(start.rate, other.rate) for other in others)
+        alike = start.rate is not None and any(
+            other and are_alike(start.rate, other.rate) for other in seen.starts if other is not start
+        )
         is_default = start.rate is not None and start.rate.agrees_with(float(parameter.default))
         wrong = Symptom.WRONG_RATE.seen(
             start.trace,
             parameter=parameter.name,
             wanted_hz=hz,
             rate=start.rate,
-            unchanged=first and (is_default or alike),  # a later one fails only where an earlier one was followed
+            unchanged=(is_default or alike) and not any(earlier.rate for earlier in before),  # these were followed
             inverted=start.rate is None or start.rate.agrees_with(1 / hz),
             at_start=True,
         )
         measured = describe(start.rate, start.messages)
         return failed(self._expected, f"with {given}: {measured}, not {hz} Hz ±{TOLERANCE:.0%}", wrong)
 
-    def _judge_silence(self, given: Given, start: SilentStarted) -> Verdict | None:
-        """Return the failure that a start with a switch as false shows."""
-        trace, topic, switch = start.trace, given.topic.name, given.switch
-        assert switch is not None
+    def _judge_silence(self, given: Given, switch: Parameter, start: Started) -> Verdict | None:
+        trace, topic = start.trace, given.topic.name
         if loud := trace.samples_on(topic):
             shown = [str(given.topic.value(sample)) for sample in loud[:3]]
             observed = f"with {given}: {counted(len(loud), 'message')}"

@@ -1,12 +1,12 @@
 """H1.1 Greeter: a text on /greeting."""
 
-from __future__ import annotations
+from tutor.exercise import Contains, Program, Topic, check
 
-from checks.h1_1 import scenarios
-from tutor.judge.check import Check, Criterion
+GREETING = Topic("/greeting", "std_msgs/msg/String")
 
-from . import judges
-
-CHECK = Check(
-    "h1.1", (Criterion("greets", judges.judge_greets, (scenarios.first_greeting,)),), mistakes="checks.h1_1.mistakes"
+CHECK = check(
+    "h1.1",
+    Program("greeter.py"),
+    Contains("greets", GREETING, "hello"),
+    mistakes="checks.h1_1.mistakes",
 )

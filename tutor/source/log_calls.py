@@ -1,4 +1,4 @@
-"""I1.1: whether a node's log messages all come early, so that there is no point in waiting for others.
+"""Whether a node's log messages all come early, so that there is no point in waiting for others.
 
 This never decides what counts as logged. It only tells when a node has shown all that it will ever log by itself.
 """
@@ -8,7 +8,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Mapping
 
-from tutor.source import NodeFile, calls_in, last_name, node_file
+from tutor.source.file import calls_in, last_name
+from tutor.source.node import NodeFile, node_file
 from tutor.source.structure import is_usual
 
 _UNPREDICTABLE_MODULES = frozenset({"logging", "loguru", "asyncio", "threading", "time", "datetime"})

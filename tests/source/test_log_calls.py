@@ -1,10 +1,10 @@
-"""I1.1: of which nodes it is certain that all log messages come at the start or on each message."""
+"""Of which nodes it is certain that all log messages come at the start or on each message."""
 
 from __future__ import annotations
 
 import pytest
 
-from tutor.exercise.log_calls import logs_the_same_on_each_message
+from tutor.source.log_calls import logs_the_same_on_each_message
 
 NODE = """\
 import random

@@ -1,0 +1,93 @@
+"""A criterion as a function: a short script against the running node, for what no form covers."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass, replace
+
+from tutor.exercise.form import Exercise, Form
+from tutor.exercise.nouns import Parameter, Program, Topic, Value
+from tutor.exercise.running_node import Node, Unmet
+from tutor.judge.bench import Bench
+from tutor.judge.check import Criterion
+from tutor.judge.verdict import Verdict, passed
+from tutor.judge.waiting import HARDLY_WAITED_SHARE
+
+Script = Callable[[Node], Awaitable[None]]
+
+
+@dataclass(frozen=True)
+class ScriptRun:
+    """What a script found. `slowed`: the node waited for a CPU, so that a failure may be the machine's."""
+
+    verdict: Verdict
+    slowed: bool
+
+
+@dataclass(frozen=True)
+class RunScript:
+    """Start the program, and run a script against it."""
+
+    program: Program
+    script: Script
+    expected: str
+    parameters: tuple[tuple[Parameter, Value], ...]
+    watch: tuple[Topic, ...]
+
+    async def __call__(self, bench: Bench) -> ScriptRun:
+        given = {parameter.name: value for parameter, value in self.parameters}
+        watched = {topic.name: topic.type for topic in self.watch}
+        async with bench.start(self.program.file, parameters=given, watch=watched) as run:
+            node = Node(bench, run, self.program, self.expected, self.watch)
+            try:
+                await self.script(node)
+                verdict = passed(self.expected, node.seen[-1] if node.seen else "it does", node.seen)
+            except Unmet as unmet:
+                verdict = replace(unmet.verdict, expected=self.expected)
+            slowed = run.node_cpu_wait_s() >= HARDLY_WAITED_SHARE * (run.now() - run.started_at)
+        return ScriptRun(verdict, slowed)
+
+
+@dataclass(frozen=True)
+class Scripted(Form):
+    """A criterion that a function judges; see `criterion`."""
+
+    expected: str
+    script: Script
+    parameters: Mapping[Parameter, Value]
+    watch: tuple[Topic, ...]
+
+    def criterion(self, exercise: Exercise) -> Criterion:
+        scenario = RunScript(exercise.program, self.script, self.expected, tuple(self.parameters.items()), self.watch)
+        return self.judged(lambda seen: seen.verdict, scenario)
+
+
+def criterion(
+    id: str,
+    expected: str,
+    *,
+    parameters: Mapping[Parameter, Value] | None = None,
+    watch: tuple[Topic, ...] = (),
+    after: Form | tuple[Form, ...] = (),
+    bonus: bool = False,
+) -> Callable[[Script], Scripted]:
+    """Make a criterion of a function, which is then listed in the check like one of the other forms.
+
+    `id`, `after` and `bonus`: see `Form`. `expected`: what must be seen, in words. `parameters`: those that the program
+    is started with. `watch`: the topics that the function looks at. The function gets the running `Node`:
+
+        @criterion("push", "success=true, and the count goes up by one", watch=(COUNT,), after=counts)
+        async def push(node: Node) -> None:
+            answer = await node.call(PUSH)
+            node.expect(answer.success, True, do="Set success in the response.")
+            shown = await node.next(COUNT, after=answer)
+            node.expect(shown.data, 1, do="Publish what the callback has counted.")
+
+    A missing service, no answer, a wrong type and a slow machine are the node's business. On a busy machine, the whole
+    function is run once more before it may fail the criterion.
+    """
+
+    def make(script: Script) -> Scripted:
+        return Scripted(id, expected, script, parameters or {}, watch, after=after, bonus=bonus)
+
+    return make
