@@ -163,7 +163,7 @@ def test_a_check_that_cannot_be_loaded_is_a_finding_and_not_run(
     (own_course / "checks/x1_3.py").write_text(source)
     result = run("author", "check", "--lessons", own_course)
     assert result.code == 1
-    assert "checks/x1_3/__init__.py: it cannot be loaded: " in result.out
+    assert "checks/x1_3.py: it cannot be loaded: " in result.out
     assert prover.proven == []
 
 

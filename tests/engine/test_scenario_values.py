@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import dataclass
 
 from tests.engine.helpers import Scene
@@ -25,6 +26,11 @@ class Count:
         return self.number
 
 
+async def never(bench: Bench) -> int:
+    await asyncio.sleep(60)
+    return 0
+
+
 def judge(*numbers: int) -> Verdict:
     return passed("a number", str(numbers))
 
@@ -45,5 +51,5 @@ async def test_equal_scenarios_run_once(scene: Scene) -> None:
 
 
 async def test_an_early_judge_gets_the_facts_of_an_equal_scenario(scene: Scene) -> None:
-    result = await scene.judge(Criterion("early", judge, (Count(1),), early=((Count(1), fail_early),)))
+    result = await scene.judge(Criterion("early", judge, (Count(1), never), early=((Count(1), fail_early),)))
     assert result.criteria[0].verdict.observed == "1"

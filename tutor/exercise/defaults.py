@@ -66,8 +66,7 @@ class Defaults(Form):
     parameters: tuple[Parameter, ...]
 
     def criterion(self, exercise: Exercise) -> Criterion:
-        start = self.ended_start(exercise)
-        return self.judged(self.judge, start, early=((start, self.judge_so_far),))
+        return self.judged(self.judge, self.ended_start(exercise), early=self.judge_so_far)
 
     def ended_start(self, exercise: Exercise) -> DeclaringStart:
         return DeclaringStart(parameter_node(exercise))

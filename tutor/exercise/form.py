@@ -25,6 +25,10 @@ class Exercise:
         """The first criterion of this form for which `suits` is true."""
         return next((form for form in self.forms if isinstance(form, kind) and suits(form)), None)
 
+    def scenario_of(self, form: Form | None) -> Scenario[Any] | None:
+        """The scenario that a criterion is judged on first; None if the exercise has no such criterion."""
+        return form.criterion(self).facts[0] if form is not None else None
+
 
 @dataclass(frozen=True)
 class Form(ABC):
@@ -57,12 +61,29 @@ class Form(ABC):
     def judged(
         self,
         judge: Callable[..., Verdict],
-        *scenarios: Scenario[Any],
-        early: tuple[tuple[Scenario[Any], EarlyJudge], ...] = (),
+        *scenarios: Scenario[Any] | None,
+        early: EarlyJudge | None = None,
     ) -> Criterion:
-        """The criterion that takes the facts of these scenarios; see `tutor.judge.check.Criterion`."""
+        """The criterion that takes the facts of these scenarios; see `tutor.judge.check.Criterion`.
+
+        `judge` gets None for a scenario that is None: that of another criterion, which the exercise does not have.
+        `early`: the early judge of the first scenario's facts.
+        """
+        present = tuple(scenario for scenario in scenarios if scenario is not None)
+
+        def judge_present(*facts: Any) -> Verdict:
+            given = iter(facts)
+            return judge(*(None if scenario is None else next(given) for scenario in scenarios))
+
         after = (self.after,) if isinstance(self.after, Form) else self.after
-        return Criterion(self.id, judge, scenarios, tuple(form.id for form in after), self.bonus, early)
+        return Criterion(
+            self.id,
+            judge if len(present) == len(scenarios) else judge_present,
+            present,
+            tuple(form.id for form in after),
+            self.bonus,
+            ((present[0], early),) if early is not None else (),
+        )
 
 
 def _parameters_in(value: object) -> Iterator[Parameter]:

@@ -59,7 +59,7 @@ class InRange(Form):
 
     def criterion(self, exercise: Exercise) -> Criterion:
         values = _collect(exercise, self.topic)
-        return self.judged(self.judge, values, CollectMoreValues(values), early=((values, self.judge_so_far),))
+        return self.judged(self.judge, values, CollectMoreValues(values), early=self.judge_so_far)
 
     def judge(self, found: CollectedValues, more: CollectedValues) -> Verdict:
         """Judge the values of all starts without parameters."""

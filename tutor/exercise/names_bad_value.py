@@ -58,7 +58,7 @@ def messages_naming(name: str, trace: Trace) -> list[str]:
 class NamesBadValue(Form):
     """A start with a bad value gives a message that names the parameter, not just a traceback.
 
-    Judged only where a good value is taken at start-up, if the exercise has a SetAtStart.
+    Judged only where a good value is taken at start-up, if a SetAtStart of the exercise sets it.
     """
 
     parameter: Parameter
@@ -66,18 +66,16 @@ class NamesBadValue(Form):
 
     def criterion(self, exercise: Exercise) -> Criterion:
         node = parameter_node(exercise)
-        scenarios = DeclaringStart(node), StartWithBadValues(node, self.parameter, self.bad)
-        starts = exercise.first(SetAtStart)
-        if starts is None:
-            return self.judged(self.judge, *scenarios)
+        starts = exercise.first(SetAtStart, lambda form: any(self.parameter in given for given in form.starts))
 
-        def judge(plain: DeclaringRun, seen: Sequence[Trace], good: StartedWithParameters) -> Verdict:
-            if not good.took_rate:
+        def judge(plain: DeclaringRun, seen: Sequence[Trace], good: StartedWithParameters | None) -> Verdict:
+            if starts is not None and good is not None and not good.took_rate:
                 because = f"the node does not take a good {self.parameter.name} at start-up either: see `{starts.id}`"
                 return skipped(f"not judged, because {because}")
             return self.judge(plain, seen)
 
-        return self.judged(judge, *scenarios, starts.scenario(exercise))
+        bad = StartWithBadValues(node, self.parameter, self.bad)
+        return self.judged(judge, DeclaringStart(node), bad, exercise.scenario_of(starts))
 
     def judge(self, plain: DeclaringRun, seen: Sequence[Trace]) -> Verdict:
         """Judge the starts with bad values beside one without parameters."""

@@ -26,8 +26,9 @@ class Program:
 class Topic:
     """A topic with its full name and type, such as "/chatter" and "std_msgs/msg/String".
 
-    `field`: the field that is judged, with dots into nested messages ("pose.position.x"). `unit`: of its values, as it
-    is to be shown. `low` and `high`: the range that they must be in, both ends included.
+    Raises ValueError unless both are full. `field`: the field that is judged, with dots into nested messages
+    ("pose.position.x"). `unit`: of its values, as it is to be shown. `low` and `high`: the range that they must be in,
+    both ends included.
     """
 
     name: str
@@ -36,6 +37,9 @@ class Topic:
     unit: str = ""
     low: float | None = None
     high: float | None = None
+
+    def __post_init__(self) -> None:
+        _require_full_name("topic", self.name, self.type, "msg")
 
     @property
     def watched(self) -> dict[str, str]:
@@ -93,11 +97,18 @@ Effect = ShownIn | SetsRate | SwitchesOff
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter with its name and default, whose type is the parameter's type, and what it does."""
+    """A parameter with its name and default, whose type is the parameter's type, and what it does.
+
+    Raises ValueError for a default of another type than bool, int, float and str.
+    """
 
     name: str
     default: Value
     effect: Effect | None = None
+
+    def __post_init__(self) -> None:
+        if type(self.default) not in _TYPES:
+            raise ValueError(f"the parameter {self.name}: its default must be a bool, an int, a float or a text")
 
     @property
     def type(self) -> str:
@@ -107,7 +118,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Service:
-    """A service with its full name and type.
+    """A service with its full name and type. Raises ValueError unless both are full.
 
     `request`: the fields of the request, in the order of the arguments of `computes`, the function that gives the right
     value of the field `response`. `sign`: how a request of two numbers is shown, as in "6 + 3".
@@ -119,6 +130,18 @@ class Service:
     response: str = ""
     computes: Callable[..., Any] | None = None
     sign: str = ""
+
+    def __post_init__(self) -> None:
+        _require_full_name("service", self.name, self.type, "srv")
+
+
+def _require_full_name(what: str, name: str, type_name: str, kind: str) -> None:
+    """Raise ValueError unless a name begins with a slash, and a type is one such as "std_msgs/msg/String"."""
+    if not name.startswith("/"):
+        raise ValueError(f"the {what} {name}: give its full name, /{name}")
+    package, _, rest = type_name.partition(f"/{kind}/")
+    if not package or not rest or "/" in package + rest:
+        raise ValueError(f"the {what} {name}: {type_name!r} is no type such as package/{kind}/Name")
 
 
 def show(value: object) -> str:

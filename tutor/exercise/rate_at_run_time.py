@@ -110,13 +110,9 @@ class RateAtRunTime(Form):
     rate: Parameter
     steps_hz: tuple[float, float]
 
-    def scenario(self, exercise: Exercise) -> ChangeRate:
-        """The start on which the rate is changed."""
-        return ChangeRate(parameter_node(exercise), self.rate, self.steps_hz)
-
     def criterion(self, exercise: Exercise) -> Criterion:
         node = parameter_node(exercise)
-        return self.judged(lambda seen: self.judge(seen, node), self.scenario(exercise))
+        return self.judged(lambda seen: self.judge(seen, node), ChangeRate(node, self.rate, self.steps_hz))
 
     def judge(self, seen: RateChanges, node: ParameterNode) -> Verdict:
         """Judge the changes of the rate."""

@@ -37,16 +37,12 @@ class Rejects(Form):
     def criterion(self, exercise: Exercise) -> Criterion:
         node = parameter_node(exercise)
         from_hz = self.while_at if isinstance(self.parameter.effect, SetsRate) else None
-        scenario = SetBadValues(node, self.parameter, self.bad, from_hz)
-        early = ((scenario, self.judge_so_far),)
-        changes = exercise.first(SetAtRunTime)
-        if changes is None:
-            return self.judged(lambda seen: self.judge(seen, node, exercise, None), scenario, early=early)
-
-        def judge(seen: BadValues, changed: RunTimeChanges) -> Verdict:
-            return self.judge(seen, node, exercise, changed.before)
-
-        return self.judged(judge, scenario, changes.scenario(exercise), early=early)
+        return self.judged(
+            lambda seen, changed: self.judge(seen, node, exercise, changed.before if changed else None),
+            SetBadValues(node, self.parameter, self.bad, from_hz),
+            exercise.scenario_of(exercise.first(SetAtRunTime)),
+            early=self.judge_so_far,
+        )
 
     def judge(self, seen: BadValues, node: ParameterNode, exercise: Exercise, at_start: Rate | None) -> Verdict:
         """Judge the answers, and the rate afterwards; `at_start`: the rate of another start without parameters."""
@@ -119,21 +115,14 @@ class RejectsAtomically(Form):
         node = parameter_node(exercise)
         scenario = SetAtomically(node, self.shown, self.tokens, self.other, self.bad, self.good)
         changes, timer = exercise.first(SetAtRunTime), exercise.first(RateAtRunTime)
-        needed = [form for form in (changes, timer) if form is not None]
 
-        def judge(seen: AtomicRequests, *others: RunTimeChanges | RateChanges) -> Verdict:
-            answers: list[tuple[str, SetAnswer | None]] = []
-            at_start = None
-            for form, other in zip(needed, others, strict=True):
-                if isinstance(other, RunTimeChanges):
-                    at_start = other.before
-                    answers.append((form.id, other.set_value))
-                else:
-                    answers.append((form.id, other.steps[0][0] if other.steps else None))
-            alone = [id for id, answer in answers if answer is not None and not answer.successful]
-            return self.judge(seen, node, at_start, alone)
+        def judge(seen: AtomicRequests, changed: RunTimeChanges | None, retimed: RateChanges | None) -> Verdict:
+            first = retimed.steps[0][0] if retimed is not None and retimed.steps else None
+            answers = ((changes, changed.set_value if changed else None), (timer, first))
+            alone = [form.id for form, answer in answers if form and answer and not answer.successful]
+            return self.judge(seen, node, changed.before if changed else None, alone)
 
-        return self.judged(judge, scenario, *(form.scenario(exercise) for form in needed))
+        return self.judged(judge, scenario, exercise.scenario_of(changes), exercise.scenario_of(timer))
 
     def judge(self, seen: AtomicRequests, node: ParameterNode, at_start: Rate | None, alone: list[str]) -> Verdict:
         """Judge both requests.

@@ -113,17 +113,15 @@ class Answers(Form):
     questions: Callable[[], Sequence[Question]]
 
     def criterion(self, exercise: Exercise) -> Criterion:
-        scenario = MakeCalls(Server(exercise.program, self.services), self.questions)
         serves = exercise.first(Serves)
-        if serves is None:
-            return self.judged(self.judge, scenario)
 
-        def judge(seen: ServiceCalls, simple: ServiceCalls) -> Verdict:
-            if serves.judge(simple, exercise).status is Status.FAILED:
+        def judge(seen: ServiceCalls, simple: ServiceCalls | None) -> Verdict:
+            if serves and simple and serves.judge(simple, exercise).status is Status.FAILED:
                 return skipped(f"not judged, because `{serves.id}` did not pass")
             return self.judge(seen)
 
-        return self.judged(judge, scenario, serves.ended_start(exercise))
+        scenario = MakeCalls(Server(exercise.program, self.services), self.questions)
+        return self.judged(judge, scenario, exercise.scenario_of(serves))
 
     def judge(self, seen: ServiceCalls) -> Verdict:
         """Judge all calls."""

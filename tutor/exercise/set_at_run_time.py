@@ -38,21 +38,19 @@ class SetAtRunTime(Form):
         if not isinstance(self.shown.effect, ShownIn):
             raise ValueError(f"{self.id}: {self.shown.name} must have the effect ShownIn(topic)")
 
-    def scenario(self, exercise: Exercise) -> ChangeAtRunTime:
-        """The starts on which values are set."""
-        return ChangeAtRunTime(parameter_node(exercise), self.shown, *self.values, self.switch)
-
     def criterion(self, exercise: Exercise) -> Criterion:
-        node, changes = parameter_node(exercise), self.scenario(exercise)
-        early = ((changes, lambda seen: self.judge_changes(seen, node)),)
-        timer = exercise.first(RateAtRunTime)
-        if timer is None:
-            return self.judged(lambda seen: self.judge(seen, node, others_ok=True), changes, early=early)
+        node, timer = parameter_node(exercise), exercise.first(RateAtRunTime)
 
-        def judge(seen: RunTimeChanges, retimed: RateChanges) -> Verdict:
-            return self.judge(seen, node, others_ok=timer.judge(retimed, node).passed)
+        def judge(seen: RunTimeChanges, retimed: RateChanges | None) -> Verdict:
+            others_ok = timer is None or retimed is None or timer.judge(retimed, node).passed
+            return self.judge(seen, node, others_ok=others_ok)
 
-        return self.judged(judge, changes, timer.scenario(exercise), early=early)
+        return self.judged(
+            judge,
+            ChangeAtRunTime(node, self.shown, *self.values, self.switch),
+            exercise.scenario_of(timer),
+            early=lambda seen: self.judge_changes(seen, node),
+        )
 
     @property
     def _expected(self) -> str:

@@ -195,10 +195,6 @@ class SetAtStart(Form):
 
     starts: tuple[Mapping[Parameter, Value], ...]
 
-    def scenario(self, exercise: Exercise) -> StartWithParameters:
-        """All starts: those that publish, and those that are silent."""
-        return StartWithParameters(parameter_node(exercise), self._given)
-
     @property
     def _given(self) -> tuple[Given, ...]:
         return tuple(Given(tuple(start.items())) for start in self.starts)
@@ -210,8 +206,9 @@ class SetAtStart(Form):
         return f"--ros-args -p sets {names}, and each takes effect"
 
     def criterion(self, exercise: Exercise) -> Criterion:
-        scenario = self.scenario(exercise)
-        return self.judged(self.judge, scenario, early=((scenario, self.judge_so_far),))
+        return self.judged(
+            self.judge, StartWithParameters(parameter_node(exercise), self._given), early=self.judge_so_far
+        )
 
     def judge(self, seen: StartedWithParameters) -> Verdict:
         """Judge all starts; those that are not over yet show nothing."""
