@@ -132,7 +132,7 @@ def _load(name: str) -> Any:
 
 
 def scenario_name(scenario: Any) -> str:
-    """The name of a scenario, by which a recording finds its early judge again: a function's own, or that of a class."""
+    """The name of a scenario, or of its class, by which a recording finds its early judge again."""
     return str(getattr(scenario, "__qualname__", None) or type(scenario).__qualname__)
 
 
