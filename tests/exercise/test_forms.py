@@ -28,6 +28,7 @@ from tests.checks.builders import (
 from tutor.exercise import (
     Answers,
     Contains,
+    Custom,
     Defaults,
     EndsCleanly,
     InRange,
@@ -53,9 +54,11 @@ from tutor.exercise.run_time_changes import RunTimeChanges
 from tutor.exercise.service_calls import ServiceCalls
 from tutor.exercise.set_at_start import Started, StartedWithParameters
 from tutor.exercise.survives_bad_call import CallsAroundBad
+from tutor.judge.bench import Bench
 from tutor.judge.check import Check
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Trace
+from tutor.judge.verdict import passed
 
 THERMOSTAT = Program("thermostat.py")
 STATE = Topic("/state", "std_msgs/msg/String")
@@ -191,6 +194,21 @@ def test_the_end_is_judged_on_a_start_of_its_own_where_no_other_criterion_makes_
     assert made.criteria[1].facts == (StartAndEnd(THERMOSTAT),)
     assert_passed(judge_of(made, "end")(EndedRun(RUNNING, ending(0))))
     assert_skipped(judge_of(made, "end")(EndedRun(RUNNING, None)), "`set` shows why")
+
+
+async def listen(bench: Bench) -> EndedRun:
+    raise NotImplementedError
+
+
+def test_a_criterion_may_bring_its_own_scenarios_and_judge() -> None:
+    heard = Custom(
+        "heard", lambda seen: passed("something", seen.trace.file), (listen,), ((listen, lambda seen: None),)
+    )
+    made = check("t1.1", THERMOSTAT, heard, Contains("room", STATE, "hall", after=heard), EndsCleanly("end", listen))
+    first, _, last = made.criteria
+    assert (first.facts, first.early[0][0], last.facts) == ((listen,), listen, (listen,))
+    assert first.judge(EndedRun(RUNNING, None)).observed == "node.py"
+    assert_skipped(last.judge(EndedRun(RUNNING, None)), "`heard` shows why")
 
 
 def test_defaults_are_those_of_the_nouns() -> None:

@@ -21,7 +21,7 @@ How the program is started, how long is waited, and what a busy machine may excu
 from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.defaults import Defaults
 from tutor.exercise.ends_cleanly import EndsCleanly
-from tutor.exercise.form import Form, check
+from tutor.exercise.form import Custom, Form, check
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
@@ -44,6 +44,7 @@ __all__ = [
     "Answers",
     "CallsAll",
     "Contains",
+    "Custom",
     "Defaults",
     "EndsCleanly",
     "Fields",

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Program
-from tutor.judge.bench import Bench
+from tutor.judge.bench import Bench, Scenario
 from tutor.judge.check import Criterion
 from tutor.judge.ending import judge_ending, repeat_if_doubtful
 from tutor.judge.trace import Ending, Trace
@@ -48,17 +49,18 @@ class EndsCleanly(Form):
     """On Ctrl+C (SIGINT) the process ends within 5 s, without a traceback, with exit code 0 or 130.
 
     Judged on the start without parameters of the first criterion that makes one, or else on a start of its own. It is
-    skipped where the process had ended before Ctrl+C, with the criterion that shows why.
+    skipped where the process had ended before Ctrl+C, with the criterion that shows why. `start`: another scenario to
+    judge it on, whose facts have `trace` and `ending`.
     """
+
+    start: Scenario[Any] | None = None
 
     def criterion(self, exercise: Exercise) -> Criterion:
         others = [form for form in exercise.forms if form is not self and not form.bonus]
         started = [(form, start) for form in others if (start := form.ended_start(exercise)) is not None]
-        if not started:
-            shown_by = others[0].id if others else self.id
-            return self.judged(
-                lambda seen: judge_ending(seen.trace, seen.ending, shown_by=shown_by), StartAndEnd(exercise.program)
-            )
+        if not started or self.start is not None:
+            shown_by, start = others[0].id if others else self.id, self.start or StartAndEnd(exercise.program)
+            return self.judged(lambda seen: judge_ending(seen.trace, seen.ending, shown_by=shown_by), start)
         form, start = started[0]
         following = [*others[others.index(form) + 1 :], form][0]
         judge_start = form.criterion(exercise).judge

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from tutor.exercise.nouns import Parameter, Program
 from tutor.exercise.parameters import ParameterNode
 from tutor.judge.bench import Scenario
-from tutor.judge.check import Check, Criterion, EarlyJudge
+from tutor.judge.check import Check, Criterion, EarlyJudge, Judge
 from tutor.judge.verdict import Verdict
 
 
@@ -84,6 +84,21 @@ class Form(ABC):
             self.bonus,
             ((present[0], early),) if early is not None else (),
         )
+
+
+@dataclass(frozen=True)
+class Custom(Form):
+    """A criterion with scenarios and a judge of its own, for what neither a form nor a function covers.
+
+    `judge`: a pure function of the facts of `scenarios`, in their order. `early`: see `tutor.judge.check.Criterion`.
+    """
+
+    judge: Judge
+    scenarios: tuple[Scenario[Any], ...]
+    early: tuple[tuple[Scenario[Any], EarlyJudge], ...] = ()
+
+    def criterion(self, exercise: Exercise) -> Criterion:
+        return replace(self.judged(self.judge, *self.scenarios), early=self.early)
 
 
 def _parameters_in(value: object) -> Iterator[Parameter]:
