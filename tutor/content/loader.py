@@ -6,7 +6,7 @@ A course is a folder with
 - lessons/i1_1/lesson.md: YAML front matter between two --- lines, then the lesson in Markdown
 - lessons/i1_1/skeleton/: the files a learner starts from
 - lessons/i1_1/solution/: our solution
-- checks/i1_1/: the package that judges it (not read here)
+- checks/i1_1.py, or i1_1_ and what it is: the module or package that judges it (not read here)
 """
 
 from __future__ import annotations
