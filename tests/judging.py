@@ -7,14 +7,14 @@ import os
 import sys
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from tutor.content.submissions import EXPECT, Case, Expected, read_case
+from tutor.content.expectations import Error, find_deviations
+from tutor.content.submissions import EXPECT, Case, read_case
 from tutor.errors import ContentError
 from tutor.judge.events import ExerciseJudged, decode
-from tutor.judge.result import CriterionResult, ExerciseResult
-from tutor.judge.verdict import Status
+from tutor.judge.result import ExerciseResult
 
 ROOT = Path(__file__).parent / "submissions"
 LIMIT_S = 180.0
@@ -134,56 +134,15 @@ async def run_to_end(command: Sequence[str], environ: Mapping[str, str]) -> tupl
 
 def compare(case: Case, result: ExerciseResult) -> Outcome:
     """Compare the result with what the case expects (see tests/submissions/README.md)."""
-    expected = case.expected
-    outcome = Outcome(case, verdict=" ".join(f"{c.id}:{c.verdict.status.value}" for c in result.criteria))
-    some_failed = any(c.verdict.status is Status.FAILED for c in result.criteria)
-    told = {criterion.id: criterion.verdict.cause for criterion in result.criteria}
-    for criterion in result.criteria:
-        root = told.get(criterion.verdict.same_as)  # a cause is told once
-        if root is not None:
-            criterion = replace(criterion, verdict=replace(criterion.verdict, cause=root))
-        _compare_criterion(criterion, expected, some_failed, outcome)
-    any_of = expected.fails_any
-    if any_of and not any(c.id in any_of and c.verdict.status is Status.FAILED for c in result.criteria):
-        outcome.wrong.append(f"one of {', '.join(sorted(any_of))} should fail")
-        outcome.false_pass = True
-    return outcome
-
-
-def _compare_criterion(criterion: CriterionResult, expected: Expected, some_failed: bool, outcome: Outcome) -> None:
-    status, cause = criterion.verdict.status, criterion.verdict.cause
-    described = f"{criterion.id} {status.value}: {criterion.verdict.observed} | {cause}"
-    must_fail = criterion.id in (*expected.fails, *expected.bonus_failed)
-    if status is Status.ERROR and expected.exit == 3:
-        pass
-    elif status is Status.ERROR:
-        outcome.wrong.append(f"not judged: {described}")
-    elif must_fail and status is not Status.FAILED:
-        outcome.wrong.append(f"should fail: {described}")
-        outcome.false_pass |= status is Status.PASSED
-    elif must_fail or criterion.id in expected.fails_any:
-        if status is Status.FAILED:
-            outcome.wrong += _check_cause(expected, criterion.id, cause)
-    elif criterion.id in expected.not_passed:
-        if status is Status.PASSED:
-            outcome.wrong.append(f"should not pass: {described}")
-            outcome.false_pass = True
-    elif criterion.id not in expected.either and not _is_acceptable(status, some_failed):
-        outcome.wrong.append(f"should pass: {described}")
-        outcome.false_failure = True
-
-
-def _is_acceptable(status: Status, some_failed: bool) -> bool:
-    """Return whether this status is fine for a criterion that no key names: skipping needs a failed criterion."""
-    return status is Status.PASSED or (status is Status.SKIPPED and some_failed)
-
-
-def _check_cause(expected: Expected, criterion: str, actual: str) -> list[str]:
-    general = () if criterion in expected.bonus_failed else expected.causes.get("", ())
-    texts = expected.causes.get(criterion, general)
-    if not texts or any(text.casefold() in actual.casefold() for text in texts):
-        return []
-    return [f"{criterion}: cause is “{actual}”, not {' or '.join(texts)}"]
+    found = list(find_deviations(case.expected, result))
+    errors = [deviation.error for deviation in found]
+    return Outcome(
+        case,
+        [deviation.text for deviation in found],
+        false_pass=Error.FALSE_PASS in errors,
+        false_failure=Error.FALSE_FAILURE in errors,
+        verdict=" ".join(f"{c.id}:{c.verdict.status.value}" for c in result.criteria),
+    )
 
 
 async def _find_leftovers(text: str) -> list[str]:

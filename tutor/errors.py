@@ -5,8 +5,8 @@
 - StorageError: the machine refuses to read or write; ServeError (NoAddress): the app cannot be served
 - ContentError, TableError: the course is broken
 - UnknownType, ProbeFailed, InterfacesNotBuiltError: this ROS lacks something
-- Fault: the tool or the machine cannot carry out a check. EngineError, NoFreeDomain, MachineTooBusy,
-  NeedsInstalledRos, ProcessError (StartError, EndError)
+- Fault: the tool or the machine cannot carry out a check. EngineError (CheckError, MissingType: its own code),
+  NoFreeDomain, MachineTooBusy, NeedsInstalledRos, ProcessError (StartError, EndError)
 """
 
 from __future__ import annotations
@@ -146,6 +146,38 @@ class Fault(TutorError):
 
 class EngineError(Fault):
     """A check could not be carried out."""
+
+
+class CheckError(EngineError):
+    """The code of a check is wrong, which is its author's mistake, never a learner's.
+
+    `problem` is one sentence. `line` counts from 1; None means the whole file.
+    """
+
+    BEGINNING = "the check of this exercise is wrong, "
+
+    def __init__(self, file: Path, problem: str, line: int | None = None) -> None:
+        self.file = file
+        self.line = line
+        self.problem = problem
+        super().__init__(
+            f"{self.BEGINNING}{self.place}: {problem}",
+            "this is a mistake in the exercise, not in your code: tell whoever wrote it",
+        )
+
+    @property
+    def place(self) -> str:
+        """The file and the line."""
+        return str(self.file) if self.line is None else f"{self.file}:{self.line}"
+
+
+class MissingType(CheckError):
+    """A check needs a type that this ROS does not have. `advice` says what may help."""
+
+    def __init__(self, file: Path, type: str, line: int, advice: str) -> None:
+        super().__init__(file, f"this ROS has no type {type}; {advice}", line)
+        self.args = (f"this exercise needs {type}, which this ROS does not have ({self.place})",)
+        self.hint = advice
 
 
 class NoFreeDomain(Fault):

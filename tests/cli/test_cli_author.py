@@ -11,8 +11,9 @@ import pytest
 import tutor.engine.proving
 from tests.cli.conftest import Run
 from tests.failures import failure
-from tutor.content import Course, Lesson, load_course, loader
-from tutor.engine.proving import Kind, Proof
+from tutor.content import Course, load_course, loader
+from tutor.content.submissions import Expected
+from tutor.engine.proving import Job, Kind, Proof
 from tutor.errors import EngineError
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict, fault, passed
@@ -27,20 +28,26 @@ class FakeProver:
     def __init__(self) -> None:
         self.verdicts: dict[tuple[str, str], Verdict] = {}
         self.proven: list[str] = []
+        self.submissions: list[str] = []
         self.raises: Exception | None = None
 
-    async def __call__(self, lessons: list[Lesson], course: Course, on_proof: Callable[[Proof], None]) -> list[Proof]:
-        self.proven = [lesson.id for lesson in lessons]
+    async def __call__(self, jobs: list[Job], course: Course, on_proof: Callable[[Proof], None]) -> list[Proof]:
+        self.proven = list(dict.fromkeys(job.lesson.id for job in jobs))
+        self.submissions = [job.name for job in jobs if job.kind is Kind.SUBMISSION]
         if self.raises is not None:
             raise self.raises
-        proofs = [Proof(lesson, kind, self._judge(lesson, kind)) for kind in Kind for lesson in lessons]
+        proofs = [Proof(job, self._judge(job)) for job in jobs]
         for proof in proofs:
             on_proof(proof)
         return proofs
 
-    def _judge(self, lesson: Lesson, kind: Kind) -> ExerciseResult:
+    def _judge(self, job: Job) -> ExerciseResult:
+        lesson, kind = job.lesson, job.kind
+
         def verdict(name: str, is_open: bool) -> Verdict:
-            default = OPEN_FAILURE if is_open and kind is Kind.SKELETON else passed("", "")
+            expected = job.case.expected if job.case is not None else Expected("")
+            named = name in (*expected.fails, *expected.bonus_failed)
+            default = OPEN_FAILURE if named or (is_open and kind is Kind.SKELETON) else passed("", "")
             return self.verdicts.get((kind, name), default)
 
         criteria = tuple(
@@ -144,6 +151,15 @@ def test_an_authors_own_course_is_proven_alone(run: Run, prover: FakeProver, own
     # The only findings: the commands in the copied lesson still name the original exercise.
     assert all("`ros-tutor" in line for line in result.out.splitlines()[:-1])
     assert prover.proven == ["x1.3"]
+    assert "x1.3/wrong/divide-by-zero-crashes" in prover.submissions
+
+
+def test_submissions_to_our_own_exercises_are_judged_only_when_named(run: Run, prover: FakeProver) -> None:
+    run("author", "check", LESSON)
+    assert prover.submissions == []
+    result = run("author", "check", f"{LESSON}/wrong/divide-by-zero-")
+    assert prover.submissions == [f"{LESSON}/wrong/divide-by-zero-crashes"]
+    assert result.err.splitlines()[-1].startswith(f"ros-tutor: {LESSON}/wrong/divide-by-zero-crashes: failed")
 
 
 def test_findings_of_every_kind_are_reported_together(run: Run, prover: FakeProver, own_course: Path) -> None:
@@ -156,14 +172,39 @@ def test_findings_of_every_kind_are_reported_together(run: Run, prover: FakeProv
         assert text in result.out
 
 
-@pytest.mark.parametrize("source", ["CHECK = 1\n", "import nothing_of_that_name\n", "CHECK = (\n"])
-def test_a_check_that_cannot_be_loaded_is_a_finding_and_not_run(
-    run: Run, prover: FakeProver, own_course: Path, source: str
+@pytest.mark.parametrize(
+    ("source", "place", "text"),
+    [
+        ("CHECK = 1\n", "", "it defines no CHECK: assign a Check to CHECK"),
+        ("\nimport nothing_of_that_name\n", ":2", "ModuleNotFoundError: No module named 'nothing_of_that_name'"),
+        ("X = 1\nCHECK = (\n", ":2", "'(' was never closed"),
+        (
+            "from tutor.judge.check import Check, Criterion\nCHECK = Check('x1.3', (Criterion('a'),))\n",
+            ":2",
+            "TypeError: Criterion.__init__() missing 2 required positional arguments: 'judge' and 'facts'",
+        ),
+        (
+            "from tutor.judge.check import Check\nTYPE = 'std_msgs/msg/Strng'\nCHECK = Check('x1.3', ())\n",
+            ":2",
+            "this ROS has no type std_msgs/msg/Strng; did you mean std_msgs/msg/String?",
+        ),
+        (
+            "from tutor.judge.check import Check\nTYPE = 'rain_msgs/msg/Drop'\nCHECK = Check('x1.3', ())\n",
+            ":2",
+            "this ROS has no type rain_msgs/msg/Drop; correct the name of the package, or install it "
+            "(apt install ros-jazzy-rain-msgs)",
+        ),
+    ],
+)
+def test_a_check_that_cannot_be_loaded_is_a_finding_with_its_line_and_is_not_run(
+    run: Run, prover: FakeProver, own_course: Path, source: str, place: str, text: str
 ) -> None:
     (own_course / "checks/x1_3.py").write_text(source)
     result = run("author", "check", "--lessons", own_course)
     assert result.code == 1
-    assert "checks/x1_3.py: it cannot be loaded: " in result.out
+    assert f"checks/x1_3.py{place}: your check: {text}" in [
+        line.removeprefix(f"{own_course}/") for line in result.out.splitlines()
+    ]
     assert prover.proven == []
 
 

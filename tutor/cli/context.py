@@ -27,6 +27,12 @@ def load_course(arguments: argparse.Namespace) -> Course:
     return load_course(extra)
 
 
+def own_course(arguments: argparse.Namespace) -> Path | None:
+    """Return the folder of the course that `--lessons` names."""
+    extra: Path | None = getattr(arguments, "lessons", None)
+    return extra
+
+
 def choose_workspace(arguments: argparse.Namespace) -> Workspace:
     """Return the workspace to use, which may not exist yet. Raises UsageError if a named one cannot be created."""
     found = choose_any_workspace(arguments)

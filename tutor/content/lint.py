@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from tutor.content.model import Course, CriterionText, Lesson
+from tutor.content.places import find_line
 from tutor.content.problem import Problem
 
 SECTIONS = (
@@ -36,7 +37,10 @@ def lint_course(course: Course) -> list[Problem]:
     problems = list(_lint_ids_and_groups(course))
     for lesson in course.lessons:
         source = lesson.folder / "lesson.md"
-        problems += [Problem(source, text) for text in (*_lint_front_matter(lesson, course), *_lint_body(lesson.body))]
+        for key, text in _lint_front_matter(lesson, course):
+            problems.append(Problem(source, text, line=find_line(source, key)))
+        first = _first_line_of_body(source, lesson.body)
+        problems += [Problem(source, text, line=first + line) for line, text in _lint_body(lesson.body)]
         problems += _lint_folder(lesson)
     return problems
 
@@ -63,27 +67,33 @@ def _checklist_file(course: Course) -> Path:
     return folder / "checklist.yaml"
 
 
-def _lint_front_matter(lesson: Lesson, course: Course) -> Iterator[str]:
+def _lint_front_matter(lesson: Lesson, course: Course) -> Iterator[tuple[str, str]]:
+    """Yield each problem after a pattern for its line."""
     if not any(file.required for file in lesson.files):
-        yield "it requires no file"
+        yield "^files:", "it requires no file"
     for name in _duplicates(file.name for file in lesson.files):
-        yield f"the file {name} is named twice"
+        yield rf"name: {re.escape(name)}", f"the file {name} is named twice"
     yield from _lint_criteria(lesson.criteria)
     if len(lesson.hints) != HINTS:
-        yield f"it has {len(lesson.hints)} hints instead of {HINTS}"
+        yield "^hints:", f"it has {len(lesson.hints)} hints instead of {HINTS}"
     for hint in _duplicates(lesson.hints):
-        yield f"the hint {hint!r} appears twice"
+        yield re.escape(hint), f"the hint {hint!r} appears twice"
     known = {item.id for item in course.checklist.items}
     for item in lesson.checklist:
         if item not in known:
-            yield f"the checklist has no item {item!r}"
+            yield "^checklist:", f"the checklist has no item {item!r}"
     for item in _duplicates(lesson.checklist):
-        yield f"the checklist item {item} is named twice"
+        yield "^checklist:", f"the checklist item {item} is named twice"
     for criterion in lesson.criteria:
+        place = _place_of(criterion)
         for item in criterion.shows:
             if item not in lesson.checklist:
-                yield f"the criterion {criterion.id} shows {item!r}, which is not in the lesson's checklist"
-        yield from _lint_given(lesson, criterion)
+                yield place, f"the criterion {criterion.id} shows {item!r}, which is not in the lesson's checklist"
+        yield from ((place, text) for text in _lint_given(lesson, criterion))
+
+
+def _place_of(criterion: CriterionText) -> str:
+    return rf"\bid: *{re.escape(criterion.id)}\s*(?:$|,)"
 
 
 def _lint_given(lesson: Lesson, criterion: CriterionText) -> Iterator[str]:
@@ -106,50 +116,66 @@ def _skeleton(lesson: Lesson) -> str:
         return ""
 
 
-def _lint_criteria(criteria: Sequence[CriterionText]) -> Iterator[str]:
+def _lint_criteria(criteria: Sequence[CriterionText]) -> Iterator[tuple[str, str]]:
     required = [criterion for criterion in criteria if not criterion.bonus]
     if not required:
-        yield "it has no criterion that is required"
+        yield "^criteria:", "it has no criterion that is required"
     elif not any(criterion.open for criterion in required):
-        yield "the skeleton leaves no required criterion open: there is nothing to do"
+        yield "^criteria:", "the skeleton leaves no required criterion open: there is nothing to do"
     if list(criteria[: len(required)]) != required:
-        yield "its required criteria belong before the bonus ones"
+        yield "^criteria:", "its required criteria belong before the bonus ones"
     for criterion_id in _duplicates(criterion.id for criterion in criteria):
-        yield f"the criterion {criterion_id} appears twice"
+        yield rf"id: *{re.escape(criterion_id)}", f"the criterion {criterion_id} appears twice"
     for criterion in criteria:
         if not _CRITERION_ID.fullmatch(criterion.id):
-            yield f"the criterion id {criterion.id!r} may only have lowercase letters and hyphens"
+            text = f"the criterion id {criterion.id!r} may only have lowercase letters and hyphens"
+            yield _place_of(criterion), text
         for name, value in (("text", criterion.text), ("hint", criterion.hint)):
             if not value:
-                yield f"the criterion {criterion.id} has no {name}"
+                yield _place_of(criterion), f"the criterion {criterion.id} has no {name}"
 
 
-def _lint_body(body: str) -> Iterator[str]:
+def _first_line_of_body(source: Path, body: str) -> int:
+    """Return the number of the line of the file with which the body begins."""
+    text = source.read_text(encoding="utf-8")
+    return text.count("\n", 0, max(text.rfind(body.rstrip("\n")), 0)) + 1
+
+
+def _lint_body(body: str) -> Iterator[tuple[int, str]]:
+    """Yield each problem after the number of its line, from 0."""
     headings = []
+    opened = 0
     fenced = False
-    for line in body.splitlines():
-        if "\t" in line:
-            yield f"there is a tab in {line.strip()!r}"
+    for number, line in enumerate(body.splitlines()):
         fence = _CODE_FENCE.fullmatch(line)
         if fence:
-            fenced = not fenced
-            if fenced and not fence[1].strip():
-                yield "a code block does not say its language"
-        elif fenced:
-            if len(line) > CODE_WIDTH:
-                yield f"the code {line.strip()!r} is wider than {CODE_WIDTH} characters"
-        elif line.startswith("# "):
-            yield f"the heading {line!r} is a title: the title is in the front matter"
-        elif line.startswith("## "):
+            fenced, opened = not fenced, number
+        if line.startswith("## ") and not fenced:
             headings.append(line.removeprefix("## ").strip())
-        elif line.count("`") % 2:
-            yield f"the code in {line.strip()!r} is broken over two lines"
-        elif _RAW_HTML.search(re.sub(r"`[^`]*`", "", line)):
-            yield f"there is raw HTML in {line.strip()!r}, which a terminal cannot show"
+        yield from ((number, text) for text in _lint_line(line, fence, fenced))
     if fenced:
-        yield "a code block is never closed"
+        yield opened, "a code block is never closed"
     if tuple(headings) != SECTIONS:
-        yield f"its sections are {', '.join(headings) or 'missing'}; expected {', '.join(SECTIONS)}"
+        yield 0, f"its sections are {', '.join(headings) or 'missing'}; expected {', '.join(SECTIONS)}"
+
+
+def _lint_line(line: str, fence: re.Match[str] | None, fenced: bool) -> Iterator[str]:
+    if "\t" in line:
+        yield f"there is a tab in {line.strip()!r}"
+    if fence:
+        if fenced and not fence[1].strip():
+            yield "a code block does not say its language"
+    elif fenced:
+        if len(line) > CODE_WIDTH:
+            yield f"the code {line.strip()!r} is wider than {CODE_WIDTH} characters"
+    elif line.startswith("# "):
+        yield f"the heading {line!r} is a title: the title is in the front matter"
+    elif line.startswith("## "):
+        return
+    elif line.count("`") % 2:
+        yield f"the code in {line.strip()!r} is broken over two lines"
+    elif _RAW_HTML.search(re.sub(r"`[^`]*`", "", line)):
+        yield f"there is raw HTML in {line.strip()!r}, which a terminal cannot show"
 
 
 def _lint_folder(lesson: Lesson) -> Iterator[Problem]:
@@ -188,7 +214,7 @@ def _lint_source(path: Path) -> Iterator[Problem]:
         try:
             compile(source, path, "exec", dont_inherit=True)
         except (SyntaxError, ValueError) as error:
-            yield Problem(path, f"it does not compile: {error}")
+            yield Problem(path, f"it does not compile: {error}", line=getattr(error, "lineno", None))
 
 
 def _same_content(one: Path, other: Path) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from tutor.content.model import Course, Lesson
+from tutor.content.places import find_line, find_word
 from tutor.content.problem import Problem
 from tutor.judge.check import Check
 
@@ -18,30 +19,32 @@ def find_disagreements(lesson: Lesson, check: Check) -> Iterator[Problem]:
     """Find where a lesson and its check disagree: on the exercise, its criteria, or the files to hand in."""
     lesson_file, check_file = lesson.folder / "lesson.md", lesson.check
     if check.exercise != lesson.id:
-        yield Problem(check_file, f"it judges {check.exercise}", f"say {lesson.id}")
+        yield Problem(
+            check_file, f"it judges {check.exercise}", f"say {lesson.id}", find_word(check_file, check.exercise)
+        )
+    constants = _string_constants(check_file)
     in_lesson = {criterion.id: criterion.bonus for criterion in lesson.criteria}
     in_check = {criterion.id: criterion.bonus for criterion in check.criteria}
     for name in sorted(in_lesson.keys() - in_check.keys()):
+        place, line = constants.get(name, (check_file, find_line(check_file, r"^CHECK\b")))
         yield Problem(
-            check_file, f"the criterion {name} of the lesson is not judged", "add it, or take it out of the lesson"
+            place, f"the criterion {name} of the lesson is not judged", "add it, or take it out of the lesson", line
         )
     for name in sorted(in_check.keys() - in_lesson.keys()):
-        yield Problem(
-            lesson_file, f"the criterion {name} is judged, but the lesson does not have it", "add it with text and hint"
-        )
+        text, hint = f"the criterion {name} is judged, but the lesson does not have it", "add it with text and hint"
+        yield Problem(lesson_file, text, hint, find_line(lesson_file, r"^criteria:"))
     for name in sorted(in_lesson.keys() & in_check.keys()):
         if in_lesson[name] != in_check[name]:
             kinds = ("a bonus", "required") if in_lesson[name] else ("required", "a bonus")
-            yield Problem(
-                lesson_file, f"the criterion {name} is {kinds[0]} here and {kinds[1]} in the check", "make them agree"
-            )
+            text = f"the criterion {name} is {kinds[0]} here and {kinds[1]} in the check"
+            yield Problem(lesson_file, text, "make them agree", find_line(lesson_file, rf"\bid: *{name}\b"))
     if in_lesson.keys() == in_check.keys() and list(in_lesson) != list(in_check):
         yield Problem(
             lesson_file,
             f"the criteria are in another order than in the check, which has {', '.join(in_check)}",
             "use one order",
+            find_line(lesson_file, r"^criteria:"),
         )
-    constants = _string_constants(check_file)
     for file in lesson.files:
         if file.name not in constants:
             yield Problem(
@@ -73,12 +76,12 @@ def _find_strays(folder: Path, known: set[Path]) -> Iterator[Problem]:
             yield Problem(path, "this belongs to no lesson", "remove it, or finish the lesson")
 
 
-def _string_constants(check: Path) -> set[str]:
-    """Return all string constants in the sources of a check."""
+def _string_constants(check: Path) -> dict[str, tuple[Path, int]]:
+    """Return all string constants in the sources of a check, each with where it is first."""
     sources = sorted(check.parent.glob("*.py")) if check.name == _PACKAGE else [check]
-    return {
-        node.value
-        for source in sources
-        for node in ast.walk(ast.parse(source.read_bytes()))
-        if isinstance(node, ast.Constant) and isinstance(node.value, str)
-    }
+    found: dict[str, tuple[Path, int]] = {}
+    for source in sources:
+        for node in ast.walk(ast.parse(source.read_bytes())):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                found.setdefault(node.value, (source, node.lineno))
+    return found

@@ -6,8 +6,10 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from tutor.content.model import Course, Lesson
+from tutor.content.patches import patched
+from tutor.content.places import find_word
 from tutor.content.problem import Problem
-from tutor.content.submissions import EXPECT, RIGHT, WRONG, Case, read_case
+from tutor.content.submissions import EXPECT, PATCH, RIGHT, WRONG, Case, read_case
 from tutor.errors import ContentError
 
 _EXCLUSIVE = ("fails", "bonus_failed")
@@ -31,35 +33,48 @@ def find_bad_submissions(root: Path, course: Course, lessons: Sequence[Lesson]) 
         yield from _find_uncovered(root / lesson.folder.name, lesson, cases)
 
 
+def find_cases(root: Path, lesson: Lesson) -> list[Case]:
+    """Return the submissions to a lesson below `root`, without those that cannot be judged as they are."""
+    cases = [case for case in _find_cases(root / lesson.folder.name, lesson) if isinstance(case, Case)]
+    return [case for case in cases if not list(_lint_case(case, lesson))]
+
+
 def _find_cases(folder: Path, lesson: Lesson) -> Iterator[Problem | Case]:
     for kind in _list_entries(folder):
         if kind.name not in (RIGHT, WRONG) or not kind.is_dir():
             yield Problem(kind, "this is not a submission", f"put it into {RIGHT}/<name> or {WRONG}/<name>")
             continue
         for path in _list_entries(kind):
-            if not path.is_dir():
-                yield Problem(path, "this is not a submission", "put it into a folder of its own")
-            elif not (path / EXPECT).is_file():
+            if not path.is_dir() and path.suffix != PATCH:
+                yield Problem(
+                    path, "this is not a submission", "put it into a folder of its own, or make it a patch (.yaml)"
+                )
+            elif path.is_dir() and not (path / EXPECT).is_file():
                 yield Problem(path, f"there is no {EXPECT}", "say what it must be judged as")
             else:
                 try:
                     yield read_case(path)
                 except ContentError as error:
-                    place = f"line {error.line}: " if error.line else ""
-                    field = f"{error.field}: " if error.field else ""
-                    yield Problem(error.file, f"{place}{field}{error.message}")
+                    yield Problem.of(error)
 
 
 def _lint_case(case: Case, lesson: Lesson) -> Iterator[Problem]:
-    for file in lesson.files:
+    if case.changes:
+        try:
+            patched(lesson, case.changes)
+        except ContentError as error:
+            yield Problem.of(error)
+    for file in lesson.files if not case.changes else ():
         if file.required and not (case.folder / file.name).is_file():
             yield Problem(case.folder, f"there is no {file.name}", "without it there is nothing to judge")
-    expected, source = case.expected, case.folder / EXPECT
+    expected, source = case.expected, case.source
     bonus = {criterion.id: criterion.bonus for criterion in lesson.criteria}
-    for key, names in {**expected.named, "cause": tuple(name for name in expected.causes if name)}.items():
+    named = {key: tuple(name for name in texts if name) for key, texts in expected.diagnoses.items()}
+    for key, names in {**expected.named, **named}.items():
         for name in names:
             if name not in bonus:
-                yield Problem(source, f"{key}: there is no criterion {name!r}", f"the criteria are {', '.join(bonus)}")
+                text, hint = f"{key}: there is no criterion {name!r}", f"the criteria are {', '.join(bonus)}"
+                yield Problem(source, text, hint, line=find_word(source, name))
     yield from _find_contradictions(source, expected.named, bonus)
     yield from (Problem(source, text, hint) for text, hint in _lint_kind(case, bonus))
 
@@ -69,15 +84,19 @@ def _find_contradictions(
 ) -> Iterator[Problem]:
     for name in named["fails"]:
         if bonus.get(name, False):
-            yield Problem(source, f"fails: {name} is a bonus", "name it in bonus_failed")
+            yield Problem(source, f"fails: {name} is a bonus", "name it in bonus_failed", line=find_word(source, name))
     for name in named["bonus_failed"]:
         if not bonus.get(name, True):
-            yield Problem(source, f"bonus_failed: {name} is not a bonus", "name it in fails")
+            yield Problem(
+                source, f"bonus_failed: {name} is not a bonus", "name it in fails", line=find_word(source, name)
+            )
     for key in _EXCLUSIVE:
         others = {name for other, names in named.items() if other != key for name in names}
         for name in named[key]:
             if name in others:
-                yield Problem(source, f"{name} is in {key} and in another key", "name it once")
+                yield Problem(
+                    source, f"{name} is in {key} and in another key", "name it once", line=find_word(source, name)
+                )
 
 
 def _lint_kind(case: Case, bonus: Mapping[str, bool]) -> Iterator[tuple[str, str]]:

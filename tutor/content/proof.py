@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from tutor.content.expectations import find_deviations
 from tutor.content.model import CriterionText, Lesson
+from tutor.content.places import find_word
 from tutor.content.problem import Problem
+from tutor.content.submissions import Case
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status
 
@@ -28,6 +31,19 @@ def find_contradictions(lesson: Lesson, kind: str, result: ExerciseResult) -> It
             yield _make_problem(lesson, kind, criterion, contradiction)
     if kind == "skeleton" and not any(c.verdict.status in (Status.FAILED, Status.ERROR) for c in result.criteria):
         yield Problem(lesson.folder / kind, "no criterion fails", "leave something to do")
+
+
+def find_wrong_verdicts(case: Case, result: ExerciseResult) -> Iterator[Problem]:
+    """Find where the verdict on a test submission is not what its `expect.yaml`, or its patch, says.
+
+    Criteria that could not be judged are no findings: see `unjudged_criteria`.
+    """
+    unjudged = {criterion.id for criterion in unjudged_criteria(result)}
+    for deviation in find_deviations(case.expected, result):
+        if deviation.criterion not in unjudged:
+            line = find_word(case.source, deviation.criterion) if deviation.criterion else None
+            hint = "fix the check, or what is expected here"
+            yield Problem(case.source, deviation.text.removesuffix(" | "), hint, line)
 
 
 def unjudged_criteria(result: ExerciseResult) -> list[CriterionResult]:

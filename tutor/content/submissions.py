@@ -1,7 +1,7 @@
 """Test submissions: right and wrong answers to the exercises, each with its expected verdict.
 
-Each is a folder `<exercise>/<right|wrong>/<name>/` with the learner's files and an `expect.yaml`; `Expected` describes
-the keys of the latter.
+Each is a folder `<exercise>/<right|wrong>/<name>/` with the learner's files and an `expect.yaml`, or a file
+`<exercise>/<right|wrong>/<name>.yaml`, a patch of the solution (see `patches`). `Expected` describes their keys.
 """
 
 from __future__ import annotations
@@ -11,9 +11,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tutor.content.fields import Document, Fields
+from tutor.content.patches import Change, read_changes
 from tutor.errors import ContentError
 
 EXPECT = "expect.yaml"
+PATCH = ".yaml"
 RIGHT, WRONG = "right", "wrong"
 
 
@@ -28,6 +30,7 @@ class Expected:
     - `either`: criteria that may have any verdict but an error
     - `bonus_failed`: bonus criteria that fail
     - `causes`: maps a criterion ("" stands for all that fail) to texts, one of which its cause contains
+    - `mistakes`: in the same way, ids of mistakes in the catalogue, one of which it is (`mistake` in the file)
     - `gone`: a text that is in no process's command line afterwards
     - `ros`: the only kind of ROS for which this holds, unless empty
     - `exit`: the exit code of `ros-tutor check`, if given; with 3, criteria may end in an error
@@ -46,6 +49,7 @@ class Expected:
     ros: str = ""
     exit: int | None = None
     keeps_busy: bool = False
+    mistakes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def named(self) -> Mapping[str, tuple[str, ...]]:
@@ -58,18 +62,32 @@ class Expected:
             "bonus_failed": self.bonus_failed,
         }
 
+    @property
+    def diagnoses(self) -> Mapping[str, Mapping[str, tuple[str, ...]]]:
+        """The keys that say how a failure is explained, with their texts by criterion."""
+        return {"cause": self.causes, "mistake": self.mistakes}
+
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """One submission folder. `exercise` is the exercise's id, `kind` is "right" or "wrong"."""
+    """One submission. `exercise` is the exercise's id, `kind` is "right" or "wrong".
+
+    `folder` has its files; of a patch, it is the patch itself, and `changes` are those to the solution.
+    """
 
     exercise: str
     kind: str
     folder: Path
     expected: Expected
+    changes: tuple[Change, ...] = ()
+
+    @property
+    def source(self) -> Path:
+        """The file with what is expected."""
+        return self.folder if self.changes else self.folder / EXPECT
 
     def __str__(self) -> str:
-        return f"{self.exercise}/{self.kind}/{self.folder.name}"
+        return f"{self.exercise}/{self.kind}/{self.folder.stem if self.changes else self.folder.name}"
 
 
 def read_expected(file: Path) -> Expected:
@@ -77,15 +95,25 @@ def read_expected(file: Path) -> Expected:
 
     Raises ContentError if it cannot be read, or if a key is missing, unknown or of the wrong type.
     """
+    fields = _read_fields(file)
+    expected = _take_expected(fields)
+    fields.done()
+    return expected
+
+
+def _read_fields(file: Path) -> Fields:
     try:
         text = file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise ContentError(file, f"it cannot be read: {error}") from error
-    fields = Document(file, text).read()
+    return Document(file, text).read()
+
+
+def _take_expected(fields: Fields) -> Expected:
     passes = fields.text("passes", optional=True)
     if passes not in ("", "all"):
         raise fields.error("passes", f"expected all, found {passes!r}")
-    expected = Expected(
+    return Expected(
         says=fields.text("says"),
         passes=passes == "all",
         fails=fields.texts("fails", optional=True),
@@ -98,18 +126,25 @@ def read_expected(file: Path) -> Expected:
         ros=fields.text("ros", optional=True),
         exit=None if (code := fields.number("exit")) is None else int(code),
         keeps_busy=fields.flag("keeps_busy", default=False),
+        mistakes=_texts_by_criterion(fields, "mistake"),
     )
-    fields.done()
-    return expected
 
 
-def read_case(folder: Path) -> Case:
-    """Read the submission in this folder.
+def read_case(path: Path) -> Case:
+    """Read the submission in this folder, or this patch.
 
-    Raises ContentError if its `expect.yaml` is missing or broken.
+    Raises ContentError if the file that says what is expected is missing or broken.
     """
-    exercise, kind = folder.parts[-3].replace("_", "."), folder.parts[-2]
-    return Case(exercise, kind, folder, read_expected(folder / EXPECT))
+    exercise, kind = path.parts[-3].replace("_", "."), path.parts[-2]
+    if path.suffix != PATCH or path.is_dir():
+        return Case(exercise, kind, path, read_expected(path / EXPECT))
+    fields = _read_fields(path)
+    changes = read_changes(fields, path)
+    if not changes:
+        raise fields.error("change", "this field is missing: say what of the solution becomes what")
+    expected = _take_expected(fields)
+    fields.done()
+    return Case(exercise, kind, path, expected, changes)
 
 
 def _texts_by_criterion(fields: Fields, key: str) -> Mapping[str, tuple[str, ...]]:

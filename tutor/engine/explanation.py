@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import sys
+from pathlib import Path
+
+from tutor.engine.check_errors import as_check_error, is_ours
 from tutor.judge.check import Check
 from tutor.judge.verdict import Failure, Verdict
 
@@ -12,4 +16,11 @@ def explain(verdict: Verdict, check: Check) -> Verdict:
         return verdict
     from tutor.mistakes import explain as explain_failure  # late: it reads the source, and most criteria pass
 
-    return explain_failure(verdict, check)
+    try:
+        return explain_failure(verdict, check)
+    except Exception as error:  # an entry of the exercise's own catalogue may be wrong
+        module = sys.modules.get(check.mistakes)
+        source = Path(module.__file__) if module is not None and module.__file__ else None
+        if source is None or is_ours(source):
+            raise
+        raise as_check_error(error, source.parent) or error from error

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import importlib
 import sys
-import traceback
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
 from tutor.content import Course, Lesson
-from tutor.errors import EngineError, TableError
+from tutor.engine.check_errors import as_check_error, guarded, is_ours
+from tutor.engine.interface_types import unknown_types
+from tutor.errors import CheckError, EngineError, TableError
 from tutor.judge.check import Check
 
 if TYPE_CHECKING:
@@ -20,23 +21,25 @@ if TYPE_CHECKING:
 def load_check(lesson: Lesson) -> Check:
     """Load the check of a lesson: `CHECK` in the package or module `lesson.check`.
 
-    Raises EngineError if it is missing or cannot be loaded.
+    Raises CheckError if it is missing, cannot be loaded, or names a type that this ROS does not have.
     """
     source = lesson.check
     if not source.is_file():
-        raise EngineError(f"there is no check for {lesson.id}: {source} is missing", f"write {source}")
+        raise CheckError(source, f"there is no such file, so nothing judges {lesson.id}")
     try:
         check = getattr(_import_check(source), "CHECK", None)
     except TableError as error:
-        raise EngineError(f"the check of {lesson.id} has a table that cannot be used: {error}", "fix it") from error
+        raise CheckError(source, f"it has a table that cannot be used: {error}") from error
     except Exception as error:
-        raise EngineError(
-            f"the check of {lesson.id} cannot be loaded: {_location(error, source)}: {type(error).__name__}: {error}",
-            "fix the check",
-        ) from error
+        found = as_check_error(error, checks_folder(source))
+        raise found or CheckError(source, f"it cannot be loaded: {type(error).__name__}: {error}") from error
     if not isinstance(check, Check):
-        raise EngineError(f"{source} defines no CHECK", "assign a tutor.judge.check.Check to CHECK there")
-    return check
+        raise CheckError(source, "it defines no CHECK: assign a Check to CHECK")
+    if is_ours(source):
+        return check
+    for unknown in unknown_types(source):
+        raise unknown
+    return guarded(check, checks_folder(source))
 
 
 def load_catalogues(course: Course) -> list[Catalogue]:
@@ -68,8 +71,8 @@ def _import_check(source: Path) -> ModuleType:
     """Import `checks.NAME`, from our own course or from another, whose folder is put first in the package's path."""
     import checks
 
-    path = source.parent if source.name == "__init__.py" else source
-    name, folder = path.stem, str(path.parent.resolve())
+    name = (source.parent if source.name == "__init__.py" else source).stem
+    folder = str(checks_folder(source))
     checks.__path__[:] = [folder, *(path for path in checks.__path__ if path != folder)]
     loaded = sys.modules.get(f"checks.{name}")
     if loaded is not None and Path(loaded.__file__ or "") != source.resolve():  # from a course loaded before
@@ -79,11 +82,6 @@ def _import_check(source: Path) -> ModuleType:
     return importlib.import_module(f"checks.{name}")
 
 
-def _location(error: Exception, source: Path) -> str:
-    """The innermost file and line of the check itself in the exception's traceback."""
-    if isinstance(error, SyntaxError) and error.filename:
-        return f"{error.filename}:{error.lineno}"
-    frames = [
-        frame for frame in traceback.extract_tb(error.__traceback__) if Path(frame.filename).parent == source.parent
-    ]
-    return f"{frames[-1].filename}:{frames[-1].lineno}" if frames else str(source)
+def checks_folder(source: Path) -> Path:
+    """Return the `checks` folder of the course that a check belongs to."""
+    return (source.parent.parent if source.name == "__init__.py" else source.parent).resolve()

@@ -1,63 +1,105 @@
-"""Check the skeletons and solutions of lessons, a few at a time, for the author of a course."""
+"""Judge what a course brings along, a few at a time: its skeletons, solutions and test submissions, for its author."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from pathlib import Path
 
 from tutor.content import Course, Lesson
+from tutor.content.patches import patched
+from tutor.content.submissions import Case
 from tutor.engine.check import run_check
 from tutor.engine.start_limiter import StartLimiter
+from tutor.errors import SubmissionError
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
+from tutor.workspace import find_submission
 
 MAX_CONCURRENT_CHECKS = 6
 """More than one, since checks mostly wait; not more, since they would only starve each other of CPU time."""
 
 
 class Kind(StrEnum):
-    """Which of a lesson's files are judged."""
+    """What is judged: files of the lesson, or a test submission."""
 
     SKELETON = "skeleton"
     SOLUTION = "solution"
+    SUBMISSION = "submission"
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """Something to judge. `case` says what is expected of a test submission."""
+
+    lesson: Lesson
+    kind: Kind
+    submission: Submission
+    case: Case | None = None
+
+    @property
+    def name(self) -> str:
+        """What is judged, such as "i1.1 skeleton" or "i1.1/wrong/constant"."""
+        return str(self.case) if self.case is not None else f"{self.lesson.id} {self.kind}"
 
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """The result for one skeleton or solution."""
+    """The result of one job."""
 
-    lesson: Lesson
-    kind: Kind
+    job: Job
     result: ExerciseResult
 
 
-async def prove(lessons: Sequence[Lesson], course: Course, on_proof: Callable[[Proof], None]) -> list[Proof]:
-    """Judge each lesson's skeleton and solution: all skeletons first, then all solutions, each in the lessons' order.
+def jobs_of_lessons(lessons: Sequence[Lesson]) -> Iterator[Job]:
+    """Yield all skeletons, then all solutions.
+
+    Skeletons first: they take longest, since a check waits until the timeout for what never comes.
+    """
+    for kind in (Kind.SKELETON, Kind.SOLUTION):
+        for lesson in lessons:
+            files = {file.name: getattr(file, kind.value) for file in lesson.files}
+            yield Job(lesson, kind, Submission(lesson.id, files))
+
+
+def job_of_case(lesson: Lesson, case: Case, scratch: Path) -> Job | None:
+    """Return the job of a test submission, or None if files are missing. What a patch makes is put into `scratch`.
+
+    Raises ContentError if a patch does not fit the solution, and OSError.
+    """
+    folder = case.folder
+    if case.changes:
+        folder = scratch / lesson.folder.name / case.kind / case.folder.stem
+        folder.mkdir(parents=True)
+        for name, source in patched(lesson, case.changes).items():
+            (folder / name).write_text(source, encoding="utf-8")
+    try:
+        return Job(lesson, Kind.SUBMISSION, find_submission(lesson, folder, None), case)
+    except SubmissionError:
+        return None
+
+
+async def prove(jobs: Sequence[Job], course: Course, on_proof: Callable[[Proof], None]) -> list[Proof]:
+    """Judge everything, and return the proofs in the order of the jobs.
 
     `on_proof` gets each proof as soon as it is there, in any order. No process that was started is left when this
     returns, is cancelled or raises. Raises EngineError.
     """
     slots, start_limiter = asyncio.Semaphore(MAX_CONCURRENT_CHECKS), StartLimiter()
 
-    async def prove_one(lesson: Lesson, kind: Kind) -> Proof:
+    async def prove_one(job: Job) -> Proof:
         async with slots:
-            report = await run_check([_submission(lesson, kind)], course, start_limiter=start_limiter)
-        proof = Proof(lesson, kind, report.exercises[0])
+            report = await run_check([job.submission], course, start_limiter=start_limiter)
+        proof = Proof(job, report.exercises[0])
         on_proof(proof)
         return proof
 
-    # Skeletons first: they take longest, since a check waits until the timeout for what never comes.
-    wanted = [(lesson, kind) for kind in Kind for lesson in lessons]
-    tasks = [asyncio.ensure_future(prove_one(*each)) for each in wanted]
+    tasks = [asyncio.ensure_future(prove_one(job)) for job in jobs]
     try:
         return list(await asyncio.gather(*tasks))
     finally:
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
-
-
-def _submission(lesson: Lesson, kind: Kind) -> Submission:
-    return Submission(lesson.id, {file.name: getattr(file, kind.value) for file in lesson.files})
