@@ -46,8 +46,10 @@ class FakeProver:
 
         def verdict(name: str, is_open: bool) -> Verdict:
             expected = job.case.expected if job.case is not None else Expected("")
-            named = name in (*expected.fails, *expected.bonus_failed)
-            default = OPEN_FAILURE if named or (is_open and kind is Kind.SKELETON) else passed("", "")
+            causes = expected.causes.get(name, expected.causes.get("", ()))
+            fails = failure("a", "b", (causes[0], "c", "d")) if causes else OPEN_FAILURE
+            named = name in (*expected.fails, *expected.fails_any, *expected.bonus_failed)
+            default = fails if named or (is_open and kind is Kind.SKELETON) else passed("", "")
             return self.verdicts.get((kind, name), default)
 
         criteria = tuple(
@@ -151,15 +153,15 @@ def test_an_authors_own_course_is_proven_alone(run: Run, prover: FakeProver, own
     # The only findings: the commands in the copied lesson still name the original exercise.
     assert all("`ros-tutor" in line for line in result.out.splitlines()[:-1])
     assert prover.proven == ["x1.3"]
-    assert "x1.3/wrong/divide-by-zero-crashes" in prover.submissions
+    assert "x1.3/wrong/divide-reversed" in prover.submissions
 
 
 def test_submissions_to_our_own_exercises_are_judged_only_when_named(run: Run, prover: FakeProver) -> None:
     run("author", "check", LESSON)
     assert prover.submissions == []
-    result = run("author", "check", f"{LESSON}/wrong/divide-by-zero-")
-    assert prover.submissions == [f"{LESSON}/wrong/divide-by-zero-crashes"]
-    assert result.err.splitlines()[-1].startswith(f"ros-tutor: {LESSON}/wrong/divide-by-zero-crashes: failed")
+    result = run("author", "check", f"{LESSON}/wrong/divide-reversed")
+    assert prover.submissions == [f"{LESSON}/wrong/divide-reversed"]
+    assert result.err.splitlines()[-1].startswith(f"ros-tutor: {LESSON}/wrong/divide-reversed: failed")
 
 
 def test_findings_of_every_kind_are_reported_together(run: Run, prover: FakeProver, own_course: Path) -> None:

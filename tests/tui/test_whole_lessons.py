@@ -12,6 +12,7 @@ from textual.widgets.text_area import Selection
 
 from tests.tui.conftest import Learner, open_app
 from tutor.content import load_course
+from tutor.content.courses import Courses
 from tutor.process.orphans import command_line
 from tutor.process.supervisor import descendants
 from tutor.session import Session
@@ -122,7 +123,7 @@ async def test_messages_published_by_hand_once_and_at_a_rate_reach_the_node(sess
 
 async def test_a_course_from_another_folder_is_played(tmp_path: Path, session: Session) -> None:
     course = Path(__file__).parents[1] / "courses" / "greeting"
-    mine = Session(load_course(course), Workspace(tmp_path / "ws"), course)
+    mine = Session(load_course(course), Workspace(tmp_path / "ws"), Courses.find([course]))
     async with solving(mine, "h1.1", (80, 24)) as me:
         await me.press("c")
         await check_is_over(me)

@@ -12,15 +12,15 @@ from tutor.invocation import command
 
 def run(arguments: argparse.Namespace) -> int:
     """Open the app, which needs a terminal, or the plain-text dialog, which does not."""
-    root, lessons = context.choose_workspace(arguments).root, getattr(arguments, "lessons", None)
+    root, courses = context.choose_workspace(arguments).root, context.choose_courses(arguments)
     if arguments.plain:
         from tutor.plain import run as talk
 
-        return talk(root, terminal.out, lessons)
+        return talk(root, terminal.out, courses)
     if not (terminal.is_terminal(sys.stdin) and terminal.is_terminal(sys.stdout)):
         raise UsageError(
             f"the app needs a terminal; without one, use a command (`{command('help')}` names them) or --plain"
         )
     from tutor.tui import run
 
-    return run(root, lessons)
+    return run(root, courses)

@@ -15,6 +15,7 @@ from tutor.judge.wording import counted
 
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson, Problem
+    from tutor.content.courses import Courses
     from tutor.engine.proving import Job, Proof
     from tutor.judge.check import Check
 
@@ -28,15 +29,16 @@ class _Chosen(NamedTuple):
 
 def run(arguments: argparse.Namespace) -> int:
     """Print one line per finding and a summary: first the static findings, then those from running the exercises."""
-    from tutor.content import Problem
+    from tutor.content import Problem, load_course
 
     try:
-        course = context.load_course(arguments)
+        own = context.own_courses(arguments)
+        course = load_course(own.folders)
     except ContentError as error:
         _print_findings([Problem.of(error)])
         terminal.out("1 finding: the course cannot be read\n")
         return NOT_PASSED
-    chosen = _choose(arguments, course)
+    chosen = _choose(arguments, course, own)
     checks, findings = _load_checks(chosen.lessons)
     folders = _find_submissions(arguments, chosen.lessons)
     findings += _find_static_problems(arguments, course, chosen.lessons, checks, folders)
@@ -53,17 +55,13 @@ def run(arguments: argparse.Namespace) -> int:
     return NOT_PASSED if findings else FAULT if unjudged else PASSED
 
 
-def _choose(arguments: argparse.Namespace, course: Course) -> _Chosen:
+def _choose(arguments: argparse.Namespace, course: Course, own: Courses) -> _Chosen:
     if arguments.exercises:
         names = [each.partition("/")[::2] for each in arguments.exercises]
         lessons = list(dict.fromkeys(course.find(exercise) for exercise, _ in names))
         submissions = tuple(f"{course.find(exercise).id}/{rest}" for exercise, rest in names if rest)
         return _Chosen(lessons, submissions)
-    extra: Path | None = getattr(arguments, "lessons", None)
-    if extra is None:
-        return _Chosen(list(course.lessons), ())
-    own = (extra / "lessons").resolve()
-    return _Chosen([lesson for lesson in course.lessons if lesson.folder.resolve().parent == own], ())
+    return _Chosen([lesson for lesson in course.lessons if lesson.course or not own.folders], ())
 
 
 def _load_checks(lessons: Sequence[Lesson]) -> tuple[dict[str, Check], list[Problem]]:

@@ -26,9 +26,10 @@ Snapshot = dict[Path, tuple[int, int]]
 
 def run(arguments: argparse.Namespace) -> int:
     """Prove now, and what has changed after each save, until Ctrl+C. Each time is a process of its own."""
-    root = context.own_course(arguments)
-    if root is None:
-        raise UsageError("--watch needs a course of your own: name its folder with --lessons DIR")
+    own = context.own_courses(arguments)
+    if len(own.folders) != 1 or own.given[0] != str(own.folders[0]):
+        raise UsageError("--watch needs one course of your own: name its folder with --lessons DIR")
+    (root,) = own.folders
     wanted = list(arguments.exercises)
     words = wanted
     while True:

@@ -84,7 +84,7 @@ def _ros2_command_line(line: str) -> str | None:
 
 
 def _make_completer(name: str, action: argparse.Action, commands: list[str]) -> Completer | None:
-    from argcomplete.completers import DirectoriesCompleter
+    from argcomplete.completers import DirectoriesCompleter, FilesCompleter
 
     def complete_from_course(choose: Callable[[Course, argparse.Namespace], Iterable[str]]) -> Completer:
         def complete(parsed_args: argparse.Namespace, **_: Any) -> Iterable[str]:
@@ -96,6 +96,9 @@ def _make_completer(name: str, action: argparse.Action, commands: list[str]) -> 
         case "DIR":
             directories: Completer = DirectoriesCompleter()
             return directories
+        case "COURSE":
+            files: Completer = FilesCompleter()
+            return files
         case "EXERCISE":
             more = ("all",) if name == "check" else ()
             return complete_from_course(lambda course, _: [*(lesson.id for lesson in course.lessons), *more])

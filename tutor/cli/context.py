@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tutor.cli import terminal
@@ -14,23 +15,58 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from tutor.content import Course
+    from tutor.content.courses import Courses
     from tutor.workspace import Progress, Workspace
 
 
+LESSONS_VARIABLE = "ROS_TUTOR_LESSONS"
+
+
 def load_course(arguments: argparse.Namespace) -> Course:
-    """Load the bundled course, together with the lessons that `--lessons` names."""
+    """Load the bundled course, and those chosen beside it."""
     from tutor.content import load_course
 
-    extra: Path | None = getattr(arguments, "lessons", None)
-    if extra is not None and not (extra / "lessons").is_dir():
-        raise UsageError(f"--lessons {extra}: it has no lessons/ folder")
-    return load_course(extra)
+    courses = choose_courses(arguments)
+    return load_course(courses.folders, only=courses.only)
 
 
-def own_course(arguments: argparse.Namespace) -> Path | None:
-    """Return the folder of the course that `--lessons` names."""
-    extra: Path | None = getattr(arguments, "lessons", None)
-    return extra
+def choose_courses(arguments: argparse.Namespace) -> Courses:
+    """Return the courses to use: those named, or else those that the workspace remembers. Raises UsageError."""
+    from tutor.content.courses import Courses
+    from tutor.errors import WorkspaceError
+
+    only = getattr(arguments, "only", False)
+    if (named := named_courses(arguments)) is not None:
+        return named
+    try:
+        remembered = choose_any_workspace(arguments).courses(terminal.say).read()
+    except WorkspaceError:  # there is no home
+        return Courses()
+    if only and not remembered.folders:
+        raise UsageError("--only leaves out the exercises of ros-tutor itself: name a course with --lessons COURSE")
+    return replace(remembered, only=only or remembered.only)
+
+
+def named_courses(arguments: argparse.Namespace) -> Courses | None:
+    """Return the courses that `--lessons` names, or else ROS_TUTOR_LESSONS; None if neither is set."""
+    from tutor.content.courses import Courses
+
+    given: list[str] | None = getattr(arguments, "lessons", None)
+    if given is None and (listed := os.environ.get(LESSONS_VARIABLE)) is not None:
+        given = [text for text in listed.split(os.pathsep) if text]
+    return None if given is None else Courses.find(given, only=getattr(arguments, "only", False))
+
+
+def own_courses(arguments: argparse.Namespace) -> Courses:
+    """Return the courses of an author: those named, or else the one in the current folder."""
+    from pathlib import Path
+
+    from tutor.content.courses import MANIFEST, Courses
+
+    if (named := named_courses(arguments)) is not None:
+        return named
+    here = Path.cwd()
+    return Courses.find([here]) if (here / MANIFEST).is_file() and (here / "lessons").is_dir() else Courses()
 
 
 def choose_workspace(arguments: argparse.Namespace) -> Workspace:

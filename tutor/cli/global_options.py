@@ -25,7 +25,14 @@ def shared_options() -> CommandParser:
         type=Path,
         help="your workspace (else $ROS_TUTOR_WORKSPACE, the one around the current folder, or ~/ros_tutor_ws)",
     )
-    options.add_argument("--lessons", metavar="DIR", type=Path, help="a folder with more lessons/ and checks/")
+    options.add_argument(
+        "--lessons",
+        metavar="COURSE",
+        action="append",
+        help="more exercises: the folder of a course, a packed one, or the name of an installed one (repeatable; else "
+        "$ROS_TUTOR_LESSONS, or those with which you started in your workspace)",
+    )
+    options.add_argument("--only", action="store_true", help="with --lessons: without our own exercises")
     options.add_argument("--version", action="version", version=f"ros-tutor {__version__}", help="show the version")
     return parser
 

@@ -33,8 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise ServeError(f"the app cannot be served: {error.name} is not installed", _INSTALL) from error
 
     context.load_course(arguments)  # a broken course is reported here, not in the browser
-    lessons = getattr(arguments, "lessons", None)
-    more = [] if lessons is None else [str(lessons.absolute())]
+    more = [word for word in context.choose_courses(arguments).arguments if word != "--lessons"]
     argv = interpreter.module_command("tutor.serve", str(context.choose_workspace(arguments).root.absolute()), *more)
     listener = listen(arguments.host, arguments.port)
 

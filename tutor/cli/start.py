@@ -24,13 +24,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Put the files in place and say where they are."""
+    from tutor.content import load_course
     from tutor.workspace import start, start_in
 
-    course = context.load_course(arguments)
+    courses = context.choose_courses(arguments)
+    course = load_course(courses.folders, only=courses.only)
     lesson = course.find(arguments.exercise)
     if arguments.folder is None:
         workspace = context.choose_workspace(arguments)
         started = start(lesson, workspace, force=arguments.force)
+        workspace.courses(terminal.say).add(courses)
         if started.created_workspace:
             terminal.out(f"Created your workspace: {workspace.root}\n")
         check = command("check", lesson.id)
@@ -41,7 +44,8 @@ def run(arguments: argparse.Namespace) -> int:
                 f"(a folder of that name is ./{arguments.folder})"
             )
         started = start_in(lesson, Path(arguments.folder), force=arguments.force)
-        check = command("check", lesson.id, arguments.folder)
+        named = [word for given in getattr(arguments, "lessons", ()) for word in ("--lessons", given)]
+        check = command("check", lesson.id, arguments.folder, *named)
 
     lines = [f"{lesson.id} {lesson.title} ({lesson.difficulty.value}): {lesson.objective.strip()}"]
     lines += [f"  to edit        {context.display_path(path)}" for path in started.files.written]

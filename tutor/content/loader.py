@@ -7,14 +7,17 @@ A course is a folder with
 - lessons/i1_1/skeleton/: the files a learner starts from
 - lessons/i1_1/solution/: our solution
 - checks/i1_1.py, or i1_1_ and what it is: the module or package that judges it (not read here)
+- course.yaml: its name and title (see `courses`); the bundled course has none
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from tutor.content.courses import MANIFEST, Manifest, read_manifest
 from tutor.content.fields import Document, Fields
 from tutor.content.live import LiveTopic, LiveView, Partner
 from tutor.content.model import (
@@ -33,25 +36,36 @@ from tutor.errors import ContentError
 # `lessons` to locate it could find a folder of that name in a learner's PYTHONPATH instead.
 BUNDLED = Path(__file__).resolve().parents[2]
 
+BUNDLED_TITLE = "ROS 2, intermediate"
+
 _FENCE = "---"
 _LESSON_FOLDER = re.compile(r"[a-z]+[0-9]+_[0-9]+")
 
 
-def load_course(extra: Path | None = None) -> Course:
-    """Read the bundled course, followed by the one in `extra`, a folder with `lessons/` and `checks/`.
+def load_course(extra: Path | Sequence[Path] | None = None, *, only: bool = False) -> Course:
+    """Read the bundled course, followed by those in `extra`, folders with `lessons/` and `checks/`; or `only` these.
 
     Raises ContentError for the first problem.
     """
-    course = _read_course(BUNDLED / "lessons")
-    if extra is None:
-        return course
-    more = _read_course(extra / "lessons")
+    folders = [] if extra is None else [extra] if isinstance(extra, Path) else list(extra)
+    course = Course((), Checklist()) if only and folders else _read_course(BUNDLED / "lessons")
+    for folder in folders:
+        course = _joined(course, _read_course(folder / "lessons"), read_manifest(folder))
+    return course
+
+
+def _joined(course: Course, more: Course, manifest: Manifest) -> Course:
     known = {lesson.id for lesson in course.lessons}
-    for lesson in more.lessons:
+    lessons = [replace(lesson, course=manifest.name, heading=manifest.title) for lesson in more.lessons]
+    lessons = [
+        replace(lesson, id=f"{manifest.name}:{lesson.id}") if lesson.id in known else lesson for lesson in lessons
+    ]
+    for lesson in lessons:
         if lesson.id in known:
-            raise ContentError(lesson.folder / "lesson.md", f"there already is an exercise {lesson.id}", field="id")
+            text = f"there is a course named {manifest.name} already, with an exercise {lesson.own_id}"
+            raise ContentError(lesson.folder.parents[1] / MANIFEST, text, field="name")
     return Course(
-        lessons=course.lessons + more.lessons,
+        lessons=(*course.lessons, *lessons),
         checklist=replace(course.checklist, groups=course.checklist.groups + more.checklist.groups),
     )
 
@@ -100,6 +114,7 @@ def _read_lesson(folder: Path) -> Lesson:
         checklist=fields.texts("checklist", optional=True),
         body=body.strip("\n") + "\n",
         folder=folder,
+        heading=BUNDLED_TITLE,
         live=_read_live(fields.mapping("live"), folder),
     )
     fields.done()

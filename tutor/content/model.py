@@ -57,7 +57,9 @@ class Lesson:
 
     `hints` go from gentle to explicit. `checklist` holds the ids of the checklist items for which passing is evidence:
     passing the criteria that show an item, or the whole exercise if no criterion shows it. `body` is Markdown without
-    a title. `folder` holds the lesson's files. `live` describes what the app shows of its ROS graph.
+    a title. `folder` holds the lesson's files. `live` describes what the app shows of its ROS graph. `course` is the
+    name of the course, empty for the bundled one, and `heading` its title. Where an earlier course has the same id, it
+    begins with the name: lamps:x1.1.
     """
 
     id: str
@@ -72,6 +74,13 @@ class Lesson:
     body: str
     folder: Path
     live: LiveView = field(default_factory=LiveView)
+    course: str = ""
+    heading: str = ""
+
+    @property
+    def own_id(self) -> str:
+        """The id within its course."""
+        return self.folder.name.replace("_", ".")
 
     @property
     def check(self) -> Path:
@@ -126,19 +135,31 @@ class Course:
     checklist: Checklist
 
     def find(self, text: str) -> Lesson:
-        """Find a lesson by its id, written as i1.1, I1.1 or i1_1.
+        """Find a lesson by its id, written as i1.1, I1.1 or i1_1, also after the name of its course: lamps:x1.1.
 
         Raises UnknownExercise if there is none.
         """
-        wanted = _normalize_id(text)
-        for lesson in self.lessons:
-            if lesson.id == wanted:
-                return lesson
-        raise UnknownExercise(text, [lesson.id for lesson in self.lessons])
+        found = self._look_up(text)
+        if found is None:
+            raise UnknownExercise(text, [lesson.id for lesson in self.lessons])
+        return found
 
     def knows(self, text: str) -> bool:
         """Whether `find` would find a lesson."""
-        return any(lesson.id == _normalize_id(text) for lesson in self.lessons)
+        return self._look_up(text) is not None
+
+    def _look_up(self, text: str) -> Lesson | None:
+        course, _, wanted = text.rpartition(":")
+        wanted = _normalize_id(wanted)
+        for lesson in self.lessons:
+            if (lesson.course, lesson.own_id) == (course, wanted) if course else lesson.id == wanted:
+                return lesson
+        return None
+
+    @property
+    def headings(self) -> tuple[str, ...]:
+        """The titles of its courses, in order."""
+        return tuple(dict.fromkeys(lesson.heading for lesson in self.lessons))
 
 
 def _normalize_id(text: str) -> str:

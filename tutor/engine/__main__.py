@@ -78,7 +78,8 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("path", type=Path, nargs="?")
     parser.add_argument("--criterion", action="append")
     parser.add_argument("--first", action="store_true")
-    parser.add_argument("--lessons", type=Path)
+    parser.add_argument("--lessons", type=Path, action="append", default=[])
+    parser.add_argument("--only", action="store_true", help="without the bundled course")
     parser.add_argument("--standby", action="store_true")
     parser.add_argument("--isolate", action="store_true")
     parser.add_argument("--try-isolation", action="store_true", help="do nothing else")
@@ -113,7 +114,7 @@ async def _read_line() -> str:
 async def _check(
     arguments: argparse.Namespace, prepared: Prepared | None = None, isolation: Isolation | None = None
 ) -> None:
-    course = load_course(arguments.lessons)
+    course = load_course(arguments.lessons, only=arguments.only)
     submission = find_submission(course.find(arguments.exercise), arguments.path, None)
     only = frozenset(arguments.criterion) if arguments.criterion else None
     await run_check(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import sys
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -35,6 +36,8 @@ def load_check(lesson: Lesson) -> Check:
         raise found or CheckError(source, f"it cannot be loaded: {type(error).__name__}: {error}") from error
     if not isinstance(check, Check):
         raise CheckError(source, "it defines no CHECK: assign a Check to CHECK")
+    if check.exercise == lesson.own_id != lesson.id:
+        check = replace(check, exercise=lesson.id)
     if is_ours(source):
         return check
     for unknown in unknown_types(source):

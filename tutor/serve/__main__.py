@@ -1,4 +1,4 @@
-"""The app behind one page: `python -m tutor.serve WORKSPACE [LESSONS]`, which draws to a page, not a terminal."""
+"""The app behind one page: `python -m tutor.serve WORKSPACE [COURSE...] [--only]`. It draws to a page, not a terminal."""
 
 from __future__ import annotations
 
@@ -6,14 +6,16 @@ import signal
 import sys
 from pathlib import Path
 
+from tutor.content.courses import Courses
 from tutor.process.prctl import die_with_parent
 from tutor.tui import run
 
 
-def main(workspace: str, lessons: str | None = None) -> int:
+def main(workspace: str, *words: str) -> int:
     """Run the app. If the server is killed, the app gets SIGTERM, so that it saves before it exits."""
     die_with_parent(signal.SIGTERM)
-    return run(Path(workspace), None if lessons is None else Path(lessons))
+    courses = Courses.find((word for word in words if word != "--only"), only="--only" in words)
+    return run(Path(workspace), courses)
 
 
 if __name__ == "__main__":

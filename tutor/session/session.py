@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from tutor import interpreter
 from tutor.content import Course, Lesson, LessonFile, Partner
+from tutor.content.courses import Courses
 from tutor.errors import StorageError
 from tutor.session import run_options
 from tutor.session.node_command import NodeCommand
@@ -45,12 +46,12 @@ Notify = Callable[[str], None]
 
 
 class Session:
-    """A course and the workspace to do it in. `extra` is the folder with further lessons, if any."""
+    """A course and the workspace to do it in. `courses`: those that the course is of, apart from the bundled one."""
 
-    def __init__(self, course: Course, workspace: Workspace, extra: Path | None = None) -> None:
+    def __init__(self, course: Course, workspace: Workspace, courses: Courses | None = None) -> None:
         self.course = course
         self.workspace = workspace
-        self.extra = extra
+        self.courses = courses or Courses()
         self.may_keep_engine = True
         """Whether the app may keep an engine ready for the next check."""
         self._domain: tuple[Path, int] | None = None
@@ -84,7 +85,9 @@ class Session:
 
         Raises WorkspaceError or StorageError.
         """
-        return start(lesson, self.workspace).files
+        placed = start(lesson, self.workspace).files
+        self.workspace.courses(self.notify).add(self.courses)
+        return placed
 
     def create_workspace(self, root: Path) -> None:
         """Create the workspace at `root` and start the first exercise in it; an existing workspace is kept.
@@ -95,6 +98,7 @@ class Session:
         default, chosen = self.workspace.root, Workspace(root)
         if not chosen.exists:
             start(self.lessons[0], chosen)
+            chosen.courses(self.notify).add(self.courses)
         self.workspace = chosen
         if root != default and not os.path.lexists(default):
             try:
@@ -196,9 +200,8 @@ class Session:
 
         `first`: end at the first failure.
         """
-        more = () if self.extra is None else ("--lessons", str(self.extra))
-        more = ("--first", *more) if first else more
-        return (lesson.id, str(self.workspace.root), *more)
+        more = ("--first",) if first else ()
+        return (lesson.id, str(self.workspace.root), *more, *self.courses.arguments)
 
     def engine_command(self, *arguments: str) -> Sequence[str]:
         """Return the command that runs the engine in the workspace; it prints events."""

@@ -11,6 +11,7 @@ from tutor.errors import WorkspaceError
 from tutor.workspace.app_state import AppStateFile
 from tutor.workspace.last_checks import LastChecks
 from tutor.workspace.progress_file import ProgressFile, to_stderr
+from tutor.workspace.remembered_courses import RememberedCourses
 
 MARKER = ".ros-tutor"
 """The subfolder that marks a folder as a workspace; it holds the progress and our other files."""
@@ -41,6 +42,10 @@ class Workspace:
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:
         """Return the progress file; `notify` is called with one line if a damaged one had to be set aside."""
         return ProgressFile(self.root / MARKER / "progress.json", notify)
+
+    def courses(self, notify: Callable[[str], None] = to_stderr) -> RememberedCourses:
+        """Return the file of the courses started here; `notify` is called with one line if one of them is gone."""
+        return RememberedCourses(self.root / MARKER / "courses.json", notify)
 
     def app_state(self, notify: Callable[[str], None] = to_stderr) -> AppStateFile:
         """Return the app's state file; `notify` is called with one line if a damaged one had to be set aside."""
