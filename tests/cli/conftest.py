@@ -28,7 +28,7 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     home = tmp_path / "home"
     home.mkdir()
     monkeypatch.setenv("HOME", str(home))
-    for name in ("ROS_TUTOR_WORKSPACE", "ROS_TUTOR_DEBUG", "NO_COLOR"):
+    for name in ("ROS_TUTOR_WORKSPACE", "ROS_TUTOR_LESSONS", "ROS_TUTOR_DEBUG", "NO_COLOR"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.chdir(home)
     return home

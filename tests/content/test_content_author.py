@@ -139,7 +139,7 @@ def lint_submissions(root: Path, course: Course, expectations: Mapping[str, str]
         (folder / "mover.py").touch()
         (folder / "expect.yaml").write_text(expect)
     return [
-        f"{problem.file.relative_to(root)}: {problem.text}"
+        f"{problem.file.relative_to(root)}{problem.line_suffix}: {problem.text}"
         for problem in find_bad_submissions(root, course, course.lessons)
     ]
 
@@ -155,8 +155,8 @@ def test_correct_submissions_have_no_problems(course: Course, tmp_path: Path) ->
     ("name", "expect", "text"),
     [
         ("x1_1/wrong/a", "fails: [moves]\n", "says: this field is missing"),
-        ("x1_1/wrong/a", "says: a\nfails: [moves]\nfail: [stops]\n", "line 3: fail: there is no such field"),
-        ("x1_1/wrong/a", "says: a\nfails: moves\n", "line 2: fails: expected a list, found a text"),
+        ("x1_1/wrong/a", "says: a\nfails: [moves]\nfail: [stops]\n", "expect.yaml:3: fail: there is no such field"),
+        ("x1_1/wrong/a", "says: a\nfails: moves\n", "expect.yaml:2: fails: expected a list, found a text"),
         ("x1_1/wrong/a", "says: a\nfails: [moves]\ncause: [1]\n", "cause: expected a text or a list of texts, or one"),
         ("x1_1/right/a", "says: a\npasses: most\n", "passes: expected all, found 'most'"),
         ("x1_1/wrong/a", "says: a\nfails: [flies]\n", "fails: there is no criterion 'flies'"),

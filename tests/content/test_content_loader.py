@@ -108,11 +108,32 @@ def test_another_course_needs_no_checklist(lesson_folder: Path, tmp_path: Path) 
     assert [item.id for item in load_course(tmp_path / "extra").checklist.items] == ["move"]
 
 
-def test_another_course_may_not_replace_an_exercise(lesson_folder: Path, tmp_path: Path) -> None:
+def test_an_id_of_two_courses_is_that_of_the_first_and_the_other_has_the_name_of_its_course(
+    lesson_folder: Path, tmp_path: Path
+) -> None:
     copied = copy_course(lesson_folder, tmp_path / "extra", "x1_1", "x1.1")
-    with pytest.raises(ContentError, match=r"there already is an exercise x1\.1") as caught:
-        load_course(tmp_path / "extra")
-    assert caught.value.file == copied / "lesson.md"
+    copy_course(lesson_folder, tmp_path / "extra", "x1_2", "x1.2")
+    course = load_course(tmp_path / "extra")
+    assert [lesson.id for lesson in course.lessons] == ["x1.1", "extra:x1.1", "x1.2"]
+    assert course.find("x1.1").folder == lesson_folder
+    assert course.find("extra:X1_1").folder == copied
+    assert course.find("extra:x1.2") is course.find("x1.2")
+    assert course.headings == (loader.BUNDLED_TITLE, "extra")
+    assert not course.knows("other:x1.1")
+
+
+def test_only_leaves_out_the_bundled_course(lesson_folder: Path, tmp_path: Path) -> None:
+    copy_course(lesson_folder, tmp_path / "extra", "x1_1", "x1.1")
+    (lesson,) = load_course(tmp_path / "extra", only=True).lessons
+    assert (lesson.id, lesson.course) == ("x1.1", "extra")
+
+
+def test_two_courses_of_one_name_with_one_id_cannot_be_told_apart(lesson_folder: Path, tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        copy_course(lesson_folder, tmp_path / name, "x1_1", "x1.1")
+        (tmp_path / name / "course.yaml").write_text("format: 1\nname: same\n")
+    with pytest.raises(ContentError, match="there is a course named same already"):
+        load_course([tmp_path / "one", tmp_path / "two"])
 
 
 def test_a_missing_course_is_reported(lesson_folder: Path, tmp_path: Path) -> None:

@@ -52,7 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _new(arguments: argparse.Namespace) -> int:
-    from tutor.content.new_exercise import new_exercise
+    from tutor.content.exercise_template import new_exercise
 
     if len(arguments.exercises) != 2:
         raise UsageError(f"say which exercise, and its title: {command('author', 'new', 'x1.1', 'Street Lamp')}")
@@ -60,7 +60,7 @@ def _new(arguments: argparse.Namespace) -> int:
     course: Path = arguments.course or Path()
     for path in new_exercise(exercise, title, course):
         terminal.out(f"  {context.display_path(path)}\n")
-    words = [] if course.resolve() == Path.cwd() else ["--lessons", course]
+    words: list[str | Path] = [] if course.resolve() == Path.cwd() else ["--lessons", course]
     terminal.out(f"It works as it stands; see that with: {command('author', 'check', exercise, *words)}\n")
     return PASSED
 

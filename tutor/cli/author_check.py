@@ -42,6 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     checks, findings = _load_checks(chosen.lessons)
     folders = _find_submissions(arguments, chosen.lessons)
     findings += _find_static_problems(arguments, course, chosen.lessons, checks, folders)
+    findings += _find_missing_manifests(own)
     _print_findings(findings)
     proofs: Sequence[Proof] = ()
     if not arguments.static:
@@ -76,6 +77,17 @@ def _load_checks(lessons: Sequence[Lesson]) -> tuple[dict[str, Check], list[Prob
         except CheckError as error:
             findings.append(Problem(error.file, f"your check: {error.problem}", line=error.line))
     return checks, findings
+
+
+def _find_missing_manifests(own: Courses) -> Iterator[Problem]:
+    from tutor.content import Problem
+    from tutor.content.courses import FORMAT, MANIFEST, read_manifest
+
+    for folder in own.folders:
+        manifest = read_manifest(folder)
+        if not manifest.stated:
+            hint = f"write two lines into it: `format: {FORMAT}` and `name: {manifest.name}`"
+            yield Problem(folder / MANIFEST, "this file is missing", hint)
 
 
 def _find_static_problems(

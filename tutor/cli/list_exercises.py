@@ -23,6 +23,8 @@ _STATE_LABELS = {
     "not_started": ("  not started   ", "2"),
 }
 
+_MIN_ID_WIDTH = 6
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add `[--format text|json]`."""
@@ -51,20 +53,32 @@ def _render_text(course: Course, progress: Progress, workspace: Workspace) -> st
     from tutor.workspace import domain_of, states_of
 
     states = states_of(course.lessons, progress, workspace)
+    id_width = max((len(lesson.id) for lesson in course.lessons), default=0)
+    id_width = max(id_width, _MIN_ID_WIDTH)
     width = max((len(lesson.title) for lesson in course.lessons), default=0)
-    lines = [_render_line(lesson, progress.of(lesson.id), states[lesson.id], width) for lesson in course.lessons]
+    lines = []
+    for heading in course.headings:
+        if len(course.headings) > 1:
+            lines += [*([""] if lines else []), heading]
+        lines += [
+            _render_line(lesson, progress.of(lesson.id), states[lesson.id], id_width, width)
+            for lesson in course.lessons
+            if lesson.heading == heading
+        ]
     passed = sum(exercise_state.is_passed for exercise_state in states.values())
     following = next_lesson(course.lessons, states)
     lead = "Next" if following is not None else "You have done them all"
-    lines += ["", f"{passed} of {len(lines)} passed. {lead}: {next_command(following, states)}"]
+    lines += ["", f"{passed} of {len(states)} passed. {lead}: {next_command(following, states)}"]
     if workspace.exists:
         lines += [f"Your nodes run in ROS domain {domain_of(workspace)}."]
     return "\n".join(lines) + "\n"
 
 
-def _render_line(lesson: Lesson, progress: ExerciseProgress, exercise_state: ExerciseState, width: int) -> str:
+def _render_line(
+    lesson: Lesson, progress: ExerciseProgress, exercise_state: ExerciseState, id_width: int, width: int
+) -> str:
     state = terminal.style(*_STATE_LABELS[exercise_state.state.value], sys.stdout)
-    name = f"{lesson.id:6} {lesson.title:{width}}  {lesson.difficulty.value:9}"
+    name = f"{lesson.id:{id_width}} {lesson.title:{width}}  {lesson.difficulty.value:9}"
     return f"{name}  {state}  {_describe_last_attempt(progress, exercise_state)}".rstrip()
 
 

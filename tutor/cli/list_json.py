@@ -42,6 +42,7 @@ def _exercise(
     last = progress.last
     return {
         "id": lesson.id,
+        "course": lesson.course,
         "title": lesson.title,
         "difficulty": lesson.difficulty.value,
         "standing": exercise_state.state.value,

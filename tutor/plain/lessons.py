@@ -31,7 +31,12 @@ class Lessons:
     async def show(self, words: list[str]) -> None:
         """Say one line per lesson."""
         progress = self._conversation.session.progress()
-        for number, lesson in enumerate(self._conversation.session.lessons, 1):
+        course = self._conversation.session.course
+        heading = ""
+        for number, lesson in enumerate(course.lessons, 1):
+            if len(course.headings) > 1 and lesson.heading != heading:
+                heading = lesson.heading
+                self._conversation.say(f"{heading}:")
             marker = " You are here." if lesson is self._conversation.lesson else ""
             self._conversation.say(f"{number}: {self._conversation.describe(lesson, progress)}{marker}")
 

@@ -1,4 +1,4 @@
-"""The app behind one page: `python -m tutor.serve WORKSPACE [COURSE...] [--only]`. It draws to a page, not a terminal."""
+"""The app behind a page: `python -m tutor.serve WORKSPACE [COURSE...] [--only]`, which draws to it, not a terminal."""
 
 from __future__ import annotations
 

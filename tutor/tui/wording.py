@@ -20,8 +20,9 @@ LEVELS = {Difficulty.EASY: "●○○ easy", Difficulty.MEDIUM: "●●○ mediu
 
 
 def label(lesson: Lesson) -> str:
-    """Return the exercise's id as the course writes it, e.g. "I1.1"."""
-    return lesson.id.upper()
+    """Return the exercise's id as the course writes it, e.g. "I1.1", or "lamps:I1.1" beside another I1.1."""
+    course, colon, id = lesson.id.rpartition(":")
+    return f"{course}{colon}{id.upper()}"
 
 
 def progress_label(found: ExerciseState) -> tuple[str, str]:

@@ -29,6 +29,10 @@ class UnitRow(ListItem):
         return Content(self.unit)
 
 
+class CourseRow(UnitRow):
+    """The title of a course, above its units, where there are several courses."""
+
+
 class LessonRow(ListItem):
     """One lesson: its wrapped title, and a line with difficulty and progress."""
 
@@ -56,7 +60,7 @@ class LessonRow(ListItem):
 
 
 class LessonList(RowList):
-    """All lessons, grouped by unit."""
+    """All lessons, grouped by course and unit."""
 
     DEFAULT_CSS = """
     LessonList {
@@ -66,6 +70,7 @@ class LessonList(RowList):
         & > LessonRow { height: auto; margin-bottom: 1; text-wrap: nowrap; }
         & > LessonRow.-shown { text-style: bold; }
         & > UnitRow { height: auto; color: $quiet; opacity: 100%; padding: 0 1 1 1; }
+        & > CourseRow { color: $foreground; text-style: bold; }
         &:focus { background-tint: transparent 0%; }
     }
     """
@@ -73,7 +78,13 @@ class LessonList(RowList):
     def __init__(self, lessons: Iterable[Lesson], id: str | None = None) -> None:
         rows: list[ListItem] = []
         unit = ""
-        for lesson in lessons:
+        shown = list(lessons)
+        headings = {lesson.heading for lesson in shown}
+        heading = ""
+        for lesson in shown:
+            if len(headings) > 1 and lesson.heading != heading:
+                heading, unit = lesson.heading, ""
+                rows.append(CourseRow(heading))
             if lesson.unit != unit:
                 unit = lesson.unit
                 rows.append(UnitRow(unit))
