@@ -32,6 +32,7 @@ def test_a_workspace_remembers_the_course_that_was_started_in_it(run: Run, greet
     assert listed(run)[-1] == "h1.1"
     assert run("hint", "h1.1").code == 0
     elsewhere = greeting.parent / "elsewhere"
+    run("start", "i1.1", "--workspace", elsewhere)
     assert "h1.1" not in listed(run, "--workspace", elsewhere)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tutor.content import CriterionText, Difficulty, LessonFile, load_course
+from tutor.content import CriterionText, Difficulty, LessonFile, load_course, loader
 from tutor.errors import ContentError, UnknownExercise
 
 

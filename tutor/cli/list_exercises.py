@@ -56,7 +56,7 @@ def _render_text(course: Course, progress: Progress, workspace: Workspace) -> st
     id_width = max((len(lesson.id) for lesson in course.lessons), default=0)
     id_width = max(id_width, _MIN_ID_WIDTH)
     width = max((len(lesson.title) for lesson in course.lessons), default=0)
-    lines = []
+    lines: list[str] = []
     for heading in course.headings:
         if len(course.headings) > 1:
             lines += [*([""] if lines else []), heading]

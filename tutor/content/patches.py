@@ -81,9 +81,12 @@ def _apply(change: Change, name: str, source: str) -> str:
     found = list(_by_lines(change, source) if by_lines else _by_words(change, source))
     if len(found) == 1:
         return found[0]
-    what = f"`{change.old.splitlines()[0].strip()}`{' and the lines after it' if by_lines else ''}"
+    first, *others = change.old.splitlines()
+    what = f"`{first} …`" if others else f"`{first}`"
     if not found:
-        raise change.error(f"the solution's {name} has no {what}{' as whole lines' if by_lines else ''}")
+        raise change.error(
+            f"the solution's {name} has no {what}{' as whole lines: check their indentation' if by_lines else ''}"
+        )
     raise change.error(f"the solution's {name} has {what} {len(found)} times: name more of it")
 
 
