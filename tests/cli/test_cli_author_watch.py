@@ -48,7 +48,12 @@ def watching(course: Path) -> Iterator[queue.Queue[str]]:
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
     ) as process:
         lines: queue.Queue[str] = queue.Queue()
-        reader = threading.Thread(target=lambda: [lines.put(line.strip()) for line in process.stdout or ()])
+
+        def read() -> None:
+            for line in process.stdout or ():
+                lines.put(line.strip())
+
+        reader = threading.Thread(target=read)
         reader.start()
         try:
             yield lines

@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
     if platform.machine() != _THEIR_MACHINES:
         terminal.say(f"warning: this works on {platform.machine()} only, and {system} usually has {_THEIR_MACHINES}")
     settings = Settings(exercises, arguments.steps == "words", seconds)
-    content = make(system, settings, arguments.points, getattr(arguments, "lessons", None))
+    content = make(system, settings, arguments.points, context.choose_own_course(arguments))
     try:
         output.write_bytes(content)
     except OSError as error:

@@ -47,6 +47,14 @@ def choose_courses(arguments: argparse.Namespace) -> Courses:
     return replace(remembered, only=only or remembered.only)
 
 
+def choose_own_course(arguments: argparse.Namespace) -> Path | None:
+    """Return the folder of the course beside the bundled one, if any. Raises UsageError for several."""
+    folders = choose_courses(arguments).folders
+    if len(folders) > 1:
+        raise UsageError("this takes one course at a time: name it with --lessons COURSE")
+    return folders[0] if folders else None
+
+
 def named_courses(arguments: argparse.Namespace) -> Courses | None:
     """Return the courses that `--lessons` names, or else ROS_TUTOR_LESSONS; None if neither is set."""
     from tutor.content.courses import Courses

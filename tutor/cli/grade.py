@@ -174,7 +174,7 @@ def _run(
     options = Options(
         isolate=not arguments.no_isolation,
         limit_s=arguments.limit or DEFAULT_LIMIT_S,
-        lessons=_course_folder(arguments),
+        lessons=context.choose_own_course(arguments),
     )
     with _open_place(arguments, plan, options) as place:
         if plan.todo and options.isolate:
@@ -296,11 +296,3 @@ def _read_template(path: Path | None) -> str | None:
         raise UsageError(
             f"--gradebook {path}: cannot be read: {getattr(error, 'strerror', 'it is not UTF-8')}"
         ) from error
-
-
-def _course_folder(arguments: argparse.Namespace) -> Path | None:
-    """Return the folder of the course beside the bundled one, if any. Raises UsageError for several."""
-    folders = context.choose_courses(arguments).folders
-    if len(folders) > 1:
-        raise UsageError("grade takes one course at a time: name it with --lessons COURSE")
-    return folders[0] if folders else None
