@@ -201,7 +201,7 @@ def test_a_loopback_interface_that_is_down() -> None:
 
 def test_no_bubblewrap_is_a_warning_with_its_fix(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
-    finding = isolation.isolation()
+    finding = isolation.support()
     monkeypatch.undo()
     assert finding.ok is None
     assert finding.text.startswith("Isolation needs bubblewrap, which is not installed.")
@@ -213,7 +213,7 @@ def test_a_bubblewrap_that_fails_is_quoted(tmp_path: Path, monkeypatch: pytest.M
     bwrap.write_text("#!/bin/sh\necho 'bwrap: Something is wrong' >&2\nexit 1\n")
     bwrap.chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
-    finding = isolation.isolation()
+    finding = isolation.support()
     monkeypatch.undo()
     assert finding.ok is None
     assert finding.hint

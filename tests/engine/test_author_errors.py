@@ -47,26 +47,26 @@ def test_a_new_exercise_proves_itself(course: Path) -> None:
     assert (answer.returncode, answer.stdout) == (0, "nothing is wrong: 1 exercise, 5 runs\n"), answer.stderr
 
 
-def break_judge(course: Path) -> str:
-    edit(course, CHECK, '    expected = f"{WANTED_HZ:g} Hz', '    1 / 0\n    expected = f"{WANTED_HZ:g} Hz')
+def raise_in_criterion(course: Path) -> str:
+    edit(course, CHECK, "    await node.rate(", "    1 / 0\n    await node.rate(")
     line = line_of(course, CHECK, "1 / 0")
     return rf"{CHECK}:{line}: your check: ZeroDivisionError: division by zero; it happened on rate of x1\.1 solution"
 
 
-def break_scenario(course: Path) -> str:
-    edit(course, CHECK, "run.watch(TOPIC, TYPE)", "run.wach(TOPIC, TYPE)")
-    line = line_of(course, CHECK, "run.wach")
-    return rf"{CHECK}:{line}: your check: AttributeError: .* has no attribute 'wach'.*"
+def misspell_method(course: Path) -> str:
+    edit(course, CHECK, "await node.rate(", "await node.rat(")
+    line = line_of(course, CHECK, "node.rat(")
+    return rf"{CHECK}:{line}: your check: AttributeError: .* has no attribute 'rat'.*"
 
 
 def fail_solution(course: Path) -> str:
     edit(course, SOLUTION, 'String(data="ready")', 'String(data="redy")')
-    return r"lessons/x1_1/solution: status does not pass \(“redy” .*"
+    return r"lessons/x1_1/solution: status does not pass \(data: redy \| .*"
 
 
 def pass_skeleton(course: Path) -> str:
     shutil.copy(course / SOLUTION, course / SKELETON)
-    return r"lessons/x1_1/skeleton: status passes, but the lesson says that it is open; .*"
+    return r"lessons/x1_1/skeleton: status passes, but the lesson says that it is open \(data: ready\); .*"
 
 
 def pass_wrong_submission(course: Path) -> str:
@@ -84,8 +84,8 @@ def claim_another_mistake(course: Path) -> str:
 @pytest.mark.parametrize(
     ("spoil", "words"),
     [
-        (break_judge, ("x1.1",)),
-        (break_scenario, ("x1.1/right/",)),
+        (raise_in_criterion, ("x1.1",)),
+        (misspell_method, ("x1.1/right/",)),
         (fail_solution, ()),
         (pass_skeleton, ()),
         (pass_wrong_submission, ("x1.1/wrong/other-topic",)),
@@ -104,7 +104,7 @@ def test_an_authors_error_is_a_finding_with_its_place(
 
 
 def test_a_learner_is_told_that_the_exercise_is_wrong_not_their_code(course: Path) -> None:
-    break_judge(course)
+    raise_in_criterion(course)
     command = module_command("tutor", "check", "x1.1", "--solution", "--lessons", str(course))
     answer = subprocess.run(command, capture_output=True, text=True, timeout=110, check=False)
     assert answer.returncode == 3

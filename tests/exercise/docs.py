@@ -1,6 +1,6 @@
 """Write docs/forms.md, the public interface of `tutor.exercise`, from its docstrings.
 
-    uv run python -m tests.exercise.docs
+uv run python -m tests.exercise.docs
 """
 
 from __future__ import annotations

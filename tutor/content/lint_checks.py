@@ -72,7 +72,8 @@ def _find_strays(folder: Path, known: set[Path]) -> Iterator[Problem]:
     if not folder.is_dir():
         return
     for path in sorted(folder.iterdir()):
-        if path not in known and path.name not in (_PACKAGE, _CACHE):
+        leftover = path.is_dir() and {inside.name for inside in path.iterdir()} <= {_CACHE}  # of a check that was moved
+        if path not in known and path.name not in (_PACKAGE, _CACHE) and not leftover:
             yield Problem(path, "this belongs to no lesson", "remove it, or finish the lesson")
 
 

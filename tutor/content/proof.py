@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from tutor.content.expectations import find_deviations
 from tutor.content.model import CriterionText, Lesson
-from tutor.content.places import find_word
+from tutor.content.places import find_line
 from tutor.content.problem import Problem
 from tutor.content.submissions import Case
 from tutor.judge.result import CriterionResult, ExerciseResult
@@ -41,9 +42,14 @@ def find_wrong_verdicts(case: Case, result: ExerciseResult) -> Iterator[Problem]
     unjudged = {criterion.id for criterion in unjudged_criteria(result)}
     for deviation in find_deviations(case.expected, result):
         if deviation.criterion not in unjudged:
-            line = find_word(case.source, deviation.criterion) if deviation.criterion else None
+            line = find_line(case.source, _expects(deviation.criterion)) if deviation.criterion else None
             hint = "fix the check, or what is expected here"
             yield Problem(case.source, deviation.text.removesuffix(" | "), hint, line)
+
+
+def _expects(criterion: str) -> str:
+    """Return a pattern for the line of a case that names a criterion, not in what it says or changes."""
+    return rf"^(?!says:|\s*-? *(from|to|in):).*(?<![\w-]){re.escape(criterion)}(?![\w-])"
 
 
 def unjudged_criteria(result: ExerciseResult) -> list[CriterionResult]:

@@ -32,7 +32,7 @@ def examine(workspace: Path | None, environ: Mapping[str, str] = os.environ) -> 
         ("Loopback network", machine.loopback),
         ("Loopback multicast", machine.loopback_multicast),
         ("Discovery", lambda: ros2.discovery(ros, environ)),
-        ("Isolation", isolation.isolation),
+        ("Isolation", isolation.support),
         ("Temporary files", machine.temporary_files),
         ("Terminal", lambda: terminal.capabilities(environ)),
     ]

@@ -6,7 +6,7 @@ from tutor.doctor.finding import Finding
 from tutor.process.isolation_support import try_isolation
 
 
-def isolation() -> Finding:
+def support() -> Finding:
     """Examine whether a submission can be isolated. Only those who check the code of others need it."""
     name = "Isolation"
     problem = try_isolation()

@@ -9,6 +9,7 @@ status = Contains("status", STATUS, "ready")
 
 @criterion("rate", "two messages a second", watch=(STATUS,), after=status)
 async def rate(node: Node) -> None:
+    """Measure how often messages come."""
     await node.rate(STATUS, 2.0)
 
 

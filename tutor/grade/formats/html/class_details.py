@@ -7,7 +7,7 @@ from urllib.parse import quote
 
 from tutor.content import Lesson
 from tutor.grade.formats.csv_table import number
-from tutor.grade.formats.html.diagnosis import diagnosis, following, points_of, remarks, told
+from tutor.grade.formats.html.diagnosis import following, points_of, remarks, told, verdict_details
 from tutor.grade.formats.html.explanations import Explanations
 from tutor.grade.formats.html.markup import Html, element, inline, joined
 from tutor.grade.formats.html.matrix import WORDS
@@ -80,7 +80,7 @@ def _criterion(criterion: CriterionResult, score: Score, explanations: Explanati
     heading += [element("span", f" {points} points", class_="points")] if points else []
     mistake = criterion.verdict.mistake
     about = _about(mistake, explanations)
-    return element("article", element("h5", *heading), diagnosis(criterion.verdict), about)
+    return element("article", element("h5", *heading), verdict_details(criterion.verdict), about)
 
 
 def _about(mistake: str, explanations: Explanations) -> Html:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from tutor.grade.formats.html.class_details import details, feedback_address
 from tutor.grade.formats.html.explanations import Explanations
 from tutor.grade.formats.html.markup import Html, document, element, joined
-from tutor.grade.formats.html.matrix import WORDS, matrix, statuses
+from tutor.grade.formats.html.matrix import WORDS, matrix_of, statuses
 from tutor.grade.formats.html.summary import exercise_summary
 from tutor.grade.gradebook import Gradebook
 from tutor.judge.wording import counted
@@ -56,7 +56,7 @@ def _exercises(gradebook: Gradebook, explanations: Explanations) -> Html:
 def _learners(gradebook: Gradebook) -> Html:
     count = element("output", counted(len(gradebook.learners), "learner"), id="count")
     table = element(
-        "div", matrix(gradebook), class_="scroll", role="region", aria_labelledby="learners", tabindex=0, id="scroll"
+        "div", matrix_of(gradebook), class_="scroll", role="region", aria_labelledby="learners", tabindex=0, id="scroll"
     )
     links = (
         element("li", element("a", element("bdi", learner.name), href=feedback_address(learner)))

@@ -22,7 +22,7 @@ def told(exercise: ExerciseResult) -> list[CriterionResult]:
     return sorted(own, key=lambda criterion: criterion.bonus)
 
 
-def diagnosis(verdict: Verdict, *, steps: bool = True) -> Html:
+def verdict_details(verdict: Verdict, *, steps: bool = True) -> Html:
     """Return what was expected and observed, why, and, with `steps`, what to do next."""
     pairs = (
         ("expected", verdict.expected),

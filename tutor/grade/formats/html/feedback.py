@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from tutor.content import Lesson
 from tutor.grade.formats.csv_table import number
-from tutor.grade.formats.html.diagnosis import diagnosis, following, points_of, remarks, told
+from tutor.grade.formats.html.diagnosis import following, points_of, remarks, told, verdict_details
 from tutor.grade.formats.html.explanations import Explanations
 from tutor.grade.formats.html.markup import Html, document, element, inline, joined
 from tutor.grade.gradebook import Gradebook
@@ -154,7 +154,7 @@ def _criterion(criterion: CriterionResult, score: Score, explanations: Explanati
     if criterion.verdict.status is Status.ERROR:
         return element("article", heading, element("p", _FAULT))
     about = _about(criterion.verdict.mistake, explanations)
-    return element("article", heading, diagnosis(criterion.verdict, steps=steps), *about)
+    return element("article", heading, verdict_details(criterion.verdict, steps=steps), *about)
 
 
 def _bonus(criterion: CriterionResult) -> Iterator[Html]:

@@ -17,7 +17,7 @@ WORDS = {"passed": "passed", "failed": "failed", "missing": "nothing to judge", 
 """What a page says of each status of a result."""
 
 
-def matrix(gradebook: Gradebook) -> Html:
+def matrix_of(gradebook: Gradebook) -> Html:
     """Return the table. Its rows and cells have data attributes by which the page's script sorts and filters them."""
     groups = [element("colgroup", element("col", span=2))]
     groups += [element("colgroup", element("col", span=1 + len(lesson.criteria))) for lesson in gradebook.lessons]
