@@ -79,7 +79,7 @@ def test_exercises_and_criteria_are_completed(shell: str, home: Path) -> None:
         ("explain old-t", {"old-timer-kept"}),
         ("explain count-and-r", {"count-and-rate-swapped"}),
         ("explain old-timer-kept no-s", set()),
-        ("completion ", {"bash", "zsh", "fish", "--workspace", "--lessons"}),
+        ("completion ", {"bash", "zsh", "fish", "--workspace", "--lessons", "--only"}),
         ("ros2 topic ec", {"echo"}),
         ("--workspace tut", {"tutor/"}),
     ],

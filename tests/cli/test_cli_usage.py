@@ -53,7 +53,7 @@ WORKSPACE = ("--workspace", "ws")
         (["list", "--workspace", "."], "is not a workspace; `ros-tutor start i1.1 --workspace"),
         (["check", "i1.1", "--workspace", "."], "is not a workspace"),
         (["hint", "i1.1", "--workspace", "."], "is not a workspace"),
-        (["list", "--lessons", "nowhere"], "--lessons nowhere: it has no lessons/ folder"),
+        (["list", "--lessons", "nowhere"], "--lessons nowhere: there is no such folder or file"),
         (["checklist", "tick"], "checklist tick needs an ITEM"),
         (["checklist", "show", "timers"], "takes no ITEM"),
         (["checklist", "--output", "x"], "go with `checklist export`"),
@@ -124,7 +124,7 @@ def test_global_options_go_before_and_after_the_command(run: Run, home: Path, ar
 
 
 def test_an_internal_error_is_one_line_and_exit_code_3(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(extra: Path | None = None) -> None:
+    def broken(*folders: object, **options: object) -> None:
         raise RuntimeError("it\nbroke")
 
     monkeypatch.setattr("tutor.content.load_course", broken)
@@ -138,7 +138,7 @@ def test_an_internal_error_is_one_line_and_exit_code_3(run: Run, monkeypatch: py
 
 
 def test_an_interrupt_anywhere_is_exit_code_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(extra: Path | None = None) -> None:
+    def interrupted(*folders: object, **options: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr("tutor.content.load_course", interrupted)

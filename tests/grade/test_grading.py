@@ -232,16 +232,15 @@ async def test_a_check_that_changed_judges_again(made: Class, tmp_path: Path) ->
     assert course_digest(moved) in digests  # the place does not count
     checks = tmp_path / "course" / "checks"
     (checks / "__pycache__").mkdir()
-    (checks / "i1_1" / "__pycache__").mkdir()
     for file in (
         checks / "__pycache__" / "x.pyc",
-        checks / "i1_1" / "__pycache__" / "x.pyc.140",
+        checks / "i2_1_parameterized_publisher.py",
         checks / "i1_2" / "facts.py",
     ):
         file.write_text("# changed")
     assert course_digest(moved) in digests
     for file in (
-        checks / "i1_1" / "facts.py",
+        checks / lesson.check.name,
         checks / "__init__.py",
         moved.folder / "lesson.md",
         moved.files[0].skeleton,

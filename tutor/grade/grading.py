@@ -217,7 +217,7 @@ def course_digest(lesson: Lesson) -> str:
     code = check.parent if check.name == "__init__.py" else check
     files = {"lesson.md": lesson.folder / "lesson.md"}
     files |= {f"skeleton/{file.name}": file.skeleton for file in lesson.files}
-    for top in (code, *code.parent.glob("*.py")):
+    for top in (code, code.parent / "__init__.py"):
         below = top.rglob("*") if top.is_dir() else (top,)
         files |= {f"checks/{path.relative_to(code.parent)}": path for path in below if path.is_file()}
     return digest_of({name: path for name, path in files.items() if "__pycache__" not in path.parts})

@@ -54,7 +54,7 @@ class RememberedCourses:
     def _load(self) -> _Saved:
         try:
             return convert_to(_Saved, read_document(read_text(self.path), SCHEMA))
-        except FileNotFoundError:
+        except (FileNotFoundError, NotADirectoryError):  # a file in place of the workspace is told where it is opened
             return _Saved()
         except OSError as error:
             raise StorageError.of(f"read {self.path}", error) from error

@@ -50,7 +50,7 @@ def main() -> int:
 def _parse(words: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m tutor.grade.autograder")
     parser.add_argument("system", choices=tuple(_FILES_OF))
-    parser.add_argument("--bundle", type=Path, required=True, help="what `ros-tutor autograder` packed, unpacked")
+    parser.add_argument("--bundle", type=Path, required=True, help="what was packed for this system, unpacked")
     parser.add_argument("--submission", type=Path, required=True, help="the learner's folder")
     return parser.parse_args(words)
 
