@@ -45,7 +45,8 @@ def run(arguments: argparse.Namespace) -> int:
     from tutor.grade.autograder import TIME_LIMITS_MIN, Settings, make, time_to_judge_s
     from tutor.grade.points import Points
 
-    course = context.load_course(arguments)
+    courses = context.choose_courses(arguments)
+    course = context.load(courses)
     exercises = tuple(dict.fromkeys(course.find(exercise).id for exercise in arguments.exercise))
     if arguments.points is not None:
         Points.read(arguments.points, course)  # what is wrong in it is reported here, not to a learner
@@ -61,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     if platform.machine() != _THEIR_MACHINES:
         terminal.say(f"warning: this works on {platform.machine()} only, and {system} usually has {_THEIR_MACHINES}")
     settings = Settings(exercises, arguments.steps == "words", seconds)
-    content = make(system, settings, arguments.points, context.choose_own_course(arguments))
+    content = make(system, settings, arguments.points, context.only_folder(courses))
     try:
         output.write_bytes(content)
     except OSError as error:

@@ -24,9 +24,13 @@ LESSONS_VARIABLE = "ROS_TUTOR_LESSONS"
 
 def load_course(arguments: argparse.Namespace) -> Course:
     """Load the bundled course, and those chosen beside it."""
+    return load(choose_courses(arguments))
+
+
+def load(courses: Courses) -> Course:
+    """Load the bundled course, and these beside it or instead of it."""
     from tutor.content import load_course
 
-    courses = choose_courses(arguments)
     return load_course(courses.folders, only=courses.only)
 
 
@@ -47,12 +51,11 @@ def choose_courses(arguments: argparse.Namespace) -> Courses:
     return replace(remembered, only=only or remembered.only)
 
 
-def choose_own_course(arguments: argparse.Namespace) -> Path | None:
+def only_folder(courses: Courses) -> Path | None:
     """Return the folder of the course beside the bundled one, if any. Raises UsageError for several."""
-    folders = choose_courses(arguments).folders
-    if len(folders) > 1:
+    if len(courses.folders) > 1:
         raise UsageError("this takes one course at a time: name it with --lessons COURSE")
-    return folders[0] if folders else None
+    return courses.folders[0] if courses.folders else None
 
 
 def named_courses(arguments: argparse.Namespace) -> Courses | None:

@@ -62,14 +62,15 @@ def run(arguments: argparse.Namespace) -> int:
     from tutor.grade.points import Points
     from tutor.grade.results import ResultFolder
 
-    course = context.load_course(arguments)
+    courses = context.choose_courses(arguments)
+    course, lessons = context.load(courses), context.only_folder(courses)
     _check_options(arguments)
     points = Points.read(arguments.points, course) if arguments.points else Points()
     folder = ResultFolder(_output(arguments))
     if arguments.collect:
         results: Sequence[Result] | None = _collect(arguments.collect, folder)
     else:
-        results = _grade(arguments, course, folder)
+        results = _grade(arguments, course, lessons, folder)
     if results is None:
         terminal.say(f"interrupted; what was judged is in {folder.root}, and the same command goes on from there")
         return INTERRUPTED
@@ -136,8 +137,13 @@ def _collect(folders: Sequence[Path], target: ResultFolder) -> list[Result]:
     return list(best.values())
 
 
-def _grade(arguments: argparse.Namespace, course: Course, folder: ResultFolder) -> list[Result] | None:
-    """Check what has no current result; return all results, or None if this was interrupted."""
+def _grade(
+    arguments: argparse.Namespace, course: Course, lessons: Path | None, folder: ResultFolder
+) -> list[Result] | None:
+    """Check what has no current result; return all results, or None if this was interrupted.
+
+    `lessons`: the folder of the teacher's own course.
+    """
     from tutor import private_folders
     from tutor.grade.roster import Roster
     from tutor.grade.submissions import find_work
@@ -154,11 +160,15 @@ def _grade(arguments: argparse.Namespace, course: Course, folder: ResultFolder) 
             note=terminal.say,
         )
         part, parts = _shard(arguments.shard)
-        return _run(works[part - 1 :: parts], arguments, course, folder)
+        return _run(works[part - 1 :: parts], arguments, course, lessons, folder)
 
 
 def _run(
-    works: Sequence[Work], arguments: argparse.Namespace, course: Course, folder: ResultFolder
+    works: Sequence[Work],
+    arguments: argparse.Namespace,
+    course: Course,
+    lessons: Path | None,
+    folder: ResultFolder,
 ) -> list[Result] | None:
     from dataclasses import replace
 
@@ -174,7 +184,7 @@ def _run(
     options = Options(
         isolate=not arguments.no_isolation,
         limit_s=arguments.limit or DEFAULT_LIMIT_S,
-        lessons=context.choose_own_course(arguments),
+        lessons=lessons,
     )
     with _open_place(arguments, plan, options) as place:
         if plan.todo and options.isolate:
@@ -253,6 +263,7 @@ def _report(
     results: Sequence[Result], arguments: argparse.Namespace, course: Course, points: Points, folder: ResultFolder
 ) -> int:
     from tutor.grade import formats
+    from tutor.grade.formats.feedback import fault_of
     from tutor.grade.gradebook import Gradebook
 
     gradebook = Gradebook.of(results, course, points, steps=arguments.steps == "words", title=_title(arguments, folder))
@@ -267,7 +278,7 @@ def _report(
         color, width = terminal.wants_color(sys.stdout), terminal.width(sys.stdout)
         terminal.out(text.render(gradebook, color=color, width=width))
     for result in gradebook.errors:
-        terminal.say(f"not judged: {result.learner.name}, {result.exercise}: {_fault_of(result)}")
+        terminal.say(f"not judged: {result.learner.name}, {result.exercise}: {fault_of(result)}")
     return FAULT if gradebook.errors else PASSED
 
 
@@ -276,15 +287,6 @@ def _title(arguments: argparse.Namespace, folder: ResultFolder) -> str:
     if source is None:
         return folder.root.resolve().name.removesuffix("-results")
     return source.stem if source.is_file() else source.resolve().name
-
-
-def _fault_of(result: Result) -> str:
-    from tutor.judge.verdict import Status
-
-    judged = result.judged
-    criteria = judged.criteria if judged is not None else ()
-    causes = [criterion.verdict.cause for criterion in criteria if criterion.verdict.status is Status.ERROR]
-    return causes[0] if causes else result.report.message
 
 
 def _read_template(path: Path | None) -> str | None:

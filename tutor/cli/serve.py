@@ -32,8 +32,9 @@ def run(arguments: argparse.Namespace) -> int:
     except ImportError as error:
         raise ServeError(f"the app cannot be served: {error.name} is not installed", _INSTALL) from error
 
-    context.load_course(arguments)  # a broken course is reported here, not in the browser
-    more = [word for word in context.choose_courses(arguments).arguments if word != "--lessons"]
+    courses = context.choose_courses(arguments)
+    context.load(courses)  # a broken course is reported here, not in the browser
+    more = [word for word in courses.arguments if word != "--lessons"]
     argv = interpreter.module_command("tutor.serve", str(context.choose_workspace(arguments).root.absolute()), *more)
     listener = listen(arguments.host, arguments.port)
 

@@ -24,11 +24,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Put the files in place and say where they are."""
-    from tutor.content import load_course
     from tutor.workspace import start, start_in
 
     courses = context.choose_courses(arguments)
-    course = load_course(courses.folders, only=courses.only)
+    course = context.load(courses)
     lesson = course.find(arguments.exercise)
     if arguments.folder is None:
         workspace = context.choose_workspace(arguments)
