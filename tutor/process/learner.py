@@ -53,6 +53,7 @@ class LearnerProcess:
         self._run = uuid.uuid4().hex
         self._oom_kills_before = memory.oom_kills()
         self._fault = ""
+        self._killed_for = ""
         with contextlib.ExitStack() as made:
             self._stdin = Stdin(terminal=terminal)
             made.callback(self._stdin.close)
@@ -173,8 +174,8 @@ class LearnerProcess:
         return self._link.recent_pids()
 
     def kill(self, why: str) -> None:
-        """Kill all of the learner's processes, and say why in what the program printed."""
-        self._feed("stderr", f"Killed: {why}\n".encode())
+        """Kill all of the learner's processes, and say why in the last line of what the program printed."""
+        self._killed_for = why
         self._link.end()
 
     async def end(self) -> None:
@@ -257,6 +258,8 @@ class LearnerProcess:
     def _set_exit(self, ended: Exit) -> None:
         # Everything the program wrote is in the pipes by now; its children may hold them open and go on writing.
         self._drain()
+        if self._killed_for:
+            self._feed("stderr", f"Killed: {self._killed_for}\n".encode())
         self._exit = ended
         if self.killed and memory.oom_kills() > self._oom_kills_before:
             self._fault = "the machine ran out of memory, and the system killed the program"
