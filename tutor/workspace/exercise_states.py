@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
@@ -94,10 +95,18 @@ def exercise_state(lesson: Lesson, progress: ExerciseProgress, *, has_files: boo
 
 
 def states_of(lessons: Iterable[Lesson], progress: Progress, workspace: Workspace) -> dict[str, ExerciseState]:
-    """Return the state of each exercise, by exercise id. Looks for the exercises' files on disk."""
+    """Return the state of each exercise, by exercise id. Looks for the exercises' files on disk.
+
+    A file that several exercises have, as those of two courses may, does not say which of them was started.
+    """
+    lessons = tuple(lessons)
+    uses = Counter(file.name for lesson in lessons for file in lesson.files)
+
+    def has_files(lesson: Lesson) -> bool:
+        return all(uses[file.name] == 1 for file in lesson.files) and is_started(lesson, None, workspace)
+
     return {
-        lesson.id: exercise_state(lesson, progress.of(lesson.id), has_files=is_started(lesson, None, workspace))
-        for lesson in lessons
+        lesson.id: exercise_state(lesson, progress.of(lesson.id), has_files=has_files(lesson)) for lesson in lessons
     }
 
 
