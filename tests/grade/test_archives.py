@@ -136,12 +136,17 @@ def test_an_encrypted_archive(tmp_path: Path) -> None:
         unpacked(archive)
 
 
+def change_headers(archive: Path, layout: str, places: tuple[int, int], value: int) -> None:
+    """Write a value into the local and the central header of the only file in a zip."""
+    content = bytearray(archive.read_bytes())
+    for signature, place in zip((b"PK\x03\x04", b"PK\x01\x02"), places, strict=True):
+        struct.pack_into(layout, content, content.index(signature) + place, value)
+    archive.write_bytes(bytes(content))
+
+
 def test_an_unknown_compression(tmp_path: Path) -> None:
     archive = zip_of(tmp_path / "x.zip", {"a.py": b"print()"})
-    content = bytearray(archive.read_bytes())
-    for signature, place in ((b"PK\x03\x04", 8), (b"PK\x01\x02", 10)):
-        struct.pack_into("<H", content, content.index(signature) + place, 97)
-    archive.write_bytes(bytes(content))
+    change_headers(archive, "<H", (8, 10), 97)
     with pytest.raises(BadArchive, match=DAMAGED):
         unpacked(archive)
 
@@ -171,10 +176,7 @@ def test_bombs_take_neither_disk_nor_time(tmp_path: Path) -> None:
 
 def test_a_size_that_the_archive_lies_about(tmp_path: Path) -> None:
     archive = zip_of(tmp_path / "x.zip", {"a.py": bytes(1 << 20)})
-    content = bytearray(archive.read_bytes())
-    for signature, place in ((b"PK\x03\x04", 22), (b"PK\x01\x02", 24)):
-        struct.pack_into("<I", content, content.index(signature) + place, 10)
-    archive.write_bytes(bytes(content))
+    change_headers(archive, "<I", (22, 24), 10)
     with pytest.raises(BadArchive, match=DAMAGED):
         unpacked(archive)
 

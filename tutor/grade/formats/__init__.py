@@ -16,8 +16,6 @@ FILES = {"html": "html_pages", "gradescope": "gradescope", "classroom50": "class
 """Formats that are several files, and their modules, with `files(gradebook) -> dict[str, str]`: from a path below the
 folder of results to its text."""
 
-FORMATS = ("text", *DOCUMENTS, *FILES)
-
 
 def render(gradebook: Gradebook, format: str, template: str | None = None) -> str:
     """Render one of `DOCUMENTS`. Raises UsageError for a template that does not fit."""
