@@ -17,7 +17,20 @@ settings.register_profile("any machine", deadline=None, suppress_health_check=[H
 settings.load_profile("any machine")
 
 
-def pytest_configure() -> None:
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--quick", action="store_true", help="only the tests that start no process")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """With `--quick`, leave out the folders whose tests start processes; in the others, such a test is marked."""
+    if not config.getoption("quick") or TESTS not in collection_path.parents:
+        return None
+    return collection_path.relative_to(TESTS).parts[0] not in QUICK or None
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if config.getoption("quick"):
+        sys.addaudithook(_refuse_processes)
     # pytest-xdist workers ignore SIGINT, as do jobs that a shell script starts with `&`; the processes that the tests
     # start would inherit that.
     signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -28,6 +41,7 @@ gc.set_threshold(50_000, 20, 50)
 
 TESTS = Path(__file__).parent
 ENGINE_TESTS = TESTS / "engine"
+QUICK = {"checks", "exercise", "judge", "mistakes", "report", "ros_model", "source"}
 LONGEST_FIRST = [
     "tui/test_lessons_live.py",
     "tui/test_whole_lessons.py",
@@ -49,13 +63,20 @@ LONGEST_FIRST = [
 """The files that take longest: pytest-xdist would begin with those of many tests, and wait for these at the end."""
 
 
+def _refuse_processes(event: str, arguments: object) -> None:
+    if event in ("subprocess.Popen", "os.fork", "os.posix_spawn") and "PYTEST_CURRENT_TEST" in os.environ:
+        raise AssertionError("this test starts a process: mark it with pytest.mark.process")
+
+
 def pytest_collection_finish() -> None:
     """No test module imports rclpy, not even indirectly: the engine's tests must prepare the environment first."""
     assert "rclpy" not in sys.modules, "a test module imports rclpy: import it in another process"
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Begin with the files that take longest, so that no process is left alone with one at the end."""
+    if config.getoption("quick"):
+        items[:] = [item for item in items if item.get_closest_marker("process") is None]
     places = {TESTS / name: place for place, name in enumerate(LONGEST_FIRST)}
     items.sort(key=lambda item: places.get(item.path, len(places)))
 

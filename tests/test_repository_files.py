@@ -12,10 +12,11 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 GITHUB = ROOT / ".github"
+CONFIG = GITHUB / "ISSUE_TEMPLATE/config.yml"
 SCHEMAS = {
     "vendor.github-workflows": sorted((GITHUB / "workflows").glob("*.yml")),
-    "vendor.github-issue-config": [GITHUB / "ISSUE_TEMPLATE/config.yml"],
-    "vendor.github-issue-forms": sorted({*(GITHUB / "ISSUE_TEMPLATE").glob("*.yml")} - {GITHUB / "ISSUE_TEMPLATE/config.yml"}),
+    "vendor.github-issue-config": [CONFIG],
+    "vendor.github-issue-forms": sorted({*CONFIG.parent.glob("*.yml")} - {CONFIG}),
     "vendor.dependabot": [GITHUB / "dependabot.yml"],
 }
 
@@ -46,6 +47,8 @@ def test_pre_commit_can_read_its_file_and_finds_the_programs() -> None:
 def test_the_devcontainer_runs_commands_that_exist() -> None:
     settings = json.loads((ROOT / ".devcontainer/devcontainer.json").read_text())
     assert settings["image"]
-    programs = [word for name in settings if name.endswith("Command") for word in re.findall(r"\./(\S+)", settings[name])]
+    programs = [
+        word for name in settings if name.endswith("Command") for word in re.findall(r"\./(\S+)", settings[name])
+    ]
     assert programs
     assert all((ROOT / program).is_file() for program in programs)

@@ -217,6 +217,7 @@ def test_own_is_the_innermost_of_the_learners_frames() -> None:
     assert own_frame((), FOLDER) is None
 
 
+@pytest.mark.process
 @pytest.mark.parametrize(
     ("source", "raised"),
     [

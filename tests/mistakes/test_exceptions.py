@@ -69,6 +69,7 @@ print("all searched")
 """
 
 
+@pytest.mark.process
 def test_no_pattern_takes_long_in_a_long_file() -> None:
     """A nested repetition that is ambiguous takes for ever where it does not match; nothing can interrupt it."""
     files = [str(path) for path in (ROOT / "tests/submissions").glob("*/*/*/*.py")]
