@@ -20,7 +20,7 @@ from tutor.ros.discovery import PROFILE, isolated_discovery, loopback_multicast_
 if TYPE_CHECKING:
     from tutor.judge.result import Environment
 
-__all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works", "tutor_env"]
+__all__ = ["RosEnvironment", "detect", "learner_env", "loopback_multicast_works", "system_env", "tutor_env"]
 
 DISTRO = "jazzy"
 RMW = "rmw_fastrtps_cpp"
@@ -34,6 +34,7 @@ _DROPPED_PREFIXES = ("RCUTILS_", "PYTEST_", "COV_", "COVERAGE_", "PYTHON", "VIRT
 _DISCOVERY_PREFIXES = ("FASTRTPS_", "FASTDDS_", "CYCLONEDDS_", "ZENOH_", "RMW_")
 _ROS_PREFIXES = ("ROS_", "AMENT_", "COLCON_", "CMAKE_PREFIX_PATH", "RCL_")
 _ROS_PATH_VARIABLES = ("CMAKE_PREFIX_PATH", "PKG_CONFIG_PATH")
+_PATH_VARIABLES = ("PATH", "PYTHONPATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", *_ROS_PATH_VARIABLES)
 _OWN_VARIABLES = ("ROS_TUTOR_",)  # such as ROS_TUTOR_WORKSPACE
 # The user's own discovery settings, which "run" keeps, unlike a check.
 _USER_DISCOVERY = (
@@ -132,6 +133,16 @@ def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str]
     return env
 
 
+def system_env(environ: Mapping[str, str] = os.environ) -> dict[str, str]:
+    """Return the environment in which an installed ROS 2 was sourced: without what our own interpreter has added.
+
+    When it starts, a hook of the wheels puts their libraries on LD_LIBRARY_PATH.
+    """
+    kept = {name: prefixes.without_bundled(environ, name) for name in _PATH_VARIABLES if name in environ}
+    env = {name: value for name, value in environ.items() if name not in (BOOTSTRAP_DONE, *kept)}
+    return env | {name: prefixes.join_entries(left) for name, left in kept.items() if left}
+
+
 def _problems(environ: Mapping[str, str], distro: str, sourced: list[Path]) -> tuple[str, ...]:
     foreign_paths = [e for e in prefixes.entries(environ, "PYTHONPATH") if prefixes.is_foreign_ros(e)]
     if not distro and not sourced and not foreign_paths:
@@ -190,11 +201,8 @@ def _ros_env(ros: RosEnvironment, environ: Mapping[str, str], first_on_path: lis
         env["AMENT_PREFIX_PATH"] = prefixes.join_entries([bundled_interfaces.prefix(), sys.prefix])
         rest = {name: prefixes.without_ros(environ, name) for name in _ROS_PATH_VARIABLES}
     else:
-        python_path = prefixes.without_bundled(environ, "PYTHONPATH")
-        rest = {
-            name: prefixes.without_bundled(environ, name)
-            for name in ("PATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", *_ROS_PATH_VARIABLES)
-        }
+        rest = {name: prefixes.without_bundled(environ, name) for name in _PATH_VARIABLES}
+        python_path = rest.pop("PYTHONPATH")
     env["PYTHONPATH"] = prefixes.join_entries([*first_on_path, *python_path])
     for name, left in rest.items():
         env.pop(name, None)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from tutor import interpreter, private_folders
 from tutor.bundled_ros.ros2 import absent, sources
-from tutor.ros.environment import RosEnvironment, learner_env
+from tutor.ros.environment import RosEnvironment, learner_env, system_env
 from tutor.ros.prefixes import PACKAGE_INDEX, SITE_PACKAGES, entries, is_bundled, join_entries
 
 WORKSPACE = "ROS_TUTOR_WORKSPACE"
@@ -31,7 +31,7 @@ def sourced_environment(
     of an installed ROS 2, or any other on PATH, takes precedence over ours. Raises OSError.
     """
     if ros.kind == "system":
-        env = {**environ}
+        env = system_env(environ)
     else:
         log_dir = private_folders.logs(environ)
         env = learner_env(ros, domain_id=domain_id, log_dir=log_dir, package_root=None, isolated=False, environ=environ)
