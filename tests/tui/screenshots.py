@@ -18,6 +18,7 @@ from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager, contextmanager
 from pathlib import Path
 
+from textual.app import App
 from textual.events import Paste
 from textual.pilot import Pilot
 
@@ -47,6 +48,12 @@ async def until(pilot: Pilot[int], condition: Callable[[], bool]) -> None:
         while not condition():
             await pilot.pause(0.02)
     await pilot.pause()
+
+
+def svg_of(app: App[int]) -> str:
+    """What the app shows, as an SVG that loads no fonts from the network."""
+    svg = app.export_screenshot(title="ros-tutor")
+    return _FONT_FACE.sub("", svg).replace("Fira Code, monospace", _FONTS)
 
 
 @contextmanager
@@ -95,10 +102,8 @@ class Album:
         for theme in (LIGHT, DARK):
             pilot.app.theme = theme.name
             await pilot.pause()
-            svg = pilot.app.export_screenshot(title="ros-tutor")
-            svg = _FONT_FACE.sub("", svg).replace("Fira Code, monospace", _FONTS)  # load no fonts from the network
             shade = theme.name.rsplit("-", 1)[1]
-            (self.folder / f"{name}-{self.size[0]}x{self.size[1]}-{shade}.svg").write_text(svg)
+            (self.folder / f"{name}-{self.size[0]}x{self.size[1]}-{shade}.svg").write_text(svg_of(pilot.app))
 
     async def welcome(self) -> None:
         async with self.fake_app(started=False) as (pilot, _):
