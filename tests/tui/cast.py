@@ -126,7 +126,7 @@ async def check(cast: Cast, pilot: Pilot[int]) -> None:
         return main.checks.running is not None
 
     while running():
-        await until(pilot, lambda enough=shown + 2: not running() or judged() >= enough)
+        await until(pilot, lambda: not running() or judged() >= shown + 2)  # noqa: B023
         if running():
             shown = judged()
             await cast.show(pilot, 0.8)
