@@ -1,7 +1,8 @@
 """What an exercise is written in: the public interface for those who write one.
 
-An exercise is one file that names what the learner's programs have (`Program`, `Topic`, `Parameter`, `Service`), and
-declares a criterion for each line of the lesson's acceptance criteria, in one of the forms below:
+An exercise is one file that names what is started (a `Program` or a `LaunchFile`) and what its nodes have (`Topic`,
+`Parameter`, `Service`), and declares a criterion for each line of the lesson's acceptance criteria, in one of the forms
+below:
 
     GREETING = Topic("/greeting", "std_msgs/msg/String")
 
@@ -18,6 +19,7 @@ declares a criterion for each line of the lesson's acceptance criteria, in one o
 How the program is started, how long is waited, and what a busy machine may excuse is the forms' business.
 """
 
+from tutor.exercise.argument_moves import ArgumentMovesNamespace, ArgumentMovesTopic
 from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.defaults import Defaults
 from tutor.exercise.ends_cleanly import EndsCleanly
@@ -25,7 +27,8 @@ from tutor.exercise.form import Custom, Form, check
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
-from tutor.exercise.nouns import Parameter, Program, Service, SetsRate, ShownIn, SwitchesOff, Topic
+from tutor.exercise.nouns import LaunchFile, Parameter, Program, Service, SetsRate, ShownIn, SwitchesOff, Topic
+from tutor.exercise.pair_communicates import PairCommunicates
 from tutor.exercise.publishes import Contains, Publishes, ShownByEcho
 from tutor.exercise.rate_at_run_time import RateAtRunTime
 from tutor.exercise.rate_at_start import RateAtStart
@@ -36,12 +39,15 @@ from tutor.exercise.serves import Answers, Serves
 from tutor.exercise.service_calls import Question
 from tutor.exercise.set_at_run_time import SetAtRunTime
 from tutor.exercise.set_at_start import SetAtStart
+from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
 from tutor.exercise.words import SAYS_ERROR
 
 __all__ = [
     "SAYS_ERROR",
     "Answers",
+    "ArgumentMovesNamespace",
+    "ArgumentMovesTopic",
     "CallsAll",
     "Contains",
     "Custom",
@@ -50,10 +56,12 @@ __all__ = [
     "Fields",
     "Form",
     "InRange",
+    "LaunchFile",
     "LogsParameter",
     "NamesBadValue",
     "Node",
     "OtherUnit",
+    "PairCommunicates",
     "Parameter",
     "Program",
     "Publishes",
@@ -69,6 +77,7 @@ __all__ = [
     "SetsRate",
     "ShownByEcho",
     "ShownIn",
+    "StartsPair",
     "SurvivesBadCall",
     "SwitchesOff",
     "Topic",

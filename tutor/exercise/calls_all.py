@@ -40,7 +40,7 @@ class CallsAll(Form):
             f"later, calls each of them and ends by itself with 0 within {self.within_s:g} s"
         )
         if seen.trace is None:
-            absent = Symptom.CALLS_MISSING.seen(Trace(file), file=file, beside=exercise.program.file)
+            absent = Symptom.CALLS_MISSING.seen(Trace(file), file=file, beside=exercise.started.file)
             return failed(expected, f"there is no {file}", absent)
         by_name = {service.name: service for service in self.services}
         called = {served.service for served in seen.served}

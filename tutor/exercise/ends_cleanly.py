@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from tutor.exercise.form import Exercise, Form
-from tutor.exercise.nouns import Program
+from tutor.exercise.launch_ending import judge_launch_ending
+from tutor.exercise.launch_run import Launch
+from tutor.exercise.nouns import LaunchFile, Program
 from tutor.judge.bench import Bench, Scenario
 from tutor.judge.check import Criterion
 from tutor.judge.ending import judge_ending, repeat_if_doubtful
@@ -48,9 +50,10 @@ class StartAndEnd:
 class EndsCleanly(Form):
     """On Ctrl+C (SIGINT) the process ends within 5 s, without a traceback, with exit code 0 or 130.
 
-    Judged on the start without parameters of the first criterion that makes one, or else on a start of its own. It is
-    skipped where the process had ended before Ctrl+C, with the criterion that shows why. `start`: another scenario to
-    judge it on, whose facts have `trace` and `ending`.
+    Of a `LaunchFile`, so does the whole launch, and no process is left. Judged on the start without parameters of the
+    first criterion that makes one, or else on a start of its own. It is skipped where the process had ended before
+    Ctrl+C, with the criterion that shows why. `start`: another scenario to judge it on, whose facts have `trace` and
+    `ending`.
     """
 
     start: Scenario[Any] | None = None
@@ -58,15 +61,22 @@ class EndsCleanly(Form):
     def criterion(self, exercise: Exercise) -> Criterion:
         others = [form for form in exercise.forms if form is not self and not form.bonus]
         started = [(form, start) for form in others if (start := form.ended_start(exercise)) is not None]
+        judge_end = judge_launch_ending if isinstance(exercise.started, LaunchFile) else judge_ending
         if not started or self.start is not None:
-            shown_by, start = others[0].id if others else self.id, self.start or StartAndEnd(exercise.program)
-            return self.judged(lambda seen: judge_ending(seen.trace, seen.ending, shown_by=shown_by), start)
-        form, start = started[0]
-        following = [*others[others.index(form) + 1 :], form][0]
-        judge_start = form.criterion(exercise).judge
+            shown_by, start = others[0].id if others else self.id, self.start or _own_start(exercise.started)
+            return self.judged(lambda seen: judge_end(seen.trace, seen.ending, shown_by=shown_by), start)
+        start = started[0][1]
+        sharing = [form for form, each in started if each == start]
+        following = [*others[others.index(sharing[-1]) + 1 :], sharing[-1]][0]
+        judges = [(form, form.criterion(exercise).judge) for form in sharing]
 
         def judge(seen: EndedRun) -> Verdict:
-            shows = form if judge_start(seen).status is Status.FAILED else following
-            return judge_ending(seen.trace, seen.ending, shown_by=shows.id)
+            failing = (form for form, judge_start in judges if judge_start(seen).status is Status.FAILED)
+            shows = next(failing, following) if seen.ending is None else following
+            return judge_end(seen.trace, seen.ending, shown_by=shows.id)
 
         return self.judged(judge, start)
+
+
+def _own_start(started: Program | LaunchFile) -> Scenario[Any]:
+    return Launch(started) if isinstance(started, LaunchFile) else StartAndEnd(started)

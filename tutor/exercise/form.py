@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
-from tutor.exercise.nouns import Parameter, Program
+from tutor.exercise.nouns import LaunchFile, Parameter, Program
 from tutor.exercise.parameters import ParameterNode
 from tutor.judge.bench import Scenario
 from tutor.judge.check import Check, Criterion, EarlyJudge, Judge
@@ -16,10 +16,26 @@ from tutor.judge.verdict import Verdict
 
 @dataclass(frozen=True)
 class Exercise:
-    """The program of an exercise and its criteria, in the order in which they are shown."""
+    """What is started in an exercise, and its criteria, in the order in which they are shown."""
 
-    program: Program
+    started: Program | LaunchFile
     forms: tuple[Form, ...]
+
+    @property
+    def program(self) -> Program:
+        """The program that is started. Raises ValueError for a launch file."""
+        if isinstance(self.started, LaunchFile):
+            raise ValueError(f"{self.started.file} is a LaunchFile: a criterion here needs a Program, which is started")
+        return self.started
+
+    @property
+    def launch_file(self) -> LaunchFile:
+        """The launch file. Raises ValueError for a program."""
+        if not isinstance(self.started, LaunchFile):
+            raise ValueError(
+                f"{self.started.file} is a Program: a criterion here needs a LaunchFile, which is launched"
+            )
+        return self.started
 
     def first[F: Form](self, kind: type[F], suits: Callable[[F], bool] = lambda form: True) -> F | None:
         """The first criterion of this form for which `suits` is true."""
@@ -123,7 +139,7 @@ def parameter_node(exercise: Exercise) -> ParameterNode:
 
 def check(
     exercise: str,
-    program: Program,
+    started: Program | LaunchFile,
     *criteria: Form,
     expected_s: float = 0.0,
     expected_reason: str = "",
@@ -131,10 +147,11 @@ def check(
 ) -> Check:
     """The check of an exercise, to be assigned to CHECK.
 
-    `exercise`: its id, such as "i1.1". `expected_s`: the longest wait, in seconds, that a criterion needs with the
-    solution, and `expected_reason` what it waits for. `mistakes`: the module with a catalogue of mistakes that only
-    this exercise can know. Raises ValueError if an id is repeated, or a criterion comes before one that it is `after`.
+    `exercise`: its id, such as "i1.1". `started`: the learner's program or launch file. `expected_s`: the longest wait,
+    in seconds, that a criterion needs with the solution, and `expected_reason` what it waits for. `mistakes`: the
+    module with a catalogue of mistakes that only this exercise can know. Raises ValueError if an id is repeated, a
+    criterion comes before one that it is `after`, or it needs a program and a launch file is given, or the reverse.
     """
-    context = Exercise(program, criteria)
+    context = Exercise(started, criteria)
     judged = tuple(form.criterion(context) for form in criteria)
     return Check(exercise, judged, expected_s, expected_reason, mistakes)

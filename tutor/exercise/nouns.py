@@ -23,6 +23,16 @@ class Program:
 
 
 @dataclass(frozen=True)
+class LaunchFile:
+    """A launch file that the learner writes, which `ros2 launch` runs. `file`: its file, as the lesson names it.
+
+    Files of the submission that are beside it are there when it runs: nodes of the learner's own, for one.
+    """
+
+    file: str
+
+
+@dataclass(frozen=True)
 class Topic:
     """A topic with its full name and type, such as "/chatter" and "std_msgs/msg/String".
 

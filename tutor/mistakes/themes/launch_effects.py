@@ -21,6 +21,7 @@ _NAMES = (Symptom.WRONG_NAMES,)
     do="Leave out the slash in front of the name, so that it is taken within the namespace.",
     example=in_run(
         Symptom.WRONG_NAMES,
+        moves="namespace",
         argument="namespace",
         wanted="hall",
         graph=Graph(("/hall/bell",), (TopicEndpoint("/ring", "t", "/hall/bell"),)),
@@ -42,7 +43,7 @@ def absolute(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic list`.
     """
-    if case.about("argument") != "namespace":
+    if case.about("moves") != "namespace":
         return
     namespace = case.about("wanted")
     under = f"/{namespace}/"
@@ -64,6 +65,7 @@ def absolute(case: Case) -> Iterator[Found]:
     do="Give both nodes the same namespace.",
     example=in_run(
         Symptom.WRONG_NAMES,
+        moves="topic",
         argument="topic",
         wanted="/dong",
         graph=Graph(("/attic/bell",), (TopicEndpoint("/attic/dong", "t", "/attic/bell"),)),
@@ -94,7 +96,7 @@ def own_namespace(case: Case) -> Iterator[Found]:
         relative = endpoint.topic.removeprefix(f"{namespace}/")
         if not namespace or relative == endpoint.topic:
             continue
-        if case.about("argument") == "topic":
+        if case.about("moves") == "topic":
             apart = relative == last_part(wanted) and endpoint.topic != wanted
         else:
             others = {each.topic for each in endpoints if not each.node.startswith(f"{namespace}/")}
@@ -111,6 +113,7 @@ def own_namespace(case: Case) -> Iterator[Found]:
     do="Give every node the same remappings, and the same namespace.",
     example=in_run(
         Symptom.WRONG_NAMES,
+        moves="topic",
         argument="topic",
         wanted="/dong",
         graph=Graph(
@@ -136,7 +139,7 @@ def one_node(case: Case) -> Iterator[Found]:
     See it: `ros2 topic info -v TOPIC`.
     """
     endpoints, wanted = endpoints_of(case), str(case.about("wanted", ""))
-    if case.about("argument") == "topic":
+    if case.about("moves") == "topic":
         inside = sorted({each.node for each in endpoints if each.topic == wanted})
         outside = sorted({f"{each.node} uses {each.topic}" for each in endpoints if each.topic != wanted})
         where = wanted
@@ -146,12 +149,12 @@ def one_node(case: Case) -> Iterator[Found]:
         outside = sorted({each.node for each in endpoints if not each.node.startswith(f"{where}/")})
     alone = len({each.node for each in endpoints}) > 1 and len(inside) == 1
     if alone and outside:
-        are = "uses" if case.about("argument") == "topic" else "is under"
+        are = "uses" if case.about("moves") == "topic" else "is under"
         yield Found({"what": f"{', '.join(inside)} {are} {where}, and {', '.join(outside)}{_not(case)}"})
 
 
 def _not(case: Case) -> str:
-    return "" if case.about("argument") == "topic" else " is not"
+    return "" if case.about("moves") == "topic" else " is not"
 
 
 @mistake(
@@ -162,6 +165,7 @@ def _not(case: Case) -> str:
     do="Give every node that uses the topic the same remappings.",
     example=in_run(
         Symptom.WRONG_NAMES,
+        moves="topic",
         argument="topic",
         wanted="/dong",
         still_used=("/ring",),
@@ -196,7 +200,7 @@ def still_used(case: Case) -> Iterator[Found]:
     evidence=Evidence.SYMPTOM,
     says="{argument}:={value} is given, but no topic and no namespace takes its value",
     do="Use the value of the argument in every node: a topic in its remappings, a namespace as its namespace.",
-    example=in_run(Symptom.WRONG_NAMES, argument="topic", wanted="/dong"),
+    example=in_run(Symptom.WRONG_NAMES, moves="topic", argument="topic", wanted="/dong"),
 )
 def no_effect(case: Case) -> Iterator[Found]:
     """A launch argument is declared, but used nowhere.

@@ -75,6 +75,7 @@ def _is_used(file: LaunchFile, argument: str, code: str) -> bool:
     do="Use only one of the two: a namespace for each node, or one that is pushed for all.",
     example=in_run(
         Symptom.WRONG_NAMES,
+        moves="namespace",
         argument="namespace",
         wanted="hall",
         graph=Graph(("/hall/hall/bell",), (TopicEndpoint("/hall/hall/ring", "t", "/hall/hall/bell"),)),
@@ -99,7 +100,7 @@ def twice(case: Case) -> Iterator[Found]:
     See it: `ros2 node list`.
     """
     doubled = f"/{case.about('wanted')}/{case.about('wanted')}/"
-    for endpoint in endpoints_of(case) if case.about("argument") == "namespace" else ():
+    for endpoint in endpoints_of(case) if case.about("moves") == "namespace" else ():
         for name in (endpoint.node, endpoint.topic):
             if name.startswith(doubled):
                 yield Found({"name": name, "namespace": case.about("wanted")})
@@ -172,7 +173,7 @@ def argument_overwritten(case: Case) -> Iterator[Found]:
     explains=_NAMES,
     says="{line}: the Node has {keyword}={given}, which {why}",
     do="Put the argument's value where a node's names are set: its remappings, and its namespace.",
-    example=in_run(Symptom.WRONG_NAMES, argument="topic", wanted="/dong"),
+    example=in_run(Symptom.WRONG_NAMES, moves="topic", argument="topic", wanted="/dong"),
 )
 def wrong_place(case: Case) -> Iterator[Found]:
     """An argument's value is put in the wrong place.
@@ -195,7 +196,7 @@ def wrong_place(case: Case) -> Iterator[Found]:
     right, effect = "remappings", "renames no topic"
     wanted = str(case.about("wanted", ""))
     arrived = any(each.topic == wanted for each in endpoints_of(case))
-    if argument == "namespace":
+    if case.about("moves") == "namespace":
         right, effect = "namespace", "puts it into no namespace"
         arrived = any(each.node.startswith(f"/{wanted}/") for each in endpoints_of(case))
     for node in () if arrived else nodes_of(file):

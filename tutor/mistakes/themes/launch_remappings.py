@@ -20,7 +20,11 @@ _NAMES = (Symptom.WRONG_NAMES,)
     says="{source} is remapped to {target}, so {target} keeps its name",
     do="Write the name in the node's code first, then the new one.",
     example=in_run(
-        Symptom.WRONG_NAMES, argument="topic", wanted="/dong", command_lines=("bell --ros-args -r dong:=ring",)
+        Symptom.WRONG_NAMES,
+        moves="topic",
+        argument="topic",
+        wanted="/dong",
+        command_lines=("bell --ros-args -r dong:=ring",),
     ),
 )
 def swapped(case: Case) -> Iterator[Found]:
@@ -38,7 +42,7 @@ def swapped(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic list`.
     """
-    for source, target in remappings_of(case) if case.about("argument") == "topic" else ():
+    for source, target in remappings_of(case) if case.about("moves") == "topic" else ():
         if last_part(source) == value_of(case):
             yield Found({"source": source, "target": target})
 
@@ -51,6 +55,7 @@ def swapped(case: Case) -> Iterator[Found]:
     do="Remap exactly the name that the node's code uses, once.",
     example=in_run(
         Symptom.WRONG_NAMES,
+        moves="topic",
         argument="topic",
         wanted="/dong",
         command_lines=("bell --ros-args -r horn:=dong",),
@@ -101,6 +106,7 @@ def without_effect(case: Case) -> Iterator[Found]:
     do="Remap to the argument's value alone.",
     example=in_run(
         Symptom.WRONG_NAMES,
+        moves="topic",
         argument="topic",
         wanted="/dong",
         graph=Graph(("/bell",), (TopicEndpoint("/dong_ring", "t", "/bell"),)),
@@ -122,7 +128,7 @@ def altered(case: Case) -> Iterator[Found]:
     See it: `ros2 topic list`.
     """
     value = value_of(case)
-    for endpoint in endpoints_of(case) if value and case.about("argument") == "topic" else ():
+    for endpoint in endpoints_of(case) if value and case.about("moves") == "topic" else ():
         last = last_part(endpoint.topic)
         if value in last and value != last:
             yield Found({"node": endpoint.node, "topic": endpoint.topic, "value": value})

@@ -18,6 +18,7 @@ _NAMES = (Symptom.WRONG_NAMES,)
 _PUSHES = ("PushRosNamespace", "PushROSNamespace")
 _example = in_run(
     Symptom.WRONG_NAMES,
+    moves="namespace",
     argument="namespace",
     wanted="hall",
     graph=Graph(("/bell",), (TopicEndpoint("/ring", "t", "/bell"),)),
@@ -40,10 +41,10 @@ def _missed(case: Case, *why: Reach) -> Iterator[tuple[Action, ast.Call, Reach]]
 
 def _settings(case: Case, file: SourceFile) -> list[Action]:
     names: tuple[str, ...] = ()
-    if case.about("argument") == "namespace":
+    if case.about("moves") == "namespace":
         under = f"/{case.about('wanted')}/"
         names = _PUSHES if any(not each.node.startswith(under) for each in endpoints_of(case)) else ()
-    elif case.about("argument") == "topic" and not any(target == value_of(case) for _, target in remappings_of(case)):
+    elif case.about("moves") == "topic" and not any(target == value_of(case) for _, target in remappings_of(case)):
         names = ("SetRemap",)
     return actions_of(file, *names)
 

@@ -1,52 +1,13 @@
-"""I2.2: what the launch file must do, and the facts gathered about it."""
+"""The graph of a launch: its pairs of a publisher and a subscription, their topics and namespaces."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Iterable
 
-from tutor.judge.trace import Ending, LogRecord, Sample, Trace
 from tutor.ros_model import Graph, TopicEndpoint, is_standard_topic
-
-FILE = "my_launch.py"
-NAMESPACE = "robot1"
-SECOND_NAMESPACE = "robot2"
-"""Used instead of `NAMESPACE` where the launch file puts everything into that one by default."""
-
-ARGUMENTS = ("topic", "namespace")
-
-_TELLING_LENGTH = 4
-"""Text of at least this many characters is unlikely to appear in a log message by chance."""
-
-_NUMBER = re.compile(r"[-+\d.,e]+")
 
 Pair = tuple[TopicEndpoint, TopicEndpoint]
 """A publisher and a subscription of two different nodes, usually on the same topic."""
-
-
-@dataclass(frozen=True)
-class LaunchRun:
-    """One launch. `command_lines`: those of all its processes, including `ros2 launch` itself.
-
-    `hidden`: topics whose message type is not installed, so that their messages cannot be read. `answering`: the nodes
-    that still answered a service request after messages had arrived. `disconnected`: a publisher and a subscription had
-    matched, but one of them has gone since; `trace.graph` is then the graph from when they were matched.
-    """
-
-    trace: Trace
-    arguments: Mapping[str, str] = field(default_factory=dict)
-    command_lines: tuple[str, ...] = ()
-    hidden: frozenset[str] = frozenset()
-    answering: frozenset[str] = frozenset()
-    ending: Ending | None = None
-    disconnected: bool = False
-
-    @property
-    def typed(self) -> str:
-        """The launch arguments as typed on the command line."""
-        return " ".join(f"{name}:={value}" for name, value in self.arguments.items()) or "no arguments"
 
 
 def publishers(graph: Graph) -> list[TopicEndpoint]:
@@ -115,23 +76,23 @@ def pairs_on_topic_named(graph: Graph, name: str) -> list[Pair]:
     return [pair for pair in pairs(graph) if pair[0].topic.endswith(f"/{name}")]
 
 
-def pairs_in_namespace(graph: Graph, name: str | None = None, *, space: str = NAMESPACE) -> list[Pair]:
+def pairs_in_namespace(graph: Graph, space: str, name: str = "") -> list[Pair]:
     """The pairs whose two nodes and topic (called `name`, if given) are all in the namespace `space`."""
     return [
         (one, other)
         for one, other in pairs(graph)
         if all(_is_under(each, space) for each in (one.topic, one.node, other.node))
-        and (name is None or one.topic.endswith(f"/{name}"))
+        and (not name or one.topic.endswith(f"/{name}"))
     ]
 
 
-def has_pair_in_namespace(graph: Graph) -> bool:
-    """Whether a publisher and a subscription of two nodes are in `NAMESPACE`, on any topics there."""
+def has_pair_in_namespace(graph: Graph, space: str) -> bool:
+    """Whether a publisher and a subscription of two nodes are in this namespace, on any topics there."""
     return any(
         _are_different_nodes(graph, one.node, other.node)
         for one in publishers(graph)
         for other in subscriptions(graph)
-        if all(_is_under(name, NAMESPACE) for each in (one, other) for name in (each.node, each.topic))
+        if all(_is_under(name, space) for each in (one, other) for name in (each.node, each.topic))
     )
 
 
@@ -149,40 +110,17 @@ def count_entities(graph: Graph) -> tuple[int, int, int]:
     return len(graph.nodes), len(publishers(graph)), len(subscriptions(graph))
 
 
-def logs_of_messages(pair: Pair, logs: Sequence[LogRecord], samples: Sequence[Sample]) -> list[LogRecord]:
-    """The subscriber's log messages that quote the content of a sample received by then.
-
-    A number or a few letters may be in any log message by chance: they count only if two different ones are quoted.
-    """
-    name = pair[1].node.strip("/").replace("/", ".")
-    node_logs = [log for log in logs if log.name == name or log.name.startswith(f"{name}.")]
-    quoted = {
-        log: {
-            text
-            for sample in samples
-            if sample.source_time <= log.stamp + 0.01
-            for text in _quoted_values(log.text, sample)
-        }
-        for log in node_logs
-    }
-    distinct = set().union(*quoted.values())
-    telling = any(len(text) >= _TELLING_LENGTH and not _NUMBER.fullmatch(text) for text in distinct)
-    return [log for log in node_logs if quoted[log]] if telling or len(distinct) > 1 else []
+def describe_graph(graph: Graph) -> str:
+    """Who publishes and subscribes to what."""
+    ends = [f"{each.node} publishes on {each.topic}" for each in publishers(graph)]
+    ends += [f"{each.node} subscribes to {each.topic}" for each in subscriptions(graph)]
+    return "; ".join(sorted(set(ends))) or f"nodes without topics: {', '.join(graph.nodes)}"
 
 
-def _quoted_values(text: str, sample: Sample) -> Iterator[str]:
-    """The values of a message that occur in the text as whole words."""
-    for value in {str(leaf).strip() for leaf in _leaves(sample.message)} - {""}:
-        if re.search(rf"(?<![\w.]){re.escape(value)}(?!\w|\.\d)", text, re.IGNORECASE):
-            yield value
-
-
-def _leaves(value: Any) -> Iterator[Any]:
-    if isinstance(value, Mapping):
-        for each in value.values():
-            yield from _leaves(each)
-    elif isinstance(value, (list, tuple)):
-        for each in value[:100]:
-            yield from _leaves(each)
-    else:
-        yield value
+def describe_pair(pair: Pair) -> list[str]:
+    """What the two nodes of a pair do, a line each."""
+    publisher, subscription = pair
+    return [
+        f"{publisher.node} publishes on {publisher.topic}",
+        f"{subscription.node} subscribes to {subscription.topic}",
+    ]
