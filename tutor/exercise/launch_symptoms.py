@@ -18,7 +18,7 @@ _NEEDS_ROS = re.compile(r"`ros2 \w+` needs an installed ROS 2")
 
 
 def seen_in_launch(symptom: Symptom, run: LaunchRun, *, says: str = "", do: str = "", **about: Any) -> Observation:
-    """What was seen in a launch.
+    """What was seen in a launch that did not do what it should.
 
     Raises NeedsInstalledRos if it needs a feature that our substitute for `launch` does not have.
     """
