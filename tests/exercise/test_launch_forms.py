@@ -21,6 +21,7 @@ from tutor.exercise import (
     Topic,
     check,
 )
+from tutor.exercise.client_run import ClientRun
 from tutor.exercise.ends_cleanly import StartAndEnd
 from tutor.exercise.launch_run import Launch, LaunchRun, LaunchWith
 from tutor.ros_model import Graph
@@ -87,7 +88,9 @@ def test_a_launch_file_cannot_be_started_as_a_program(form: Form) -> None:
 
 
 def test_a_client_may_go_with_a_launch_file() -> None:
-    assert check("t1.3", LAMP, StartsPair("starts"), CallsAll("client", Program("client.py"), ()))
+    made = check("t1.3", LAMP, StartsPair("starts"), CallsAll("client", Program("client.py"), ()))
+    missing = judge_of(made, "client")(ClientRun(None))
+    assert_failed(missing, "file missing", "client.py, next to lamp_launch.py", check=made)
 
 
 def test_arguments_of_other_names() -> None:
