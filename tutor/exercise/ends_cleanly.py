@@ -53,18 +53,19 @@ class EndsCleanly(Form):
     Of a `LaunchFile`, so does the whole launch, and no process is left. Judged on the start without parameters of the
     first criterion that makes one, or else on a start of its own. It is skipped where the process had ended before
     Ctrl+C, with the criterion that shows why. `start`: another scenario to judge it on, whose facts have `trace` and
-    `ending`.
+    `ending`. `shown_by`: with `start`, the criterion that shows why the process had ended, if not the first one.
     """
 
     start: Scenario[Any] | None = None
+    shown_by: Form | None = None
 
     def criterion(self, exercise: Exercise) -> Criterion:
         others = [form for form in exercise.forms if form is not self and not form.bonus]
         started = [(form, start) for form in others if (start := form.ended_start(exercise)) is not None]
         judge_end = judge_launch_ending if isinstance(exercise.started, LaunchFile) else judge_ending
         if not started or self.start is not None:
-            shown_by, start = others[0].id if others else self.id, self.start or _own_start(exercise.started)
-            return self.judged(lambda seen: judge_end(seen.trace, seen.ending, shown_by=shown_by), start)
+            shown_by, start = self.shown_by or [*others, self][0], self.start or _own_start(exercise.started)
+            return self.judged(lambda seen: judge_end(seen.trace, seen.ending, shown_by=shown_by.id), start)
         start = started[0][1]
         sharing = [form for form, each in started if each == start]
         following = [*others[others.index(sharing[-1]) + 1 :], sharing[-1]][0]

@@ -6,20 +6,16 @@ import re
 from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
-from checks.i1_2.facts import SOON_S, Trial
-from checks.i1_2.reading import Line
-from checks.i1_2.summaries import Summary, find_summaries, last_due_count
+from checks.i1_2_message_statistics.reading import Line
+from checks.i1_2_message_statistics.summaries import Summary, find_summaries, last_due_count
+from checks.i1_2_message_statistics.trial import SOON_S, Trial
 from tutor.judge.trace import Level
 from tutor.judge.wording import shape
 
+Kinds = frozenset[tuple[int, str]]
 
-def new_lines(
-    trial: Trial,
-    *,
-    since: float,
-    usual: Sequence[Trial],
-    usual_kinds: frozenset[tuple[int, str]] = frozenset(),
-) -> list[Line]:
+
+def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial], usual_kinds: Kinds = frozenset()) -> list[Line]:
     """The lines from `since` on that the node does not log while N rises by one.
 
     These are lines of a new kind, or with a change in a number that was constant before. `usual`: other trials, used up
@@ -28,21 +24,19 @@ def new_lines(
     """
     before = [line for line in trial.lines if line.at < since and not _is_about_first_message(line, trial)]
     elsewhere = [[line for line in other.lines if is_before_jump(line, other)] for other in usual]
-    known = {line.kind for lines in (before, *elsewhere) for line in lines} | usual_kinds
-    warnings = {_with_short_lists(line) for lines in (before, *elsewhere) for line in lines if line.level >= Level.WARN}
+    calm = [line for lines in (before, *elsewhere) for line in lines]
+    known = {line.kind for line in calm} | usual_kinds
+    warnings = {_with_short_lists(line) for line in calm if line.level >= Level.WARN}
     in_summaries = {line: summary for summary in find_summaries(trial) for line in summary.lines}
-    reports = []
-    for line in trial.lines:
-        if line.at < since:
-            continue
-        same_kind = [other for other in before if other.kind == line.kind]
-        others = [found for lines in elsewhere if (found := [other for other in lines if other.kind == line.kind])]
+
+    def is_report(line: Line) -> bool:
         is_longer = line.level >= Level.WARN and _with_short_lists(line) in warnings
-        if (line.kind not in known and not is_longer) or _reports_jump(
-            line, in_summaries.get(line), same_kind, others, trial
-        ):
-            reports.append(line)
-    return reports
+        if line.kind not in known and not is_longer:
+            return True
+        same_kind, *others = ([other for other in lines if other.kind == line.kind] for lines in (before, *elsewhere))
+        return _has_new_number(line, in_summaries.get(line), same_kind, [each for each in others if each], trial)
+
+    return [line for line in trial.lines if line.at >= since and is_report(line)]
 
 
 def _with_short_lists(line: Line) -> str:
@@ -53,49 +47,48 @@ def _with_short_lists(line: Line) -> str:
     return re.sub(r"#(?:, ?#)+", "#", shape(line.text))
 
 
-def kinds_about_first_message(trial: Trial) -> frozenset[tuple[int, str]]:
+def kinds_about_first_message(trial: Trial) -> Kinds:
     """The kinds of lines that may be about a first message."""
     return frozenset(line.kind for line in trial.lines if _is_about_first_message(line, trial))
 
 
 def is_before_jump(line: Line, trial: Trial) -> bool:
     """Whether the line was logged before N first jumped, and is not about the first message."""
-    return not _is_about_first_message(line, trial) and not (trial.before_break and line.messages > trial.before_break)
+    return not _is_about_first_message(line, trial) and not (trial.jumps and line.messages > trial.jumps[0])
 
 
 def _is_about_first_message(line: Line, trial: Trial) -> bool:
     return line.at < trial.sent[0].at + SOON_S
 
 
-def _reports_jump(
+def _has_new_number(
     line: Line, summary: Summary | None, before: Sequence[Line], elsewhere: Sequence[Sequence[Line]], trial: Trial
 ) -> bool:
     """Whether a number in the line reports the jump: as a count of gaps, of missed or of expected messages.
 
-    `summary`: the summary that contains the line, if any.
+    `summary`: the summary that contains the line, if any. `before`, `elsewhere`: calm lines of the same kind.
     """
     others = [other for lines in (before, *elsewhere) for other in lines]
     missed = trial.missed(line.messages)
     if not others or any(len(other.numbers) != len(line.numbers) for other in others):
         return False
     for place, number in enumerate(line.numbers):
-        values_before = {other.numbers[place].value for other in before or others}
-        usual_values = [{other.numbers[place].value for other in lines} for lines in elsewhere]
         if summary is not None and _includes_missed(place, line, summary, others, missed):
             return True
-        if len(values_before) > 1 or any(len(each) > 1 for each in usual_values):
+        values_before = {other.numbers[place].value for other in before or others}
+        usual_values = [{other.numbers[place].value for other in lines} for lines in elsewhere]
+        if any(len(each) > 1 for each in (values_before, *usual_values)):
             continue
-        base = values_before.pop()
+        (base,) = values_before
         increase = number.value - base
-        from_zero = any(each == {0.0} for each in usual_values)
+        from_zero = {0.0} in usual_values
         if summary is None:
             # In a line that is logged with every message, a number is a report if it was 0 before, and no warning.
             is_report = base == 0 and from_zero and line.level < Level.WARN and _is_count_of_jump(increase, missed)
+        elif from_zero and (_is_count_of_jump(increase, missed) or _is_loss_share(increase, missed, trial)):
+            is_report = True
         else:
-            is_report = from_zero and (_is_count_of_jump(increase, missed) or _is_loss_share(increase, missed, trial))
-            is_report = is_report or (
-                all(each == {base} for each in usual_values) and _reflects_jump(increase, base, missed, trial)
-            )
+            is_report = all(each == {base} for each in usual_values) and _reflects_jump(increase, base, missed, trial)
         if is_report:
             return True
     return False
@@ -138,11 +131,11 @@ def _is_loss_share(increase: float, missed: Sequence[int], trial: Trial, *, scal
     """Whether the increase is the share of lost messages or of jumps, as a fraction or in percent, to two digits."""
     if any(each < 0 for each in missed) or increase <= 0:
         return False
-    jumps = range(1, len(missed) + 1)
+    jumps, totals = range(1, len(missed) + 1), _missed_totals(missed)
     shares = {
         lost / (whole + more)
-        for lost in (*jumps, *_missed_totals(missed))
+        for lost in (*jumps, *totals)
         for whole in range(trial.before_break + 1, len(trial.sent) + 1)
-        for more in (0, *_missed_totals(missed), *(-each for each in jumps))
+        for more in (0, *totals, *(-each for each in jumps))
     }
     return any(abs(increase - scale * share) <= 0.0051 * scale for share in shares for scale in scales)

@@ -12,8 +12,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checks.i1_2 import CHECK, fast_stretch, judges
-from checks.i1_2.facts import (
+from checks.i1_2_message_statistics import CHECK
+from checks.i1_2_message_statistics.count import judge_count, judge_fast_count
+from checks.i1_2_message_statistics.feeding import logs_something_new
+from checks.i1_2_message_statistics.gaps import judge_gaps, judge_jumps
+from checks.i1_2_message_statistics.plans import (
     AFTER_ZERO_MESSAGES,
     FAST_HZ,
     FAST_MESSAGES,
@@ -24,15 +27,14 @@ from checks.i1_2.facts import (
     RESTART_AFTER,
     RESTART_MESSAGES,
     SECOND_JUMP_AFTER,
-    Sent,
-    Trial,
 )
-from checks.i1_2.faults import in_words
-from checks.i1_2.gaps import judge_gaps, judge_jumps, judge_rising
-from checks.i1_2.reading import parse_log, values
-from checks.i1_2.restart import judge_new_publisher, judge_restart
-from checks.i1_2.scenarios import _logs_something_new
-from checks.i1_2.summaries import find_summaries
+from checks.i1_2_message_statistics.rate import judge_rate
+from checks.i1_2_message_statistics.reading import parse_log, values
+from checks.i1_2_message_statistics.restart import judge_restart
+from checks.i1_2_message_statistics.summaries import find_summaries
+from checks.i1_2_message_statistics.summary import judge_fast_summary, judge_slow_summary, judge_summary
+from checks.i1_2_message_statistics.totals import in_words
+from checks.i1_2_message_statistics.trial import Sent, Trial
 from tests.checks.builders import (
     CRASH,
     FOLDER,
@@ -115,7 +117,7 @@ def feed(
     numbers: Sequence[int],
     hz: float,
     *,
-    before_break: int = 0,
+    breaks: tuple[int, ...] = (),
     away_s: float = 0.0,
     late_s: float = 0.0005,
     slow_s: float = 0.0,
@@ -125,7 +127,7 @@ def feed(
 ) -> Trial:
     """The trial that is observed when messages with these numbers are sent to the node.
 
-    `before_break`: index of the first message after the jump or restart, before which the publisher is away for
+    `breaks`: indexes of the first messages after a jump or restart, before the first of which the publisher is away for
     `away_s`. `late_s`: delay from a message to its first log message. `between_s`: delay between two log messages of
     one message. `slow_s`: further delay of the summaries.
     """
@@ -140,14 +142,14 @@ def feed(
     sent: list[Sent] = []
     logs: list[LogRecord] = list(more)
     for index, number in enumerate(numbers):
-        at = START + 1 + index / hz + (away_s if before_break and index >= before_break else 0.0)
+        at = START + 1 + index / hz + (away_s if breaks and index >= breaks[0] else 0.0)
         sent.append(Sent(number, at))
         summaries.clear()
         for order, log in enumerate(list(node.receive(at + 0.0004, f"Hello World: {number}"))):
             stamp = at + late_s + order * between_s + slow_s * (log in summaries)
             logs.append(LogRecord(log[0], "node", log[1], stamp, stamp))
-    gone_at = sent[before_break - 1].at + 0.2 if away_s else 0.0
-    seen = Trial(trace(graph=LISTENING, logs=logs), tuple(sent), before_break, gone_at)
+    gone_at = sent[breaks[0] - 1].at + 0.2 if away_s else 0.0
+    seen = Trial(trace(graph=LISTENING, logs=logs), tuple(sent), breaks, gone_at)
     return replace(seen, **facts)  # type: ignore[arg-type]
 
 
@@ -157,9 +159,9 @@ def steady(node: FakeStats, hz: float = 4.95, **more: object) -> Trial:
 
 def jump(node: FakeStats, missed: int = LEFT_OUT[0], *, first: int = 95, twice: bool = False, **more: object) -> Trial:
     numbers = list(range(first, first + JUMP_MESSAGES))
-    second = SECOND_JUMP_AFTER if twice else 0
-    numbers = [n + missed * (n >= numbers[JUMP_AFTER]) + (twice and n >= numbers[second]) for n in numbers]
-    return feed(node, numbers, 8.0, before_break=JUMP_AFTER, before_second_jump=second, **more)  # type: ignore[arg-type]
+    breaks = (JUMP_AFTER, SECOND_JUMP_AFTER) if twice else (JUMP_AFTER,)
+    numbers = [n + missed * (n >= numbers[JUMP_AFTER]) + (twice and n >= numbers[SECOND_JUMP_AFTER]) for n in numbers]
+    return feed(node, numbers, 8.0, breaks=breaks, **more)  # type: ignore[arg-type]
 
 
 def jump_twice(node: FakeStats, missed: int = LEFT_OUT[0], *, first: int = 95, **more: object) -> Trial:
@@ -168,7 +170,7 @@ def jump_twice(node: FakeStats, missed: int = LEFT_OUT[0], *, first: int = 95, *
 
 def jump_after_zero(node: FakeStats, missed: int = LEFT_OUT[0], **more: object) -> Trial:
     numbers = [0, *range(missed + 1, missed + AFTER_ZERO_MESSAGES)]
-    return feed(node, numbers, 8.0, before_break=1, **more)  # type: ignore[arg-type]
+    return feed(node, numbers, 8.0, breaks=(1,), **more)  # type: ignore[arg-type]
 
 
 def fast(node: FakeStats, **more: object) -> Trial:
@@ -177,7 +179,27 @@ def fast(node: FakeStats, **more: object) -> Trial:
 
 def restart(node: FakeStats, **more: object) -> Trial:
     numbers = [*range(4, 4 + RESTART_AFTER), *range(RESTART_MESSAGES - RESTART_AFTER)]
-    return feed(node, numbers, 8.0, before_break=RESTART_AFTER, away_s=1.5, **more)  # type: ignore[arg-type]
+    return feed(node, numbers, 8.0, breaks=(RESTART_AFTER,), away_s=1.5, **more)  # type: ignore[arg-type]
+
+
+NOTHING = Trial(trace())
+"""A trial in which nothing was sent, for judges that are to judge by the others."""
+
+
+def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
+    return judge_count(steady, jump, NOTHING)
+
+
+def judge_stated_rate(steady: Trial, jump: Trial, restart: Trial = NOTHING) -> Verdict:
+    return judge_rate(steady, jump, restart, NOTHING)
+
+
+def judge_new_publisher(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
+    return judge_restart(steady, jump, restart, NOTHING)
+
+
+def judge_rising(jump: Trial, jump_twice: Trial, steady: Trial) -> Verdict:
+    return judge_gaps(steady, jump, jump_twice, NOTHING, NOTHING, NOTHING)
 
 
 def judge_trials(make: Callable[[], FakeStats], **more: object) -> dict[str, Verdict]:
@@ -185,19 +207,19 @@ def judge_trials(make: Callable[[], FakeStats], **more: object) -> dict[str, Ver
     steady_trial, jump_trial = steady(make(), **more), jump(make(), **more)  # type: ignore[arg-type]
     twice_trial = jump_twice(make(), **more)  # type: ignore[arg-type]
     restart_trial, fast_trial = restart(make(), **more), fast(make(), **more)
-    count = judges.judge_count(steady_trial, jump_trial, fast_trial)
-    summary = judges.judge_summary(steady_trial, jump_trial, fast_trial)
+    count = judge_count(steady_trial, jump_trial, fast_trial)
+    summary = judge_summary(steady_trial, jump_trial, fast_trial)
     zero_trial = jump_after_zero(make(), **more)  # type: ignore[arg-type]
-    gaps = judge_gaps(jump_trial, twice_trial, zero_trial, restart_trial, steady_trial, fast_trial)
-    early_count, early_summary = fast_stretch.judge_fast_count(fast_trial), fast_stretch.judge_fast_summary(fast_trial)
+    gaps = judge_gaps(steady_trial, jump_trial, twice_trial, zero_trial, restart_trial, fast_trial)
+    early_count, early_summary = judge_fast_count(fast_trial), judge_fast_summary(fast_trial)
     for early, verdict in ((early_count, count), (early_summary, summary)):
         assert early is None or verdict.status is early.status is Status.FAILED
         assert early is None or explain(early).mistake == explain(verdict).mistake
     verdicts = {
         "count": count,
-        "rate": judges.judge_stated_rate(steady_trial, jump_trial),
+        "rate": judge_stated_rate(steady_trial, jump_trial),
         "summary": summary,
-        "restart": judge_restart(restart_trial, steady_trial, jump_trial, fast_trial),
+        "restart": judge_restart(steady_trial, jump_trial, restart_trial, fast_trial),
         "gaps": gaps,
     }
     return {name: explain(verdict) for name, verdict in verdicts.items()}
@@ -597,9 +619,9 @@ def test_correct_nodes_pass_whatever_numbers_are_chosen(node: type[FakeStats]) -
     for missed in range(LEFT_OUT[0], LEFT_OUT[1] + 1):
         first = FIRST_NUMBERS[(RIGHT.index(node) + missed) % 2]
         steady_trial, jump_trial = steady(node()), jump(node(), missed, first=first)
-        assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
-        assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
-        assert_passed(judges.judge_stated_rate(steady_trial, jump_trial))
+        assert_passed(judge_slow_count(steady_trial, jump_trial))
+        assert_passed(judge_slow_summary(steady_trial, jump_trial))
+        assert_passed(judge_stated_rate(steady_trial, jump_trial))
         assert_passed(judge_rising(jump_trial, jump_twice(node(), missed, first=first), steady_trial))
 
 
@@ -650,9 +672,9 @@ def test_correct_nodes_pass_in_any_format(
             yield 20, text.replace("F", self.first).replace("L", self.last)
 
     steady_trial, jump_trial = steady(Formatted(), hz, late_s=late_s), jump(Formatted(), missed, late_s=late_s)
-    assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
-    assert_passed(judges.judge_stated_rate(steady_trial, jump_trial))
-    assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
+    assert_passed(judge_slow_count(steady_trial, jump_trial))
+    assert_passed(judge_stated_rate(steady_trial, jump_trial))
+    assert_passed(judge_slow_summary(steady_trial, jump_trial))
     twice = jump_twice(Formatted(), missed, late_s=late_s)
     assert_passed(judge_rising(jump_trial, twice, steady_trial))
     assert_passed(judge_new_publisher(restart(Formatted(), late_s=late_s), steady_trial, jump_trial))
@@ -742,7 +764,7 @@ def test_a_wrong_rate_in_a_late_summary_is_diagnosed(wrong: str, late: slice) ->
         logs = list(steady_trial.trace.logs)
         logs[late] = [replace(log, stamp=log.stamp + 0.25) for log in logs[late]]
         seen = replace(steady_trial, trace=replace(steady_trial.trace, logs=tuple(logs)))
-        assert_failed(judges.judge_stated_rate(seen, jump(node())), wrong.removeprefix("rate: "))
+        assert_failed(judge_stated_rate(seen, jump(node())), wrong.removeprefix("rate: "))
 
 
 class HighestAsLast(FakeStats):
@@ -802,8 +824,8 @@ class SummaryBySlowTimer(FakeStats):
 def test_a_later_summary_may_wait_for_a_slow_timer() -> None:
     jump_trial = jump(SummaryBySlowTimer())
     assert [summary.messages for summary in find_summaries(jump_trial)] == [11, 25, 31]
-    assert_passed(judges.judge_slow_summary(steady(FakeStats()), jump_trial))
-    assert_passed(judges.judge_slow_count(steady(FakeStats()), jump_trial))
+    assert_passed(judge_slow_summary(steady(FakeStats()), jump_trial))
+    assert_passed(judge_slow_count(steady(FakeStats()), jump_trial))
 
 
 @pytest.mark.parametrize("between", [None, "3 lost in the last second"])
@@ -817,10 +839,10 @@ def test_a_summary_after_the_last_jump_is_no_reason_to_stop_listening(between: s
             trial, trace=replace(trial.trace, logs=(*trial.trace.logs, LogRecord(40, "node", between, at, at)))
         )
     assert find_summaries(trial)[-1].at > jumped_at
-    assert not _logs_something_new(jumped_at, trial)
+    assert not logs_something_new(jumped_at, trial)
     at = jumped_at + 0.9
     later = LogRecord(40, "node", "1 lost in the last second", at, at)
-    assert _logs_something_new(jumped_at, replace(trial, trace=replace(trial.trace, logs=(*trial.trace.logs, later))))
+    assert logs_something_new(jumped_at, replace(trial, trace=replace(trial.trace, logs=(*trial.trace.logs, later))))
 
 
 class PerMinuteLater(FakeStats):
@@ -1172,7 +1194,7 @@ class NumberAsCount(FakeStats):
 
 def test_a_wrong_count_already_fails_in_the_fast_stretch() -> None:
     for make, cause in ((CountsFromOne, "off by one"), (NumberAsCount, "number taken for the count")):
-        early = fast_stretch.judge_fast_count(fast(make()))
+        early = judge_fast_count(fast(make()))
         assert early is not None
         assert_failed(early, cause)
 
@@ -1184,7 +1206,7 @@ def test_surplus_or_incomplete_summaries_already_fail_in_the_fast_stretch() -> N
         (Swapped, "first and last swapped"),
     )
     for make, cause in cases:
-        early = fast_stretch.judge_fast_summary(fast(make()))
+        early = judge_fast_summary(fast(make()))
         assert early is not None
         assert_failed(early, cause)
 
@@ -1198,7 +1220,7 @@ class IrregularlyOften(FakeStats):
 
 
 def test_summaries_at_different_distances_are_left_to_the_slow_messages() -> None:
-    assert fast_stretch.judge_fast_summary(fast(IrregularlyOften())) is None
+    assert judge_fast_summary(fast(IrregularlyOften())) is None
     assert_failed(judge_trials(IrregularlyOften)["summary"], "too many summaries")
 
 
@@ -1211,7 +1233,7 @@ class BoundedList(FakeStats):
 
 
 def test_summaries_that_come_too_often_later_on_fail_even_if_the_count_is_wrong() -> None:
-    assert_failed(judges.judge_slow_summary(steady(BoundedList()), jump(BoundedList())), "too many summaries")
+    assert_failed(judge_slow_summary(steady(BoundedList()), jump(BoundedList())), "too many summaries")
     assert_failed(judge_trials(BoundedList)["count"], "wrong count")
 
 
@@ -1221,8 +1243,8 @@ def test_a_slow_or_partial_fast_stretch_gives_no_early_verdict(make: type[FakeSt
     part = feed(make(), range(7, 7 + FAST_MESSAGES // 2), FAST_HZ)
     held_up = replace(fast(make()), cpu_wait_s=0.12)
     for seen in (slow, part, held_up):
-        assert fast_stretch.judge_fast_count(seen) is None
-        assert fast_stretch.judge_fast_summary(seen) is None
+        assert judge_fast_count(seen) is None
+        assert judge_fast_summary(seen) is None
 
 
 class RepeatsSummaryLater(FakeStats):
@@ -1294,8 +1316,8 @@ def test_a_late_summary_with_a_wrong_count_is_not_a_missing_summary() -> None:
     assert bisect_right([each.at for each in steady_trial.sent], after_9.stamp) == 9
     late = replace(after_9, stamp=steady_trial.sent[9].at + 0.01)
     seen = replace(steady_trial, trace=replace(steady_trial.trace, logs=(late, *others)))
-    assert_failed(judges.judge_slow_count(seen, jump(CountsFromOne())), "off by one")
-    verdict = judges.judge_slow_summary(seen, jump(CountsFromOne()))
+    assert_failed(judge_slow_count(seen, jump(CountsFromOne())), "off by one")
+    verdict = judge_slow_summary(seen, jump(CountsFromOne()))
     assert verdict.status is Status.SKIPPED, verdict
 
 
@@ -1312,7 +1334,7 @@ def test_a_node_that_drops_the_first_message_after_a_restart_counts_too_few(late
 
 @pytest.mark.parametrize("late_s", [0.0005, 0.15, 0.24, 0.3])
 def test_a_late_summary_with_a_newer_last_message_counts_too_few(late_s: float) -> None:
-    verdict = judges.judge_slow_count(steady(CountsOneTooFew(), late_s=late_s), jump(CountsOneTooFew(), late_s=late_s))
+    verdict = judge_slow_count(steady(CountsOneTooFew(), late_s=late_s), jump(CountsOneTooFew(), late_s=late_s))
     assert verdict.status is Status.FAILED, verdict
 
 
@@ -1365,13 +1387,13 @@ class KeepsWholeRate(KeepsTheRate):
 
 def test_a_rate_that_is_kept_when_it_changes_is_wrong() -> None:
     trials = steady(KeepsTheRate()), jump(KeepsTheRate())
-    assert_passed(judges.judge_stated_rate(*trials))
-    assert_failed(judges.judge_stated_rate(*trials, restart(KeepsTheRate())), "rate never updated", "still 8.89")
+    assert_passed(judge_stated_rate(*trials))
+    assert_failed(judge_stated_rate(*trials, restart(KeepsTheRate())), "rate never updated", "still 8.89")
 
 
 @pytest.mark.parametrize("node", [FakeStats, AlsoStatesTheFirstRate, KeepsWholeRate])
 def test_another_rate_that_is_the_same_is_no_mistake(node: type[FakeStats]) -> None:
-    assert_passed(judges.judge_stated_rate(steady(FakeStats()), jump(FakeStats()), restart(node())))
+    assert_passed(judge_stated_rate(steady(FakeStats()), jump(FakeStats()), restart(node())))
 
 
 class CutsTheContent(FakeStats):
@@ -1385,7 +1407,7 @@ class CutsTheContent(FakeStats):
 def test_a_slice_explains_a_content_without_its_number(code: str, cause: str) -> None:
     seen, jumped = steady(CutsTheContent()), jump(CutsTheContent())
     seen = replace(seen, trace=replace(seen.trace, sources={"message_stats.py": code}))
-    assert_failed(judges.judge_slow_summary(seen, jumped), cause)
+    assert_failed(judge_slow_summary(seen, jumped), cause)
 
 
 def with_delays(trial: Trial, number: int, *, sent_late_s: float = 0.0, cpu_wait_s: float = 0.0) -> Trial:
@@ -1428,12 +1450,12 @@ def test_a_message_that_a_node_may_have_lost_before_a_restart_is_undecided() -> 
 
 def test_a_count_of_one_fewer_is_undecided_where_the_node_may_have_lost_that_message() -> None:
     steady_trial, jump_trial = steady(FakeStats()), jump(LosesOne())
-    assert_failed(judges.judge_slow_count(steady_trial, jump_trial), "off by one")
-    assert_failed(judges.judge_slow_count(steady_trial, with_delays(jump_trial, 100, cpu_wait_s=0.02)), "off by one")
+    assert_failed(judge_slow_count(steady_trial, jump_trial), "off by one")
+    assert_failed(judge_slow_count(steady_trial, with_delays(jump_trial, 100, cpu_wait_s=0.02)), "off by one")
     starved = with_delays(jump_trial, 100, cpu_wait_s=0.1)
-    assert_undecided(judges.judge_slow_count(steady_trial, starved))
+    assert_undecided(judge_slow_count(steady_trial, starved))
     always = [with_delays(run(CountsOneTooFew()), n, cpu_wait_s=0.1) for run, n in ((steady, 3), (jump, 100))]
-    assert_failed(judges.judge_slow_count(*always), "off by one")
+    assert_failed(judge_slow_count(*always), "off by one")
 
 
 @pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])
@@ -1464,8 +1486,8 @@ def test_an_alarm_next_to_a_summary_is_not_one_of_its_lines(first: int, late_s: 
     stamp = alarm.stamp + late_s
     logs = [replace(log, stamp=stamp, received_at=stamp) if log is alarm else log for log in jump_trial.trace.logs]
     jump_trial = replace(jump_trial, trace=replace(jump_trial.trace, logs=tuple(logs)), cpu_wait_s=cpu_wait_s)
-    assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
-    assert_passed(judges.judge_slow_count(steady_trial, jump_trial))
+    assert_passed(judge_slow_summary(steady_trial, jump_trial))
+    assert_passed(judge_slow_count(steady_trial, jump_trial))
     assert_failed(judge_jumps(jump_trial, steady_trial), "false alarm")
 
 
@@ -1484,11 +1506,11 @@ def test_a_wrong_number_is_found_in_any_format(written: str, by: int, factor: fl
             yield 20, written.format(n=self.total + off, r=self.rate() * scale, f=self.first, l=self.last)
 
     off, scale = by, 1.0
-    assert judges.judge_slow_count(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
-    assert judges.judge_stated_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
+    assert judge_slow_count(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
+    assert judge_stated_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
     off, scale = 0, factor
-    assert judges.judge_slow_count(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
-    assert judges.judge_stated_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
+    assert judge_slow_count(steady(Wrong(), hz), jump(Wrong())).status is Status.PASSED
+    assert judge_stated_rate(steady(Wrong(), hz), jump(Wrong())).status is Status.FAILED
 
 
 def test_a_gap_that_is_only_printed_fails() -> None:
@@ -1513,7 +1535,7 @@ class Waiting(FakeStats):
 
 def judge_silent(seen: Trace, **more: object) -> Verdict:
     steady_trial = replace(steady(FakeStats()), trace=seen, **more)  # type: ignore[arg-type]
-    return judges.judge_slow_summary(steady_trial, steady_trial)
+    return judge_slow_summary(steady_trial, steady_trial)
 
 
 def test_causes_of_no_summary() -> None:
@@ -1539,8 +1561,8 @@ def test_causes_of_no_summary() -> None:
 def test_without_a_summary_the_other_criteria_are_skipped() -> None:
     nothing = replace(steady(FakeStats()), trace=trace(graph=LISTENING))
     for verdict in (
-        judges.judge_slow_count(nothing, nothing),
-        judges.judge_stated_rate(nothing, nothing),
+        judge_slow_count(nothing, nothing),
+        judge_stated_rate(nothing, nothing),
         judge_new_publisher(restart(FakeStats()), nothing, nothing),
         judge_rising(nothing, nothing, nothing),
     ):
@@ -1559,8 +1581,8 @@ def test_a_node_that_exits_on_a_restart_or_a_jump_fails() -> None:
 
 
 def test_shutdown() -> None:
-    assert_passed(judges.judge_shutdown(replace(fast(FakeStats()), ending=ending())))
-    assert_failed(judges.judge_shutdown(replace(fast(FakeStats()), ending=ending(still_running=True))), "does not end")
+    assert_passed(CHECKED["shutdown"](replace(fast(FakeStats()), ending=ending())))
+    assert_failed(CHECKED["shutdown"](replace(fast(FakeStats()), ending=ending(still_running=True))), "does not end")
 
 
 # Messages at a fast rate.
@@ -1654,18 +1676,18 @@ def test_a_summary_throttled_at_a_fast_rate_is_missing() -> None:
     source = "def heard(msg):\n    log.info('a',\n        throttle_duration_sec=1.0)\n"
     seen, steady_trial, jump_trial = fast(Throttled()), steady(Throttled()), jump(FakeStats())
     seen = replace(seen, trace=replace(seen.trace, sources={"node.py": source}))
-    assert_passed(judges.judge_slow_summary(steady_trial, jump_trial))
-    assert_failed(judges.judge_summary(steady_trial, jump_trial, seen), "log throttled", "line 2")
+    assert_passed(judge_slow_summary(steady_trial, jump_trial))
+    assert_failed(judge_summary(steady_trial, jump_trial, seen), "log throttled", "line 2")
     plain = replace(seen, trace=replace(seen.trace, sources={}))
-    assert_failed(judges.judge_summary(steady_trial, jump_trial, plain), "missing summary", "tenth message")
-    assert_undecided(judges.judge_summary(steady_trial, jump_trial, replace(seen, cpu_wait_s=1.2)))
+    assert_failed(judge_summary(steady_trial, jump_trial, plain), "missing summary", "tenth message")
+    assert_undecided(judge_summary(steady_trial, jump_trial, replace(seen, cpu_wait_s=1.2)))
 
 
 @pytest.mark.parametrize("late_s", [0.0005, 0.1, 0.5, 1.0])
 def test_summaries_may_be_late_at_a_fast_rate(late_s: float) -> None:
     for node in (FakeStats, OneLinePerValue, Noisy, QuotesEveryMessage, QuotesTheFirst, DropsTwo):
-        verdict = judges.judge_summary(steady(node()), jump(node()), fast(node(), late_s=late_s))
-        assert verdict.passed == judges.judge_slow_summary(steady(node()), jump(node())).passed
+        verdict = judge_summary(steady(node()), jump(node()), fast(node(), late_s=late_s))
+        assert verdict.passed == judge_slow_summary(steady(node()), jump(node())).passed
 
 
 def test_losses_that_a_busy_machine_may_explain_are_undecided() -> None:
@@ -1673,8 +1695,8 @@ def test_losses_that_a_busy_machine_may_explain_are_undecided() -> None:
     assert_failed(judge_fast(SleepsBetweenMessages, cpu_wait_s=0.2), "cannot keep up")
     assert_passed(judge_fast(FakeStats, cpu_wait_s=3.0))
     slowly = feed(FakeStats(), range(FAST_MESSAGES), 19.0)
-    assert_undecided(judges.judge_count(steady(FakeStats()), jump(FakeStats()), slowly))
-    assert_failed(judges.judge_count(steady(CountsFromOne()), jump(CountsFromOne()), slowly), "off by one")
+    assert_undecided(judge_count(steady(FakeStats()), jump(FakeStats()), slowly))
+    assert_failed(judge_count(steady(CountsFromOne()), jump(CountsFromOne()), slowly), "off by one")
 
 
 # A single cause of several failures.
@@ -1704,8 +1726,8 @@ def judge_like_check(
         "count": CHECKED["count"](steady_trial, jump_trial, fast_trial),
         "rate": CHECKED["rate"](steady_trial, jump_trial, replace(restart_trial, sent=()), fast_trial),
         "summary": CHECKED["summary"](steady_trial, jump_trial, fast_trial),
-        "restart": CHECKED["restart"](restart_trial, steady_trial, jump_trial, fast_trial),
-        "gaps": CHECKED["gaps"](jump_trial, twice_trial, zero_trial, restart_trial, steady_trial, fast_trial),
+        "restart": CHECKED["restart"](steady_trial, jump_trial, restart_trial, fast_trial),
+        "gaps": CHECKED["gaps"](steady_trial, jump_trial, twice_trial, zero_trial, restart_trial, fast_trial),
     }
     return {name: explain(verdict) for name, verdict in verdicts.items()}
 
@@ -1827,7 +1849,7 @@ def test_a_node_that_renews_its_subscription_gets_the_same_verdicts_whatever_it_
     del verdicts["rate"]  # judged without a fast stretch there
     assert {verdict.status for verdict in verdicts.values()} == {Status.SKIPPED}
     trials = [make(node(), new_subscriptions=17) for make in (steady, jump, restart, fast)]
-    assert "see `count`" in judges.judge_rate(*trials).cause
+    assert "see `count`" in judge_rate(*trials).cause
 
 
 class SubscribedTwice(FakeStats):
@@ -1913,15 +1935,15 @@ def test_a_first_message_delayed_by_the_machine_excuses_a_higher_rate() -> None:
     steady_trial = steady(FirstMessageLate())
     owed = [0.0, 0.25, *[0.5] * 18]
     excused = tuple(replace(each, cpu_wait_s=late) for each, late in zip(steady_trial.sent, owed, strict=True))
-    assert_failed(judges.judge_stated_rate(steady_trial, jump(FirstMessageLate())), "wrong rate")
+    assert_failed(judge_stated_rate(steady_trial, jump(FirstMessageLate())), "wrong rate")
     excused_trial = replace(steady_trial, sent=excused, cpu_wait_s=0.5)
-    assert_passed(judges.judge_stated_rate(excused_trial, jump(FirstMessageLate())))
+    assert_passed(judge_stated_rate(excused_trial, jump(FirstMessageLate())))
 
 
 def test_a_pace_at_which_truncated_seconds_look_right_is_undecided() -> None:
     cut = stating(rate="{cut}")
-    assert_undecided(judges.judge_stated_rate(steady(cut(), 4.4), jump(cut())))
-    assert_passed(judges.judge_stated_rate(steady(FakeStats(), 4.4), jump(FakeStats())))
+    assert_undecided(judge_stated_rate(steady(cut(), 4.4), jump(cut())))
+    assert_passed(judge_stated_rate(steady(FakeStats(), 4.4), jump(FakeStats())))
 
 
 class SinceItsStart(FakeStats):
@@ -1937,9 +1959,9 @@ class PerWholeSecondsOfLateMessages(FakeStats):
 @pytest.mark.parametrize(("node", "late_s"), [(SinceItsStart, 0.35), (PerWholeSecondsOfLateMessages, 0.2)])
 def test_a_wrong_rate_of_a_summary_that_the_machine_delays_is_undecided(node: type[FakeStats], late_s: float) -> None:
     seen = steady(node(), late_s=late_s)
-    assert_undecided(judges.judge_stated_rate(replace(seen, cpu_wait_s=0.5), jump(node())))
+    assert_undecided(judge_stated_rate(replace(seen, cpu_wait_s=0.5), jump(node())))
     right = steady(FakeStats(), late_s=late_s)
-    assert_passed(judges.judge_stated_rate(replace(right, cpu_wait_s=0.5), jump(FakeStats())))
+    assert_passed(judge_stated_rate(replace(right, cpu_wait_s=0.5), jump(FakeStats())))
 
 
 # Reading.

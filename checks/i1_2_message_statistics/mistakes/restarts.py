@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from checks.i1_2.mistakes.entries import CATALOGUE, shown, told
+from checks.i1_2_message_statistics.mistakes.entries import CATALOGUE, shown, told
 from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Found, found
 from tutor.mistakes.examples import in_run

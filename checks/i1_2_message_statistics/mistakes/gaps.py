@@ -5,10 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from checks.i1_2 import comparing
-from checks.i1_2.mistakes.entries import CATALOGUE
-from checks.i1_2.mistakes.gap_faults import ALARM, UNNOTICED, ZERO
-from checks.i1_2.parsing import find_misread
+from checks.i1_2_message_statistics.mistakes import comparing
+from checks.i1_2_message_statistics.mistakes.entries import CATALOGUE
+from checks.i1_2_message_statistics.mistakes.gap_faults import ALARM, UNNOTICED, ZERO
+from checks.i1_2_message_statistics.mistakes.parsing import find_misread
 from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Found, found
 from tutor.mistakes.examples import in_run

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checks.i1_2.mistakes.entries import shown, told
+from checks.i1_2_message_statistics.mistakes.entries import shown, told
 from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Found
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 
-from checks.i1_2.facts import Trial
-from checks.i1_2.reading import Line
+from checks.i1_2_message_statistics.reading import Line
+from checks.i1_2_message_statistics.trial import Trial
 
 _LOSS = (
     r"(?<![^\W\d_])(?:miss(?:ing|ed|es)?|lost|loss|losing|drop|skip|fehl(?!er)|verlor|verlust|verpass|übersprung"
@@ -32,7 +32,7 @@ _STATED = re.compile(
 
 def find_negative_loss(restart: Trial, jump: Trial, jump_twice: Trial, steady: Trial) -> Line | None:
     """The first line since the new publisher's first message that states a negative number of missing messages."""
-    if not 0 < restart.before_break < len(restart.sent):
+    if not restart.jumps:
         return None
     for line in restart.lines:
         if line.at < restart.sent[restart.before_break].at:

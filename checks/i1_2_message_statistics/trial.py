@@ -1,4 +1,4 @@
-"""I1.2: what we send to the node, and the facts that are gathered about it."""
+"""I1.2: a trial: one run of the node, what it was sent, and what it has logged since."""
 
 from __future__ import annotations
 
@@ -7,62 +7,22 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from statistics import median
+from typing import Any
 
-from checks.i1_2.reading import Line, parse_log
+from checks.i1_2_message_statistics.reading import Line, parse_log
+from tutor.exercise import Program, Topic
+from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.tracebacks import Frame
+from tutor.judge.wording import output_tail
 from tutor.ros_model import TopicEndpoint
 
-FILE = "message_stats.py"
-TOPIC, TYPE = "/chatter", "std_msgs/msg/String"
-OURS = TopicEndpoint(TOPIC, TYPE, "/talker")
+PROGRAM = Program("message_stats.py")
+CHATTER = Topic("/chatter", "std_msgs/msg/String")
+OURS = TopicEndpoint(CHATTER.name, CHATTER.type, "/talker")
+
 SUMMARY_EVERY = 10
 """Number of messages after which the exercise asks for another summary."""
-
-STEADY_HZ = (4.9, 5.0)
-"""Bounds of the steady talker's constant, random rate.
-
-Slow enough that a rate over the last second is right once ten messages have come. No common mistake gives this rate:
-neither a count (10, 20), nor a count divided by the whole seconds of the time that it took (1 of 1.8 s, 3 of 3.8 s).
-"""
-STEADY_MESSAGES = 20
-QUIET_S = 0.8
-"""How long a node is up before the first message, so that a rate counted from its start is clearly too low."""
-
-MATCH_S = 0.4
-"""Once we have discovered a best-effort subscription, it has discovered our publisher within this time."""
-
-UNTIMED_HZ = 8.0
-"""The rate of messages in scenarios that do not judge rates."""
-JUMP_AFTER, SECOND_JUMP_AFTER, JUMP_MESSAGES = 17, 27, 33
-"""N jumps far; on another start, it also leaves out one number later.
-
-A summary before the first jump shows what is usual at this rate: without it, a rate of 8.00 passed for a report, as it
-had been 5.00 in another run. One is due soon after each jump, and after a single jump, one covers ten consecutive
-messages. A node that restarts its count at the first jump reaches ten again before the end.
-"""
-
-AFTER_ZERO_MESSAGES = 12
-"""On one more start, N jumps from 0; the next summary is due soon afterwards."""
-
-FIRST_NUMBERS = (90, 97)
-"""Range of the first N. It passes 100 before the jump, where nodes that compare texts or two last digits go wrong."""
-LEFT_OUT = (4, 8)
-"""Range of how many numbers the first jump leaves out.
-
-With these, what N is ahead of the number expected at the jump is no count of messages, from 0 or from 1, at any time.
-"""
-
-FAST_HZ, FAST_MESSAGES = 25.0, 60
-"""A stretch at a rate that is common on robots: a node that handles only ten messages per second loses a third."""
-FAST_ENOUGH_HZ = 20.0
-"""A machine on which our average rate stays below this is too busy."""
-
-RESTART_AFTER, RESTART_MESSAGES = 13, 25
-RESTARTED_HZ = 9.4
-"""The rate of the second publisher: no rate over any of the messages since then is still UNTIMED_HZ."""
-ABSENT_S = 0.7
-"""How long there is no publisher: nobody restarts a talker faster."""
 
 LATE_S = 1.1
 """Time limit of a summary after its message: it may wait for a one-second timer, which is a common choice."""
@@ -98,8 +58,7 @@ class Sent:
 class Trial:
     """One run of the node, and the messages that it was sent.
 
-    `before_break`: the number of messages sent before N jumped or another publisher took over; 0 if neither happened.
-    `before_second_jump`: the number sent before N jumped once more; 0 if it did not. `first_publisher_left_at`: when
+    `breaks`: after how many messages N was to jump, or another publisher to take over. `first_publisher_left_at`: when
     the first publisher left (seconds since the epoch; 0.0 if it stayed). `cpu_wait_s`: for how long the node waited for
     a CPU while the messages were sent. `spins`: whether the node answered a request; if not, `stuck` holds the stack
     frames where it was. `new_subscriptions`: how many more the node made while the messages were sent.
@@ -107,13 +66,12 @@ class Trial:
 
     trace: Trace
     sent: tuple[Sent, ...] = ()
-    before_break: int = 0
+    breaks: tuple[int, ...] = ()
     first_publisher_left_at: float = 0.0
     cpu_wait_s: float = 0.0
     spins: bool = True
     stuck: tuple[Frame, ...] = ()
     ending: Ending | None = None
-    before_second_jump: int = 0
     new_subscriptions: int = 0
 
     @cached_property
@@ -123,6 +81,26 @@ class Trial:
         logs = sorted(self.trace.logs, key=lambda log: log.stamp)
         numbered = ((log, bisect_right(times, log.stamp)) for log in logs)
         return tuple(parse_log(log, messages) for log, messages in numbered if messages)
+
+    @property
+    def jumps(self) -> tuple[int, ...]:
+        """For each break after which a message was sent, the number of messages sent before it."""
+        return tuple(before for before in self.breaks if before < len(self.sent))
+
+    @property
+    def before_break(self) -> int:
+        """The number of messages sent before the first break; 0 if none was sent after it."""
+        return self.jumps[0] if self.jumps else 0
+
+    def missed(self, messages: int) -> tuple[int, ...]:
+        """How many numbers each jump left out, for the jumps within the first `messages` messages."""
+        due = [before for before in self.jumps if before <= messages]
+        return tuple(self.sent[before].number - self.sent[before - 1].number - 1 for before in due)
+
+    @cached_property
+    def order(self) -> dict[int, int]:
+        """How many messages had been sent when that with this N had been; the last one, if N came twice."""
+        return {each.number: count for count, each in enumerate(self.sent, start=1)}
 
     @property
     def allowance_s(self) -> float:
@@ -137,7 +115,7 @@ class Trial:
     @cached_property
     def max_delay_s(self) -> float:
         """The greatest delay with which a message was sent, which is our fault, or the machine's."""
-        spans = [b.at - a.at for index, (a, b) in enumerate(pairwise(self.sent), start=1) if index != self.before_break]
+        spans = [b.at - a.at for count, (a, b) in enumerate(pairwise(self.sent), start=1) if count != self.before_break]
         return max(spans) - median(spans) if spans else 0.0
 
     @property
@@ -165,12 +143,15 @@ class Trial:
         usual_s = median(span_s for span_s, _ in spans) if spans else 0.0
         return any(span_s - waited_s < usual_s / 2 for span_s, waited_s in spans[max(messages - 4, 0) : messages])
 
-    @property
-    def jumps(self) -> tuple[int, ...]:
-        """For each jump after which a message was sent, the number of messages sent before it."""
-        return tuple(before for before in (self.before_break, self.before_second_jump) if 0 < before < len(self.sent))
+    def seen(self, symptom: Symptom, **about: Any) -> Observation:
+        """The observation of a symptom of the node on our topic, with what else was seen (see `Symptom.seen`)."""
+        return symptom.seen(self.trace, topic=CHATTER.name, type=CHATTER.type, **about)
 
-    def missed(self, messages: int) -> tuple[int, ...]:
-        """How many numbers each jump left out, for the jumps within the first `messages` messages."""
-        due = [before for before in self.jumps if before <= messages]
-        return tuple(self.sent[before].number - self.sent[before - 1].number - 1 for before in due)
+    def ended(self, what: str) -> Observation:
+        """The node ended, having met `what`."""
+        return Symptom.ENDED.seen(self.trace, answers=self.spins, says=f"the node does not survive {what}")
+
+    @property
+    def last_words(self) -> list[str]:
+        """The last log messages; without any, the end of what was printed."""
+        return [str(log) for log in self.trace.logs[-6:]] or list(output_tail(self.trace))
