@@ -29,7 +29,7 @@ ABSENT_S = 0.7
 """How long there is no publisher: nobody restarts a talker faster."""
 
 STUCK_HZ = 50.0
-"""The rate of messages to a node that waits for ever."""
+"""The rate of messages to a node that waits for ever: it makes no difference to it."""
 
 STUCK_S = 1.5
 """Time within which a node that got a message has reached the call that blocks it."""
@@ -62,24 +62,24 @@ class Feed:
     async def _run(self, bench: Bench) -> Trial:
         stretches = self.plan(await bench.facts(choose))
         async with bench.start(PROGRAM.file, expected_s=self._expected_s(stretches)) as run, Talker(bench, run) as ours:
-            match = await ours.wait_for_match(self.settled_s)
-            trial = Trial(run.trace(), spins=match.spins)
+            await ours.wait_for_match(self.settled_s)
+            trial = Trial(run.trace(), spins=ours.spins)
             if ours.publisher.subscribers:
                 waited_before_s = run.node_cpu_wait_s()
                 for stretch in stretches:
                     if stretch.another_publisher and not await ours.take_over():
                         break
-                    await ours.send(stretch.numbers, match.hz(stretch.hz))
+                    await ours.send(stretch.numbers, STUCK_HZ if ours.is_stuck else stretch.hz)
                 trial = Trial(
                     run.trace(),
                     tuple(ours.sent),
                     tuple(accumulate(len(stretch.numbers) for stretch in stretches[:-1])),
                     ours.left_at,
                     run.node_cpu_wait_s() - waited_before_s,
-                    match.spins,
+                    ours.spins,
                     new_subscriptions=ours.new_subscriptions,
                 )
-                trial = trial if match.is_stuck else await collect_last_logs(run, trial)
+                trial = trial if ours.is_stuck else await collect_last_logs(run, trial)
             silent = self.explains_silence and bool(trial.sent) and not find_summaries(trial)
             if self.ctrl_c or silent:
                 bench.report_progress(0.95, "pressing Ctrl+C")
@@ -108,25 +108,12 @@ async def dump_stuck_node(bench: Bench) -> tuple[Frame, ...]:
         return await run.dump_stacks()
 
 
-@dataclass(frozen=True)
-class Match:
-    """What is known of a node once our publisher and its subscription are matched.
-
-    `spins`: whether it answered a request. `is_stuck`: whether another start shows that it waits for ever.
-    """
-
-    spins: bool
-    is_stuck: bool = False
-
-    def hz(self, usual_hz: float) -> float:
-        """The rate at which to send messages: it makes no difference to a node that waits for ever."""
-        return STUCK_HZ if self.is_stuck else usual_hz
-
-
 class Talker:
-    """Our talker in one run. `sent`: its messages so far; `left_at`: when its first publisher left, 0.0 if it has not.
+    """Our talker in one run, and what is known of the node that listens to it.
 
-    `new_subscriptions`: how many more the node has made while messages were sent.
+    `sent`: its messages so far. `left_at`: when its first publisher left, 0.0 if it has not. `new_subscriptions`: how
+    many more the node has made while messages were sent. `spins`: whether the node has answered a request. `is_stuck`:
+    whether another start shows that it waits for ever.
     """
 
     def __init__(self, bench: Bench, run: Run) -> None:
@@ -136,6 +123,7 @@ class Talker:
         self.sent: list[Sent] = []
         self.left_at = 0.0
         self.new_subscriptions = 0
+        self.spins, self.is_stuck = True, False
 
     async def __aenter__(self) -> Talker:
         await self._appear()
@@ -147,7 +135,7 @@ class Talker:
     async def __aexit__(self, *_: object) -> None:
         await self._leaving.aclose()
 
-    async def wait_for_match(self, settled_s: float) -> Match:
+    async def wait_for_match(self, settled_s: float) -> None:
         """Wait until our publisher and the subscription are matched, and see whether the node answers a request."""
         run = self._run
 
@@ -164,15 +152,12 @@ class Talker:
         )
         matched_at = run.now()
         if run.exit is not None:
-            return Match(spins=True)
-        spins = True
+            return
         if await run.until(lambda: bool(run.graph.parameter_nodes), 1.0):
-            answer, is_stuck = await ask_unless_stuck(run, SPIN_S, lambda: self._bench.facts(dump_stuck_node))
-            if is_stuck:
-                return Match(spins=False, is_stuck=True)
-            spins = answer is not None
-        await pause(run, matched_at + settled_s - run.now())
-        return Match(spins)
+            answer, self.is_stuck = await ask_unless_stuck(run, SPIN_S, lambda: self._bench.facts(dump_stuck_node))
+            self.spins = answer is not None
+        if not self.is_stuck:
+            await pause(run, matched_at + settled_s - run.now())
 
     async def send(self, numbers: Iterable[int], hz: float) -> None:
         """Send a message for each number at a steady rate; stop if the node has ended."""
