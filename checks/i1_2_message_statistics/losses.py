@@ -1,8 +1,4 @@
-"""I1.2: messages that the node handles late, never, or twice.
-
-Whether a node that loses messages by design, whatever the machine, loses one particular message is luck: so only
-`count` is judged of it, and the others are skipped.
-"""
+"""I1.2: messages that the node handles late, never, or twice."""
 
 from __future__ import annotations
 
@@ -11,12 +7,11 @@ from dataclasses import dataclass, replace
 from functools import wraps
 from typing import Any
 
-from checks.i1_2_message_statistics.plans import FAST_HZ
+from checks.i1_2_message_statistics.plans import FAST_HZ, FAST_MESSAGES
 from checks.i1_2_message_statistics.summaries import Summary, find_summaries, group_lines, summary_kinds
-from checks.i1_2_message_statistics.totals import counts_truly
-from checks.i1_2_message_statistics.trial import CHATTER, SUMMARY_EVERY, Trial
+from checks.i1_2_message_statistics.trial import CHATTER, STALL_S, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Symptom
-from tutor.judge.verdict import Failure, Verdict, skipped
+from tutor.judge.verdict import Failure, Verdict
 from tutor.ros_model import TopicEndpoint
 
 FAST_ENOUGH_HZ = 20.0
@@ -46,28 +41,6 @@ def of_what_comes[V: Verdict | None](judge: Callable[..., V]) -> Callable[..., V
         return replace(verdict, seen=replace(seen, about={**seen.about, **_find_facts(trials)}))
 
     return judged
-
-
-def unless_messages_are_lost(judge: Callable[..., Verdict]) -> Callable[..., Verdict]:
-    """Decorate a judge of trials, the first of them steady and the last one fast: of a node that keeps all messages."""
-
-    @wraps(judge)
-    @of_what_comes
-    def judged(*trials: Trial) -> Verdict:
-        steady, fast = trials[0], trials[-1]
-        if find_summaries(steady) and _is_certain_to_lose(steady, fast):
-            return skipped("not judged, because the node loses messages: see `count`")
-        return judge(*trials)
-
-    return judged
-
-
-def _is_certain_to_lose(steady: Trial, fast: Trial) -> bool:
-    """Whether the node is certain to lose messages that are sent fast, or at any rate."""
-    if renews_subscription(steady) or renews_subscription(fast):
-        return True
-    lost = find_lost(fast, steady) if counts_truly(steady) else None
-    return lost is not None and not lost.excused
 
 
 def renews_subscription(trial: Trial) -> bool:
@@ -144,6 +117,23 @@ def messages_behind(trial: Trial) -> int:
         if 1 < newest < group.messages and group.at - trial.sent[newest].at > BEHIND_S + trial.allowance_s:
             worst = max(worst, group.messages - newest)
     return worst
+
+
+def fast_summaries(fast: Trial) -> Sequence[Summary]:
+    """The summaries of a fast stretch; none if some may be missing, late or torn because the messages came fast.
+
+    Nor if there are two subscriptions that may log each message twice: the slow messages show the cause of that better.
+    Nor if the node makes new ones all the time: what it loses is luck.
+    """
+    summaries = find_summaries(fast)
+    whole = (
+        len(fast.sent) >= FAST_MESSAGES
+        and was_sent_fast_enough(fast)
+        and len(summaries) >= len(fast.sent) // SUMMARY_EVERY
+    )
+    prompt = fast.spins and fast.allowance_s < STALL_S and not messages_behind(fast)
+    alone = sum(each.topic == CHATTER.name for each in fast.trace.graph.subscriptions) == 1
+    return summaries if whole and prompt and alone and not renews_subscription(fast) else ()
 
 
 def _find_facts(trials: Sequence[Trial]) -> dict[str, Any]:

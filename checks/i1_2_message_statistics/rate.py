@@ -1,15 +1,38 @@
-"""I1.2: the verdict on `rate`: the summaries state the true rate of the messages."""
+"""I1.2: the true rates, where a summary states one, and the verdict on `rate`."""
 
 from __future__ import annotations
 
-from checks.i1_2_message_statistics import rates
-from checks.i1_2_message_statistics.losses import unless_messages_are_lost
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import inf
+
+from checks.i1_2_message_statistics.count import Fault, fails, swapped, total_as_rate, unless_messages_are_lost
 from checks.i1_2_message_statistics.plans import RESTARTED_HZ
-from checks.i1_2_message_statistics.summaries import Summary, find_summaries
-from checks.i1_2_message_statistics.summary import NO_SUMMARY
-from checks.i1_2_message_statistics.totals import fails, swapped, total_as_rate
-from checks.i1_2_message_statistics.trial import Trial
+from checks.i1_2_message_statistics.reading import Number
+from checks.i1_2_message_statistics.summaries import NO_SUMMARY, Summary, find_summaries, possible_totals, slots
+from checks.i1_2_message_statistics.trial import STALL_S, SUMMARY_EVERY, Trial
+from tutor.judge.rates import TOLERANCE
 from tutor.judge.verdict import Verdict, passed, skipped, undecided
+
+DELAY_S = 0.01
+"""Maximum latency of a message on an idle machine."""
+
+CLOSE_TOLERANCE = 0.05
+"""Relative error of a node that measures well."""
+SLOWEST_S = 1.97
+"""If the first ten messages take longer than this to send, they were not sent at the planned rate."""
+
+MIN_WINDOW = 5
+"""The shortest window, in messages, over which a rate may be measured."""
+
+WHOLE_SECONDS_ERROR_S = 0.01
+"""Maximum deviation from whole seconds of the time that a rate implies: rates are often written with two digits."""
+
+SAME_TIME_S = 0.2
+"""Maximum difference between two of our time measurements that count as equal."""
+
+MIN_LEAD_S = 0.7
+"""A clock that starts with the node is at least this much ahead of the first message."""
 
 
 @unless_messages_are_lost
@@ -18,20 +41,20 @@ def judge_rate(steady: Trial, jump: Trial, restart: Trial, fast: Trial) -> Verdi
     summaries = [summary for summary in find_summaries(steady) if summary.messages > 1]  # one message gives no rate yet
     if not summaries:
         return skipped(NO_SUMMARY)
-    allowed = [rates.true_rates(summary) for summary in summaries]
+    allowed = [true_rates(summary) for summary in summaries]
     low, high = min(each.low for each in allowed), max(each.high for each in allowed)
-    expected = f"each summary states the messages per second: {rates.sent_hz(steady):.2f}, from {low:.1f} to {high:.1f}"
-    stated = rates.find_stated_rates(summaries, jump)
+    expected = f"each summary states the messages per second: {sent_hz(steady):.2f}, from {low:.1f} to {high:.1f}"
+    stated = find_stated_rates(summaries, jump)
     if stated is None:
         wrong = next(
             (each for each, true in zip(summaries, allowed, strict=True) if not true.among(each)), summaries[-1]
         )
-        return fails(expected, _describe_numbers(wrong), steady, rates.find_wrong_rate(wrong, summaries))
+        return fails(expected, _describe_numbers(wrong), steady, find_wrong_rate(wrong, summaries))
     if all(map(total_as_rate, summaries)):
         return fails(expected, _describe_numbers(summaries[-1]), steady, swapped(summaries[-1]))
-    if rates.is_doubtful_rate(stated, summaries):
+    if is_doubtful_rate(stated, summaries):
         return undecided("to send messages at an even rate")
-    if (kept := rates.find_kept_rate(restart)) is not None:
+    if (kept := find_kept_rate(restart)) is not None:
         return fails(
             "each summary states the messages per second, also when they change",
             f"{kept.text} at first, and still {kept.text} when another talker sends {RESTARTED_HZ:g} a second",
@@ -45,3 +68,226 @@ def judge_rate(steady: Trial, jump: Trial, restart: Trial, fast: Trial) -> Verdi
 def _describe_numbers(summary: Summary) -> str:
     numbers = ", ".join(number.text for number in summary.numbers)
     return f"after {summary.messages} messages it states {numbers or 'no number'}"
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """The bounds of what may be true: of a rate in messages per second, or of a time in seconds."""
+
+    low: float
+    high: float
+
+    def __contains__(self, value: float) -> bool:
+        return self.low <= value <= self.high
+
+    def widened(self, share: float) -> Range:
+        """The range with this share of tolerance on both sides."""
+        return Range((1 - share) * self.low, (1 + share) * self.high)
+
+    def holds(self, number: Number) -> bool:
+        """Whether the number, in any of its readings, is in the range."""
+        return any(value in self for value in number.values)
+
+    def among(self, summary: Summary) -> bool:
+        """Whether any number in the summary is in the range."""
+        return any(map(self.holds, summary.numbers))
+
+
+def sent_hz(trial: Trial) -> float:
+    """The rate at which the messages were sent."""
+    return (len(trial.sent) - 1) / (trial.sent[-1].at - trial.sent[0].at)
+
+
+def true_rates(summary: Summary, *, excused_s: float = inf) -> Range:
+    """The rates that may be stated: N or N-1 messages divided by the time since the first, or since a recent one.
+
+    If the machine delayed that message's callback, the time seems shorter to the node by the same amount; at most
+    `excused_s` of that is allowed for.
+    """
+    trial = summary.trial
+    least, most = [], []
+    for until in range(summary.messages, summary.messages_at_end + 1):
+        last_at = trial.sent[until - 1].at
+        for first in range(max(1, until - MIN_WINDOW + 1)):
+            count, since = until - first, trial.sent[first].at
+            span = max(last_at - since, DELAY_S)
+            delay = min(DELAY_S + min(trial.delay_s(first), excused_s), 0.7 * span)
+            if count >= SUMMARY_EVERY or first == 0:  # from the first message until the summary is logged
+                least.append((count - 1) / (max(summary.at - since, span) + DELAY_S))
+                most.append(count / (span - delay))
+            least.append((count - 1) / (span + DELAY_S))
+            most.append((count - 1) / (span - delay))
+    return Range(min(least), max(most)).widened(TOLERANCE)
+
+
+def find_stated_rates(summaries: Sequence[Summary], jump: Trial) -> list[Number] | None:
+    """The true rate as stated by each summary, in the same place of each; None if one does not state it.
+
+    `jump` was fed at another rate: a number that is the same, and wrong, in all of its summaries is not a rate. One
+    summary is not enough: a rate measured over the first few messages may happen to be the same.
+    """
+    allowed = [true_rates(summary) for summary in summaries]
+    elsewhere = find_summaries(jump)
+    wrong_numbers = [{n.text for n in each.numbers if not true_rates(each).holds(n)} for each in elsewhere]
+    constant = set.intersection(*wrong_numbers) if wrong_numbers else set()
+    if (places := slots(summaries)) is not None:
+        others = slots([summaries[0], *elsewhere]) or places
+        for place, other in zip(places, others, strict=True):
+            same = len({number.text for number in other}) == 1 and other[0].text in constant
+            if not same and all(one.holds(number) for one, number in zip(allowed, place, strict=True)):
+                return list(place)
+        return None
+    found = [
+        [number for number in summary.numbers if one.holds(number) and number.text not in constant]
+        for summary, one in zip(summaries, allowed, strict=True)
+    ]
+    return [numbers[0] for numbers in found] if all(found) else None
+
+
+def find_kept_rate(restart: Trial) -> Number | None:
+    """The rate that a node states before and after the publisher is replaced by one of another rate.
+
+    A rate of any of the messages has changed by then. None if it also states another true rate, or if the rate has no
+    decimals, and so may be the same by chance.
+    """
+    summaries = find_summaries(restart)
+    before = [each for each in summaries if each.messages <= restart.before_break]
+    after = [each for each in summaries if each.messages >= restart.before_break + MIN_WINDOW]
+    for number in before[0].numbers if before and after else ():
+        kept = all(number.text in {other.text for other in each.numbers} for each in (*before, *after))
+        if "." in number.text and kept and true_rates(before[0]).holds(number):
+            others = (other for each in after for other in numbers_except_count(each) if true_rates(each).holds(other))
+            return number if all(other.text == number.text for other in others) else None
+    return None
+
+
+def is_doubtful_rate(numbers: Sequence[Number], summaries: Sequence[Summary]) -> bool:
+    """Whether these numbers may only look like the rate, because a busy machine kept us from the planned send rate.
+
+    At the planned rate, other numbers are far from it: the elapsed seconds, the messages per whole seconds, or per
+    seconds since the start of the node.
+    """
+    trial, stated = summaries[0].trial, list(zip(numbers, summaries, strict=True))
+    true = all(true_rates(summary, excused_s=STALL_S).holds(number) for number, summary in stated)
+    late = trial.allowance_s > STALL_S and any(_lateness(summary) > STALL_S for summary in summaries)
+    if true and not late and _elapsed(summaries[0]) <= SLOWEST_S and trial.delay_s(0) <= STALL_S:
+        return False
+    sent_s = [_elapsed(summary) for summary in summaries]
+    logged_s = [_elapsed(summary) + max(_lateness(summary), 0.0) for summary in summaries]
+    whole = [
+        [summary.messages / max(int(span), 1) for summary, span in zip(summaries, spans, strict=True)]
+        for spans in (sent_s, logged_s)
+    ]
+    explained_otherwise = any(
+        all(abs(number.value - other) < 0.01 + DELAY_S * other for number, other in zip(numbers, others, strict=True))
+        for others in (sent_s, logged_s, *whole)
+    )
+    measured = all(any(close.holds(number) for close in _well_measured(summary)) for number, summary in stated)
+    return explained_otherwise or not measured
+
+
+def _last_counted(summary: Summary) -> int:
+    """The number of messages at which the summary was due, or had come if none was due."""
+    return summary.due or summary.messages
+
+
+def _elapsed(summary: Summary) -> float:
+    """Seconds from the first message to the one at which the summary was due."""
+    sent = summary.trial.sent
+    return max(sent[_last_counted(summary) - 1].at - sent[0].at, DELAY_S)
+
+
+def _lateness(summary: Summary) -> float:
+    """Seconds from the message at which the summary was due to its first line."""
+    return summary.at - summary.trial.sent[_last_counted(summary) - 1].at
+
+
+def _well_measured(summary: Summary) -> Iterator[Range]:
+    """The rates of a node that measures well: since the first message, or over the last ten."""
+    trial, last = summary.trial, _last_counted(summary)
+    for first in {0, max(0, last - SUMMARY_EVERY)}:
+        since = trial.sent[first].at
+        soonest = trial.sent[max(first, last - 1)].at - since
+        delay = min(trial.delay_s(first), 0.7 * soonest)
+        low = (summary.messages - first - 1) / max(summary.at - since, DELAY_S)
+        high = (summary.messages - first) / max(soonest - delay, DELAY_S)
+        yield Range(low, high).widened(CLOSE_TOLERANCE)
+
+
+def find_wrong_rate(summary: Summary, summaries: Sequence[Summary]) -> Fault:
+    """What the numbers in `summary`, which states no true rate, are instead."""
+    found, true = numbers_except_count(summary), true_rates(summary)
+    for number in found:
+        if number.value > 0 and 1 / number.value in true:
+            return {"fault": "period-instead-of-a-rate", "number": number.text}
+    for number in found:
+        if number.value / 60 in true:
+            return {"fault": "rate-per-minute", "number": number.text}
+        if any(number.value * by in true for by in (1e-3, 1e3, 1e6, 1e9)):
+            return {"fault": "rate-in-another-unit", "number": number.text}
+    if all(map(_elapsed_numbers, summaries)):
+        what = f"{_elapsed_numbers(summary)[0].text} is the time in seconds since the first message"
+        return {"fault": "wrong-rate-in-the-summary", "what": what}
+    leads = [[lead for _, lead in _clock_leads(each)] for each in summaries]
+    for number, lead in _clock_leads(summary):
+        if lead.high > MIN_LEAD_S and all(any(_may_be_same(lead, other) for other in each) for each in leads):
+            return {"fault": "counted-from-the-nodes-start", "number": number.text, "lead_s": lead.high}
+    if all(map(_find_whole_seconds, summaries)):
+        number, whole_s = _find_whole_seconds(summary)[0]
+        covered = _covered_count(summary)
+        return {"fault": "seconds-cut-off", "number": number.text, "covered": covered, "whole_s": whole_s}
+    if not found:
+        return {"fault": "no-rate"}
+    texts = ", ".join(number.text for number in found)
+    what = f"none of {texts} is the rate" if len(found) > 1 else f"{texts} is not the rate"
+    return {"fault": "wrong-rate-in-the-summary", "what": what}
+
+
+def _elapsed_numbers(summary: Summary) -> list[Number]:
+    """The numbers that are the seconds from the first message to the summary."""
+    span = _clock_span(summary)
+    return [each for each in numbers_except_count(summary) if span.low - DELAY_S <= each.value <= span.high + DELAY_S]
+
+
+def _find_whole_seconds(summary: Summary) -> list[tuple[Number, int]]:
+    """The numbers that are the messages per whole seconds, with that number of seconds."""
+    count, span = _covered_count(summary), _clock_span(summary)
+    return [
+        (number, whole_s)
+        for number in numbers_except_count(summary)
+        for whole_s in {max(int(span.low), 1), max(int(span.high), 1)}
+        if number.value > 0 and abs(count / number.value - whole_s) < WHOLE_SECONDS_ERROR_S
+    ]
+
+
+def _clock_leads(summary: Summary) -> list[tuple[Number, Range]]:
+    """For each number, taken as a rate: how long before the first message its clock must have started."""
+    count, read = _covered_count(summary), _clock_span(summary)
+    spans = ((number, count / number.value) for number in numbers_except_count(summary) if number.value > 0)
+    return [(number, Range(span - read.high, span - read.low)) for number, span in spans]
+
+
+def _may_be_same(one: Range, other: Range) -> bool:
+    """Whether both may be the same time."""
+    return one.low - other.high < SAME_TIME_S and other.low - one.high < SAME_TIME_S
+
+
+def _clock_span(summary: Summary) -> Range:
+    """The seconds since the first message on a clock that was read for this summary.
+
+    That was between the arrival of the last message that it covers and the logging of the summary.
+    """
+    sent = summary.trial.sent
+    return Range(sent[_covered_count(summary) - 1].at - sent[0].at, summary.at - sent[0].at)
+
+
+def _covered_count(summary: Summary) -> int:
+    """The number of messages that the summary covers: the true total that it states, or all that had been sent."""
+    return next(filter(summary.states, possible_totals(summary)), summary.messages)
+
+
+def numbers_except_count(summary: Summary) -> list[Number]:
+    """The numbers in the summary, except its count."""
+    covered = _covered_count(summary)
+    count = next((number for number in summary.numbers if number.value == covered), None)
+    return [number for number in summary.numbers if number is not count]

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from checks.i1_2_message_statistics.losses import unless_messages_are_lost
-from checks.i1_2_message_statistics.reports import new_lines
-from checks.i1_2_message_statistics.summaries import Summary, find_summaries
-from checks.i1_2_message_statistics.summary import EVERY_MESSAGE, NO_SUMMARY, judge_slow_summary, too_many
-from checks.i1_2_message_statistics.totals import (
+from checks.i1_2_message_statistics.count import (
     Fault,
     counts_truly,
     fails,
     may_lack_lost_messages,
     quoted_without_first,
     true_total,
+    unless_messages_are_lost,
 )
+from checks.i1_2_message_statistics.reports import new_lines
+from checks.i1_2_message_statistics.summaries import NO_SUMMARY, Summary, find_summaries
+from checks.i1_2_message_statistics.summary import EVERY_MESSAGE, judge_slow_summary, too_many
 from checks.i1_2_message_statistics.trial import OURS, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Symptom
 from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided

@@ -20,6 +20,8 @@ FREQUENT_SHARE = 0.5
 MAX_AGE = 4
 """A summary's last message is at most this many messages old, or the one at which the summary was due."""
 
+NO_SUMMARY = "not judged, because there is no summary to read: see `summary`"
+
 
 def last_due_count(messages: int) -> int:
     """The number of messages after which a summary was last due."""

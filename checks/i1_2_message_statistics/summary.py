@@ -6,24 +6,23 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from checks.i1_2_message_statistics import losses
+from checks.i1_2_message_statistics.count import Fault, counts_truly, fails, true_total, unless_messages_are_lost
 from checks.i1_2_message_statistics.plans import FAST_HZ, FAST_MESSAGES
 from checks.i1_2_message_statistics.reading import labelled, parse_log
 from checks.i1_2_message_statistics.summaries import Summary, count_complete, find_summaries
-from checks.i1_2_message_statistics.totals import Fault, counts_truly, fails, true_total
-from checks.i1_2_message_statistics.trial import CHATTER, OURS, STALL_S, SUMMARY_EVERY, Trial
+from checks.i1_2_message_statistics.trial import OURS, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import LogRecord
 from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
 
 EXPECTED = f"one summary for every {SUMMARY_EVERY} messages, with the first and the last message's content"
-NO_SUMMARY = "not judged, because there is no summary to read: see `summary`"
 EVERY_MESSAGE = "summary-for-every-message"
 
 BUSY_S = 0.5
 """If the node waited longer for a CPU, missing summaries may be the machine's fault."""
 
 
-@losses.unless_messages_are_lost
+@unless_messages_are_lost
 def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     """Judge `summary`; messages lost at a fast rate are reported by `count`."""
     verdict = judge_slow_summary(steady, jump)
@@ -73,7 +72,7 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
     if not fast.lines:
         silent = fast.spins and len(fast.sent) >= FAST_MESSAGES and losses.was_sent_fast_enough(fast)
         return _fails_silent(fast) if silent else None
-    summaries = fast_summaries(fast)
+    summaries = losses.fast_summaries(fast)
     if not summaries:
         return None
     if all(each.is_complete for each in summaries) and len(summaries) >= 1.5 * len(fast.sent) / SUMMARY_EVERY:
@@ -90,23 +89,6 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
     if last is None or {each and each["fault"] for each in missing} != {last["fault"]}:
         return None
     return fails(EXPECTED, f"it is incomplete {summaries[-1]}", fast, last)
-
-
-def fast_summaries(fast: Trial) -> Sequence[Summary]:
-    """The summaries of a fast stretch; none if some may be missing, late or torn because the messages came fast.
-
-    Nor if there are two subscriptions that may log each message twice: the slow messages show the cause of that better.
-    Nor if the node makes new ones all the time: what it loses is luck.
-    """
-    summaries = find_summaries(fast)
-    whole = (
-        len(fast.sent) >= FAST_MESSAGES
-        and losses.was_sent_fast_enough(fast)
-        and len(summaries) >= len(fast.sent) // SUMMARY_EVERY
-    )
-    prompt = fast.spins and fast.allowance_s < STALL_S and not losses.messages_behind(fast)
-    alone = sum(each.topic == CHATTER.name for each in fast.trace.graph.subscriptions) == 1
-    return summaries if whole and prompt and alone and not losses.renews_subscription(fast) else ()
 
 
 def _fails_silent(trial: Trial) -> Verdict:

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checks.i1_2_message_statistics import CHECK
-from checks.i1_2_message_statistics.count import judge_count, judge_fast_count
+from checks.i1_2_message_statistics.count import in_words, judge_count, judge_fast_count
 from checks.i1_2_message_statistics.feeding import logs_something_new
 from checks.i1_2_message_statistics.gaps import judge_gaps, judge_jumps
 from checks.i1_2_message_statistics.plans import (
@@ -33,7 +33,6 @@ from checks.i1_2_message_statistics.reading import parse_log, values
 from checks.i1_2_message_statistics.restart import judge_restart
 from checks.i1_2_message_statistics.summaries import find_summaries
 from checks.i1_2_message_statistics.summary import judge_fast_summary, judge_slow_summary, judge_summary
-from checks.i1_2_message_statistics.totals import in_words
 from checks.i1_2_message_statistics.trial import Sent, Trial
 from tests.checks.builders import (
     CRASH,
