@@ -235,7 +235,7 @@ async def test_a_check_that_changed_judges_again(made: Class, tmp_path: Path) ->
     for file in (
         checks / "__pycache__" / "x.pyc",
         checks / "i2_1_parameterized_publisher.py",
-        checks / "i1_2" / "facts.py",
+        checks / "i1_2_message_statistics" / "trial.py",
     ):
         file.write_text("# changed")
     assert course_digest(moved) in digests

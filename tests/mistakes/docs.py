@@ -120,10 +120,10 @@ def _pages() -> Mapping[str, Page]:
         page.mistakes.append(entry)
         if entry.id in known:
             page.known[entry.id] = said
-    lessons = {lesson.folder.name: lesson for lesson in load_course(None).lessons}
+    packages = {lesson.check.parent.name: lesson for lesson in load_course(None).lessons}
     for where, catalogue in all_catalogues():
         if catalogue is not CATALOGUE:
-            lesson = lessons[where]
+            lesson = packages[where]
             pages[lesson.id] = Page(f"{lesson.id} {lesson.title}", list(catalogue.entries.values()))
     return pages
 

@@ -45,7 +45,7 @@ class Check:
     messages at 0.5 Hz, and `expected_reason` what it waits for; anything a check takes beyond it is overhead, which a
     benchmark measures.
     `mistakes`: the module whose `CATALOGUE` has the mistakes that only this exercise can know, such as
-    "checks.i1_2.mistakes"; it is imported when something has failed.
+    "checks.i1_2_message_statistics.mistakes"; it is imported when something has failed.
     """
 
     exercise: str
