@@ -60,7 +60,7 @@ class Feed:
         return await (repeat_if_doubtful(self._run) if self.ctrl_c else self._run)(bench)
 
     async def _run(self, bench: Bench) -> Trial:
-        stretches = self.plan(await bench.facts(choose))
+        stretches = self.plan(await bench.facts(plans.choose))
         async with bench.start(PROGRAM.file, expected_s=self._expected_s(stretches)) as run, Talker(bench, run) as ours:
             await ours.wait_for_match(self.settled_s)
             trial = Trial(run.trace(), spins=ours.spins)
@@ -91,11 +91,6 @@ class Feed:
     def _expected_s(self, stretches: Iterable[plans.Stretch]) -> float:
         away_s = SOON_S + ABSENT_S + MATCH_S
         return self.settled_s + sum(len(s.numbers) / s.hz + away_s * s.another_publisher for s in stretches)
-
-
-async def choose(bench: Bench) -> plans.Chosen:
-    """What is chosen once for all trials."""
-    return plans.choose()
 
 
 async def dump_stuck_node(bench: Bench) -> tuple[Frame, ...]:

@@ -6,6 +6,8 @@ import random
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from tutor.judge.bench import Bench
+
 STEADY_HZ = (4.9, 5.0)
 """Bounds of the steady talker's constant, random rate.
 
@@ -54,8 +56,8 @@ class Chosen:
     left_out: int
 
 
-def choose() -> Chosen:
-    """Choose at random."""
+async def choose(bench: Bench) -> Chosen:
+    """Choose once for all trials: the facts of a scenario are gathered once."""
     return Chosen(random.randint(*FIRST_NUMBERS), random.randint(*LEFT_OUT))
 
 

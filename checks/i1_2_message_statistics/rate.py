@@ -168,50 +168,35 @@ def is_doubtful_rate(numbers: Sequence[Number], summaries: Sequence[Summary]) ->
     seconds since the start of the node.
     """
     trial, stated = summaries[0].trial, list(zip(numbers, summaries, strict=True))
+    elapsed = [_elapsed_s(summary, summary.due or summary.messages) for summary in summaries]
     true = all(true_rates(summary, excused_s=STALL_S).holds(number) for number, summary in stated)
-    late = trial.allowance_s > STALL_S and any(_lateness(summary) > STALL_S for summary in summaries)
-    if true and not late and _elapsed(summaries[0]) <= SLOWEST_S and trial.delay_s(0) <= STALL_S:
+    late = trial.allowance_s > STALL_S and any(span.high - span.low > STALL_S for span in elapsed)
+    if true and not late and elapsed[0].low <= SLOWEST_S and trial.delay_s(0) <= STALL_S:
         return False
-    sent_s = [_elapsed(summary) for summary in summaries]
-    logged_s = [_elapsed(summary) + max(_lateness(summary), 0.0) for summary in summaries]
-    whole = [
-        [summary.messages / max(int(span), 1) for summary, span in zip(summaries, spans, strict=True)]
-        for spans in (sent_s, logged_s)
-    ]
+    times = [span.low for span in elapsed], [span.high for span in elapsed]
+    whole = [[each.messages / max(int(span), 1) for each, span in zip(summaries, at, strict=True)] for at in times]
     explained_otherwise = any(
         all(abs(number.value - other) < 0.01 + DELAY_S * other for number, other in zip(numbers, others, strict=True))
-        for others in (sent_s, logged_s, *whole)
+        for others in (*times, *whole)
     )
     measured = all(any(close.holds(number) for close in _well_measured(summary)) for number, summary in stated)
     return explained_otherwise or not measured
 
 
-def _last_counted(summary: Summary) -> int:
-    """The number of messages at which the summary was due, or had come if none was due."""
-    return summary.due or summary.messages
-
-
-def _elapsed(summary: Summary) -> float:
-    """Seconds from the first message to the one at which the summary was due."""
+def _elapsed_s(summary: Summary, count: int, first: int = 0) -> Range:
+    """The seconds from the first message, or a later one, until this many had been sent, and until it was logged."""
     sent = summary.trial.sent
-    return max(sent[_last_counted(summary) - 1].at - sent[0].at, DELAY_S)
-
-
-def _lateness(summary: Summary) -> float:
-    """Seconds from the message at which the summary was due to its first line."""
-    return summary.at - summary.trial.sent[_last_counted(summary) - 1].at
+    low = sent[max(first, count - 1)].at - sent[first].at
+    return Range(low, max(summary.at - sent[first].at, low, DELAY_S))
 
 
 def _well_measured(summary: Summary) -> Iterator[Range]:
     """The rates of a node that measures well: since the first message, or over the last ten."""
-    trial, last = summary.trial, _last_counted(summary)
+    last = summary.due or summary.messages
     for first in {0, max(0, last - SUMMARY_EVERY)}:
-        since = trial.sent[first].at
-        soonest = trial.sent[max(first, last - 1)].at - since
-        delay = min(trial.delay_s(first), 0.7 * soonest)
-        low = (summary.messages - first - 1) / max(summary.at - since, DELAY_S)
-        high = (summary.messages - first) / max(soonest - delay, DELAY_S)
-        yield Range(low, high).widened(CLOSE_TOLERANCE)
+        elapsed, count = _elapsed_s(summary, last, first), summary.messages - first
+        delay = min(summary.trial.delay_s(first), 0.7 * elapsed.low)
+        yield Range((count - 1) / elapsed.high, count / max(elapsed.low - delay, DELAY_S)).widened(CLOSE_TOLERANCE)
 
 
 def find_wrong_rate(summary: Summary, summaries: Sequence[Summary]) -> Fault:
@@ -245,13 +230,14 @@ def find_wrong_rate(summary: Summary, summaries: Sequence[Summary]) -> Fault:
 
 def _elapsed_numbers(summary: Summary) -> list[Number]:
     """The numbers that are the seconds from the first message to the summary."""
-    span = _clock_span(summary)
+    span = _elapsed_s(summary, _covered_count(summary))
     return [each for each in numbers_except_count(summary) if span.low - DELAY_S <= each.value <= span.high + DELAY_S]
 
 
 def _find_whole_seconds(summary: Summary) -> list[tuple[Number, int]]:
     """The numbers that are the messages per whole seconds, with that number of seconds."""
-    count, span = _covered_count(summary), _clock_span(summary)
+    count = _covered_count(summary)
+    span = _elapsed_s(summary, count)
     return [
         (number, whole_s)
         for number in numbers_except_count(summary)
@@ -262,7 +248,8 @@ def _find_whole_seconds(summary: Summary) -> list[tuple[Number, int]]:
 
 def _clock_leads(summary: Summary) -> list[tuple[Number, Range]]:
     """For each number, taken as a rate: how long before the first message its clock must have started."""
-    count, read = _covered_count(summary), _clock_span(summary)
+    count = _covered_count(summary)
+    read = _elapsed_s(summary, count)  # the clock was read in between
     spans = ((number, count / number.value) for number in numbers_except_count(summary) if number.value > 0)
     return [(number, Range(span - read.high, span - read.low)) for number, span in spans]
 
@@ -270,15 +257,6 @@ def _clock_leads(summary: Summary) -> list[tuple[Number, Range]]:
 def _may_be_same(one: Range, other: Range) -> bool:
     """Whether both may be the same time."""
     return one.low - other.high < SAME_TIME_S and other.low - one.high < SAME_TIME_S
-
-
-def _clock_span(summary: Summary) -> Range:
-    """The seconds since the first message on a clock that was read for this summary.
-
-    That was between the arrival of the last message that it covers and the logging of the summary.
-    """
-    sent = summary.trial.sent
-    return Range(sent[_covered_count(summary) - 1].at - sent[0].at, summary.at - sent[0].at)
 
 
 def _covered_count(summary: Summary) -> int:
