@@ -25,15 +25,6 @@ SLOWEST_S = 1.97
 MIN_WINDOW = 5
 """The shortest window, in messages, over which a rate may be measured."""
 
-WHOLE_SECONDS_ERROR_S = 0.01
-"""Maximum deviation from whole seconds of the time that a rate implies: rates are often written with two digits."""
-
-SAME_TIME_S = 0.2
-"""Maximum difference between two of our time measurements that count as equal."""
-
-MIN_LEAD_S = 0.7
-"""A clock that starts with the node is at least this much ahead of the first message."""
-
 
 @unless_messages_are_lost
 def judge_rate(steady: Trial, jump: Trial, restart: Trial, fast: Trial) -> Verdict:
@@ -49,7 +40,8 @@ def judge_rate(steady: Trial, jump: Trial, restart: Trial, fast: Trial) -> Verdi
         wrong = next(
             (each for each, true in zip(summaries, allowed, strict=True) if not true.among(each)), summaries[-1]
         )
-        return fails(expected, _describe_numbers(wrong), steady, find_wrong_rate(wrong, summaries))
+        fault: Fault = {"fault": "wrong-rate", "summary": wrong, "summaries": summaries}
+        return fails(expected, _describe_numbers(wrong), steady, fault)
     if all(map(total_as_rate, summaries)):
         return fails(expected, _describe_numbers(summaries[-1]), steady, swapped(summaries[-1]))
     if is_doubtful_rate(stated, summaries):
@@ -168,7 +160,7 @@ def is_doubtful_rate(numbers: Sequence[Number], summaries: Sequence[Summary]) ->
     seconds since the start of the node.
     """
     trial, stated = summaries[0].trial, list(zip(numbers, summaries, strict=True))
-    elapsed = [_elapsed_s(summary, summary.due or summary.messages) for summary in summaries]
+    elapsed = [elapsed_s(summary, summary.due or summary.messages) for summary in summaries]
     true = all(true_rates(summary, excused_s=STALL_S).holds(number) for number, summary in stated)
     late = trial.allowance_s > STALL_S and any(span.high - span.low > STALL_S for span in elapsed)
     if true and not late and elapsed[0].low <= SLOWEST_S and trial.delay_s(0) <= STALL_S:
@@ -183,7 +175,7 @@ def is_doubtful_rate(numbers: Sequence[Number], summaries: Sequence[Summary]) ->
     return explained_otherwise or not measured
 
 
-def _elapsed_s(summary: Summary, count: int, first: int = 0) -> Range:
+def elapsed_s(summary: Summary, count: int, first: int = 0) -> Range:
     """The seconds from the first message, or a later one, until this many had been sent, and until it was logged."""
     sent = summary.trial.sent
     low = sent[max(first, count - 1)].at - sent[first].at
@@ -194,78 +186,18 @@ def _well_measured(summary: Summary) -> Iterator[Range]:
     """The rates of a node that measures well: since the first message, or over the last ten."""
     last = summary.due or summary.messages
     for first in {0, max(0, last - SUMMARY_EVERY)}:
-        elapsed, count = _elapsed_s(summary, last, first), summary.messages - first
+        elapsed, count = elapsed_s(summary, last, first), summary.messages - first
         delay = min(summary.trial.delay_s(first), 0.7 * elapsed.low)
         yield Range((count - 1) / elapsed.high, count / max(elapsed.low - delay, DELAY_S)).widened(CLOSE_TOLERANCE)
 
 
-def find_wrong_rate(summary: Summary, summaries: Sequence[Summary]) -> Fault:
-    """What the numbers in `summary`, which states no true rate, are instead."""
-    found, true = numbers_except_count(summary), true_rates(summary)
-    for number in found:
-        if number.value > 0 and 1 / number.value in true:
-            return {"fault": "period-instead-of-a-rate", "number": number.text}
-    for number in found:
-        if number.value / 60 in true:
-            return {"fault": "rate-per-minute", "number": number.text}
-        if any(number.value * by in true for by in (1e-3, 1e3, 1e6, 1e9)):
-            return {"fault": "rate-in-another-unit", "number": number.text}
-    if all(map(_elapsed_numbers, summaries)):
-        what = f"{_elapsed_numbers(summary)[0].text} is the time in seconds since the first message"
-        return {"fault": "wrong-rate-in-the-summary", "what": what}
-    leads = [[lead for _, lead in _clock_leads(each)] for each in summaries]
-    for number, lead in _clock_leads(summary):
-        if lead.high > MIN_LEAD_S and all(any(_may_be_same(lead, other) for other in each) for each in leads):
-            return {"fault": "counted-from-the-nodes-start", "number": number.text, "lead_s": lead.high}
-    if all(map(_find_whole_seconds, summaries)):
-        number, whole_s = _find_whole_seconds(summary)[0]
-        covered = _covered_count(summary)
-        return {"fault": "seconds-cut-off", "number": number.text, "covered": covered, "whole_s": whole_s}
-    if not found:
-        return {"fault": "no-rate"}
-    texts = ", ".join(number.text for number in found)
-    what = f"none of {texts} is the rate" if len(found) > 1 else f"{texts} is not the rate"
-    return {"fault": "wrong-rate-in-the-summary", "what": what}
-
-
-def _elapsed_numbers(summary: Summary) -> list[Number]:
-    """The numbers that are the seconds from the first message to the summary."""
-    span = _elapsed_s(summary, _covered_count(summary))
-    return [each for each in numbers_except_count(summary) if span.low - DELAY_S <= each.value <= span.high + DELAY_S]
-
-
-def _find_whole_seconds(summary: Summary) -> list[tuple[Number, int]]:
-    """The numbers that are the messages per whole seconds, with that number of seconds."""
-    count = _covered_count(summary)
-    span = _elapsed_s(summary, count)
-    return [
-        (number, whole_s)
-        for number in numbers_except_count(summary)
-        for whole_s in {max(int(span.low), 1), max(int(span.high), 1)}
-        if number.value > 0 and abs(count / number.value - whole_s) < WHOLE_SECONDS_ERROR_S
-    ]
-
-
-def _clock_leads(summary: Summary) -> list[tuple[Number, Range]]:
-    """For each number, taken as a rate: how long before the first message its clock must have started."""
-    count = _covered_count(summary)
-    read = _elapsed_s(summary, count)  # the clock was read in between
-    spans = ((number, count / number.value) for number in numbers_except_count(summary) if number.value > 0)
-    return [(number, Range(span - read.high, span - read.low)) for number, span in spans]
-
-
-def _may_be_same(one: Range, other: Range) -> bool:
-    """Whether both may be the same time."""
-    return one.low - other.high < SAME_TIME_S and other.low - one.high < SAME_TIME_S
-
-
-def _covered_count(summary: Summary) -> int:
+def covered_count(summary: Summary) -> int:
     """The number of messages that the summary covers: the true total that it states, or all that had been sent."""
     return next(filter(summary.states, possible_totals(summary)), summary.messages)
 
 
 def numbers_except_count(summary: Summary) -> list[Number]:
     """The numbers in the summary, except its count."""
-    covered = _covered_count(summary)
+    covered = covered_count(summary)
     count = next((number for number in summary.numbers if number.value == covered), None)
     return [number for number in summary.numbers if number is not count]

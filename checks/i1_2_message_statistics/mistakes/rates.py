@@ -6,10 +6,19 @@ import ast
 from collections.abc import Iterator
 
 from checks.i1_2_message_statistics.mistakes.entries import CATALOGUE, shown, told
+from checks.i1_2_message_statistics.mistakes.wrong_rates import find_wrong_rate
 from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Found, found
 from tutor.mistakes.examples import in_run
 from tutor.source import last_name
+
+
+def _told(case: Case, fault: str) -> Iterator[Found]:
+    """What is wrong with the rate in a summary, if it is this fault."""
+    if case.about("fault") != "wrong-rate":
+        yield from told(case, fault)
+    elif (wrong := find_wrong_rate(case.about("summary"), case.about("summaries")))["fault"] == fault:
+        yield Found(wrong)
 
 
 @CATALOGUE.mistake(
@@ -106,7 +115,7 @@ def period(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic hz TOPIC` gives both.
     """
-    return told(case, "period-instead-of-a-rate")
+    return _told(case, "period-instead-of-a-rate")
 
 
 @shown(
@@ -131,7 +140,7 @@ def per_minute(case: Case) -> Iterator[Found]:
 
     See it: the log, beside `ros2 topic hz TOPIC`.
     """
-    return told(case, "rate-per-minute")
+    return _told(case, "rate-per-minute")
 
 
 @shown(
@@ -156,7 +165,7 @@ def other_unit(case: Case) -> Iterator[Found]:
 
     See it: the log, beside `ros2 topic hz TOPIC`.
     """
-    return told(case, "rate-in-another-unit")
+    return _told(case, "rate-in-another-unit")
 
 
 @shown(
@@ -185,7 +194,7 @@ def from_start(case: Case) -> Iterator[Found]:
 
     See it: start the subscriber a while before the publisher.
     """
-    return told(case, "counted-from-the-nodes-start")
+    return _told(case, "counted-from-the-nodes-start")
 
 
 @shown(
@@ -212,7 +221,7 @@ def cut_seconds(case: Case) -> Iterator[Found]:
 
     See it: log the time that you divide by.
     """
-    return told(case, "seconds-cut-off")
+    return _told(case, "seconds-cut-off")
 
 
 @shown(
@@ -235,7 +244,7 @@ def no_rate(case: Case) -> Iterator[Found]:
 
     See it: the log.
     """
-    return told(case, "no-rate")
+    return _told(case, "no-rate")
 
 
 @shown(
@@ -260,4 +269,4 @@ def wrong_rate(case: Case) -> Iterator[Found]:
 
     See it: the log, beside `ros2 topic hz TOPIC`.
     """
-    return told(case, "wrong-rate-in-the-summary")
+    return _told(case, "wrong-rate-in-the-summary")
