@@ -211,6 +211,12 @@ def test_a_criterion_may_bring_its_own_scenarios_and_judge() -> None:
     assert_skipped(last.judge(EndedRun(RUNNING, None)), "`heard` shows why")
 
 
+def test_the_criterion_that_shows_an_early_end_may_be_named() -> None:
+    state, room = Publishes("state", STATE), Contains("room", STATE, "hall")
+    made = check("t1.1", THERMOSTAT, state, room, EndsCleanly("end", listen, shown_by=room))
+    assert_skipped(judge_of(made, "end")(EndedRun(RUNNING, None)), "`room` shows why")
+
+
 def test_defaults_are_those_of_the_nouns() -> None:
     made = check("t1.1", THERMOSTAT, Defaults("defaults", (TARGET, ROOM)))
     right = (parameter("target", "double", 21.0), parameter("room", "string", "hall"))
