@@ -161,22 +161,19 @@ def _find_rising_count(jump: Trial, jump_twice: Trial, steady: Trial) -> list[tu
     It must have been constant before, and not be lower if N jumps twice, unlike a count of messages since the last
     jump. A timer may report a jump late, so only a number that has already risen is considered.
     """
-    settled = jump.before_break + SETTLING_MESSAGES
+    settled, second_jump = jump.before_break + SETTLING_MESSAGES, max(jump_twice.jumps, default=0)
     for kind in {line.kind for line in jump.lines if line.messages >= settled}:
         lines, twice, calm = (
             [line for line in trial.lines if line.kind == kind] for trial in (jump, jump_twice, steady)
         )
-        starts = [
-            [line for line in lines if is_before_jump(line, jump)],
-            [each for each in calm if is_before_jump(each, steady)],
-        ]
+        starts = [[line for line in of if is_before_jump(line, trial)] for of, trial in ((lines, jump), (calm, steady))]
         usual = [line for start in starts for line in start]
         amount = {len(line.numbers) for line in (*lines, *usual, *twice)}
         if max(map(len, starts)) < 2 or len(amount) > 1:  # a single line does not show what is constant
             continue
         since = [line for line in lines if line.messages >= settled]
-        again = [line for line in twice if line.messages > jump_twice.jumps[-1]]
-        between = jump_twice.jumps[-1] - jump_twice.before_break
+        again = [line for line in twice if line.messages > second_jump]
+        between = second_jump - jump_twice.before_break
         for place in range(*amount):
             before = {line.numbers[place].value for line in usual}
             rose = [line.numbers[place].value for line in since]

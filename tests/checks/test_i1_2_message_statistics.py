@@ -1574,6 +1574,9 @@ def test_a_node_that_exits_on_a_restart_or_a_jump_fails() -> None:
     assert_failed(judge_new_publisher(ended, steady_trial, jump_trial), "exit at once")
     crashed = trace(graph=LISTENING, logs=jump_trial.trace.logs, err=CRASH, exit=exited(1))
     assert_failed(judge_jumps(replace(jump_trial, trace=crashed), steady_trial), "unhandled exception")
+    twice = jump_twice(FakeStats())
+    early = replace(twice, sent=twice.sent[:JUMP_AFTER], trace=replace(crashed, logs=twice.trace.logs[:1]))
+    assert_failed(judge_rising(jump_trial, early, steady_trial), "unhandled exception")
     deaf = replace(restart_trial, sent=restart_trial.sent[:RESTART_AFTER], trace=trace(logs=restart_trial.trace.logs))
     assert_failed(judge_new_publisher(deaf, steady_trial, jump_trial), "no subscription")
     assert find_summaries(replace(deaf, trace=restart_trial.trace))[0].messages == 10
