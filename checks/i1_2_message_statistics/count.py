@@ -16,7 +16,7 @@ from checks.i1_2_message_statistics.losses import (
 from checks.i1_2_message_statistics.plans import FAST_HZ
 from checks.i1_2_message_statistics.reading import Number
 from checks.i1_2_message_statistics.summaries import NO_SUMMARY, Summary, find_summaries, possible_totals
-from checks.i1_2_message_statistics.trial import CHATTER, SUMMARY_EVERY, Trial
+from checks.i1_2_message_statistics.trial import CHATTER, SHOWN, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Symptom
 from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
 
@@ -119,7 +119,7 @@ def _is_certain_to_lose(steady: Trial, fast: Trial) -> bool:
 def fails(expected: str, observed: str, trial: Trial, fault: Fault, evidence: Sequence[str] = ()) -> Verdict:
     """Fail a node whose log says something that is not so. `evidence`: by default, its summaries."""
     shown = evidence or [str(summary) for summary in find_summaries(trial)]
-    return failed(expected, observed, trial.seen(Symptom.WRONG_LOG, **fault), shown)
+    return failed(expected, observed, trial.seen(Symptom.WRONG_LOG, **fault), shown[:SHOWN])
 
 
 def counts_truly(*trials: Trial) -> bool:

@@ -10,7 +10,7 @@ from checks.i1_2_message_statistics.rate import sent_hz
 from checks.i1_2_message_statistics.reading import Line
 from checks.i1_2_message_statistics.reports import is_before_jump, kinds_about_first_message, new_lines
 from checks.i1_2_message_statistics.summaries import find_summaries
-from checks.i1_2_message_statistics.trial import Trial
+from checks.i1_2_message_statistics.trial import SHOWN, Trial
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Level
@@ -124,7 +124,8 @@ def _false_alarm(what: str, observed: str, jump: Trial, lines: Iterable[Line]) -
 
 
 def _texts(lines: Iterable[Line]) -> list[str]:
-    return [line.text for line in lines]
+    """The texts of some lines, enough to show what they are about."""
+    return [line.text for line in lines][:SHOWN]
 
 
 def _is_about_jump(line: Line, index: int, jump: Trial) -> bool:

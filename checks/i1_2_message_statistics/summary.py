@@ -10,7 +10,7 @@ from checks.i1_2_message_statistics.count import Fault, counts_truly, fails, tru
 from checks.i1_2_message_statistics.plans import FAST_HZ, FAST_MESSAGES
 from checks.i1_2_message_statistics.reading import labelled, parse_log
 from checks.i1_2_message_statistics.summaries import Summary, count_complete, find_summaries
-from checks.i1_2_message_statistics.trial import OURS, SUMMARY_EVERY, Trial
+from checks.i1_2_message_statistics.trial import OURS, SHOWN, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import LogRecord
 from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
@@ -34,7 +34,7 @@ def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
         f"{EXPECTED}, at {FAST_HZ:g} a second, too",
         f"of {len(fast.sent)} messages, none since message {losses.count_summarised(fast, steady)}",
         fast.seen(Symptom.NOT_LOGGED, fault="fewer-summaries"),
-        map(str, find_summaries(fast)),
+        map(str, find_summaries(fast)[:SHOWN]),
     )
 
 

@@ -24,6 +24,9 @@ OURS = TopicEndpoint(CHATTER.name, CHATTER.type, "/talker")
 SUMMARY_EVERY = 10
 """Number of messages after which the exercise asks for another summary."""
 
+SHOWN = 8
+"""The most log messages, or summaries, that are shown of a failing node."""
+
 LATE_S = 1.1
 """Time limit of a summary after its message: it may wait for a one-second timer, which is a common choice."""
 
@@ -154,4 +157,4 @@ class Trial:
     @property
     def last_words(self) -> list[str]:
         """The last log messages; without any, the end of what was printed."""
-        return [str(log) for log in self.trace.logs[-6:]] or list(output_tail(self.trace))
+        return [str(log) for log in self.trace.logs[-SHOWN:]] or list(output_tail(self.trace))
