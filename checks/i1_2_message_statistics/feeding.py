@@ -60,7 +60,7 @@ class Feed:
         return await (repeat_if_doubtful(self._run) if self.ctrl_c else self._run)(bench)
 
     async def _run(self, bench: Bench) -> Trial:
-        stretches = self.plan(await bench.facts(plans.choose))
+        stretches = await self.plan(bench)
         async with bench.start(PROGRAM.file, expected_s=self._expected_s(stretches)) as run, Talker(bench, run) as ours:
             await ours.wait_for_match(self.settled_s)
             trial = Trial(run.trace(), spins=ours.spins)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 
 from tutor.judge.bench import Bench
@@ -70,23 +70,24 @@ class Stretch:
     another_publisher: bool = False
 
 
-Plan = Callable[[Chosen], tuple[Stretch, ...]]
+Plan = Callable[[Bench], Awaitable[tuple[Stretch, ...]]]
 """The stretches that are sent one after the other; N rises by one within each, but not from one to the next."""
 
 
-def steadily(chosen: Chosen) -> tuple[Stretch, ...]:
+async def steadily(bench: Bench) -> tuple[Stretch, ...]:
     """N rises by one from 0, at a rate that no mistake gives."""
     return (Stretch(range(STEADY_MESSAGES), random.uniform(*STEADY_HZ)),)
 
 
-def fast(chosen: Chosen) -> tuple[Stretch, ...]:
+async def fast(bench: Bench) -> tuple[Stretch, ...]:
     """Messages come as fast as from a typical sensor for a short while."""
     first = random.randint(0, 50)
     return (Stretch(range(first, first + FAST_MESSAGES), FAST_HZ),)
 
 
-def jumping(chosen: Chosen) -> tuple[Stretch, ...]:
+async def jumping(bench: Bench) -> tuple[Stretch, ...]:
     """N starts high, and jumps over several numbers."""
+    chosen = await bench.facts(choose)
     after = chosen.first + JUMP_AFTER + chosen.left_out
     return (
         Stretch(range(chosen.first, chosen.first + JUMP_AFTER)),
@@ -94,21 +95,21 @@ def jumping(chosen: Chosen) -> tuple[Stretch, ...]:
     )
 
 
-def jumping_twice(chosen: Chosen) -> tuple[Stretch, ...]:
+async def jumping_twice(bench: Bench) -> tuple[Stretch, ...]:
     """The same, and ten messages later one more number is left out."""
-    before, after = jumping(chosen)
+    before, after = await jumping(bench)
     again = after.numbers[SECOND_JUMP_AFTER - JUMP_AFTER :]
     between = after.numbers[: SECOND_JUMP_AFTER - JUMP_AFTER]
     return before, Stretch(between), Stretch(range(again.start + 1, again.stop + 1))
 
 
-def jumping_after_zero(chosen: Chosen) -> tuple[Stretch, ...]:
+async def jumping_after_zero(bench: Bench) -> tuple[Stretch, ...]:
     """N is 0 in the first message, and jumps over several numbers right after it."""
-    after = chosen.left_out + 1
+    after = (await bench.facts(choose)).left_out + 1
     return Stretch(range(1)), Stretch(range(after, after + AFTER_ZERO_MESSAGES - 1))
 
 
-def starting_over(chosen: Chosen) -> tuple[Stretch, ...]:
+async def starting_over(bench: Bench) -> tuple[Stretch, ...]:
     """The publisher goes away, and another one starts over at 0, at another rate.
 
     The first N is low enough that the second publisher repeats numbers of the first: a node that takes those for

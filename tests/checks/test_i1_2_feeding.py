@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
 from checks.i1_2_message_statistics import plans
 from checks.i1_2_message_statistics.feeding import Talker
+from tutor.judge.bench import Bench
 
 
 class FakeRun:
@@ -71,6 +72,13 @@ async def test_a_message_that_was_late_is_caught_up_with_but_never_by_two_at_onc
     assert sum(spans) == pytest.approx(0.5)
 
 
+async def stretches_of(plan: plans.Plan) -> tuple[plans.Stretch, ...]:
+    async def facts(scenario: object) -> plans.Chosen:
+        return plans.Chosen(first=95, left_out=5)
+
+    return await plan(cast(Bench, SimpleNamespace(facts=facts)))
+
+
 @pytest.mark.parametrize(
     ("plan", "first_of_each", "messages"),
     [
@@ -80,13 +88,13 @@ async def test_a_message_that_was_late_is_caught_up_with_but_never_by_two_at_onc
         (plans.jumping_after_zero, [0, 6], 12),
     ],
 )
-def test_the_numbers_of_a_plan(plan: plans.Plan, first_of_each: list[int], messages: int) -> None:
-    stretches = plan(plans.Chosen(first=95, left_out=5))
+async def test_the_numbers_of_a_plan(plan: plans.Plan, first_of_each: list[int], messages: int) -> None:
+    stretches = await stretches_of(plan)
     assert [stretch.numbers[0] for stretch in stretches] == first_of_each
     assert sum(len(stretch.numbers) for stretch in stretches) == messages
 
 
-def test_a_new_publisher_repeats_numbers_of_the_first() -> None:
-    first, second = plans.starting_over(plans.Chosen(95, 5))
+async def test_a_new_publisher_repeats_numbers_of_the_first() -> None:
+    first, second = await stretches_of(plans.starting_over)
     assert set(first.numbers) & set(second.numbers)
     assert (len(first.numbers), len(second.numbers), second.another_publisher) == (13, 12, True)
