@@ -12,34 +12,30 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checks.i2_3 import CHECK
-from checks.i2_3.facts import (
-    SERVICE,
-    TYPE,
+from checks.i2_3_multi_threaded_service import CHECK
+from checks.i2_3_multi_threaded_service.calling import ConcurrentCalls, Interrupted
+from checks.i2_3_multi_threaded_service.calls import (
+    MAX_AT_ONCE_TRIES,
+    SLOW_ADD,
     Call,
     CallBatch,
-    ConcurrentCalls,
-    IdleRun,
-    Interrupted,
-    SingleCalls,
-    stops_timer,
+    needs_repeat_at_once,
 )
-from checks.i2_3.judges import (
+from checks.i2_3_multi_threaded_service.judges import (
     judge_blocks,
     judge_blocks_so_far,
     judge_concurrent,
     judge_concurrent_so_far,
     judge_idle_timer,
     judge_parallel,
-    judge_shutdown,
     judge_shutdown_busy,
     judge_timer,
     judge_timer_so_far,
 )
-from checks.i2_3.listening import logs_since
-from checks.i2_3.pace import Fault, measure_timer
-from checks.i2_3.repeats import MAX_AT_ONCE_TRIES, MAX_TRIES, TRIES, needs_repeat, needs_repeat_at_once
-from checks.i2_3.ticks import Series, all_series, timer_series
+from checks.i2_3_multi_threaded_service.listening import IdleRun, logs_since
+from checks.i2_3_multi_threaded_service.pace import MAX_TRIES, TRIES, Fault, Watch, measure_timer
+from checks.i2_3_multi_threaded_service.single_calls import SingleCalls
+from checks.i2_3_multi_threaded_service.timer_logs import Series, all_series, timer_series
 from tests.checks import builders
 from tests.checks.builders import (
     CRASHED,
@@ -54,6 +50,7 @@ from tests.checks.builders import (
     exited,
     frame,
     graph,
+    judge_of,
     lines,
     trace,
 )
@@ -61,6 +58,9 @@ from tutor.judge.trace import CallAnswer, LogRecord
 from tutor.judge.verdict import Status, Verdict
 
 assert_failed = partial(builders.assert_failed, check=CHECK)
+judge_shutdown = judge_of(CHECK, "shutdown")
+
+SERVICE, TYPE = SLOW_ADD.name, SLOW_ADD.type
 
 SERVING = graph(services={SERVICE: TYPE})
 CALLED_AT = START + 0.3
@@ -167,7 +167,7 @@ def test_one_late_call_on_a_calm_machine_is_enough_to_fail() -> None:
 def calls_made(each: Call, logs: Sequence[LogRecord] = (), *, most: int = MAX_TRIES, calm_at: int = 99) -> int:
     """The number of calls made, if each is like this one; from number `calm_at` on, the machine is calm."""
     made: list[Call] = []
-    while not made or needs_repeat(logs, made, series_in(tick_logs(every=1)), most):
+    while not made or Watch(logs, series_in(tick_logs(every=1))).needs_repeat(made, most):
         made.append(each if len(made) + 1 < calm_at else replace(each, cpu_wait_s=0.0))
     return len(made)
 
@@ -185,9 +185,9 @@ def test_a_timer_that_stops_for_the_whole_call_needs_no_repetition_unless_the_ma
 def test_a_slow_series_shows_no_stop_within_a_call() -> None:
     (call,) = single_calls().calls
     slow = series_in(tick_logs(every=20, until_s=9.0))
-    assert not stops_timer([], call, slow)
-    assert stops_timer([], call, series_in(tick_logs()))
-    assert not stops_timer([], call, ())
+    assert not Watch([], slow).is_stopped(call)
+    assert Watch([], series_in(tick_logs())).is_stopped(call)
+    assert not Watch([], ()).is_stopped(call)
 
 
 def test_calls_are_repeated_until_one_is_conclusive() -> None:
@@ -539,7 +539,7 @@ def test_a_timer_is_not_judged_without_a_call() -> None:
 def test_timestamps_are_not_tick_numbers() -> None:
     (series,) = series_in(tick_logs(lambda n: f"{n * 100_000_000} ns", every=1))
     assert not series.numbered
-    assert measure_timer(series, [], START, START + 3, until=START + 4, cpu_wait_s=0).fault is Fault.GAP
+    assert measure_timer(series, [], Call(answer(3.0, asked_at=START), START + 4)).fault is Fault.GAP
 
 
 def concurrent(
@@ -638,13 +638,14 @@ def two_at_a_time(cpu_wait_s: float) -> ConcurrentCalls:
 )
 def test_concurrent_calls_are_repeated_until_conclusive(cpu_wait_s: Sequence[float], times: int) -> None:
     made = tuple(batch for each in cpu_wait_s for batch in two_at_a_time(each).batches)
-    repeated = [needs_repeat_at_once(ConcurrentCalls(trace(graph=SERVING), made[:n])) for n in range(1, len(made) + 1)]
+    repeated = [needs_repeat_at_once(made[:n]) for n in range(1, len(made) + 1)]
     assert repeated == [True] * (times - 1) + [False]
     good = concurrent(1005, 2005, 3005, cpu_wait_s=3.0)
     serial = concurrent(1005, 2005, 3005, took_s=(3, 6, 9), cpu_wait_s=3.0)
-    assert not needs_repeat_at_once(good)
-    assert not needs_repeat_at_once(serial)
-    assert not needs_repeat_at_once(concurrent(1005, None, 3005, took_s=(3.0, 3.0, 6.0), cpu_wait_s=3.0))
+    assert not needs_repeat_at_once(good.batches)
+    assert not needs_repeat_at_once(serial.batches)
+    lost = concurrent(1005, None, 3005, took_s=(3.0, 3.0, 6.0), cpu_wait_s=3.0)
+    assert not needs_repeat_at_once(lost.batches)
 
 
 def test_shutdown() -> None:

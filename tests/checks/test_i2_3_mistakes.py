@@ -8,11 +8,20 @@ from pathlib import Path
 
 import pytest
 
-from checks.i2_3 import CHECK
-from checks.i2_3.facts import SERVICE, CallBatch, ConcurrentCalls, IdleRun, SingleCalls, right_sum
-from checks.i2_3.pace import Fault, TimerPace
-from checks.i2_3.symptoms import disturbed_timer, lost_calls, no_answer, other_pace, waiting_calls, wrong_sum
-from tests.checks.test_i2_3 import EXECUTING, SERVING, answer, series_in, tick_logs
+from checks.i2_3_multi_threaded_service import CHECK
+from checks.i2_3_multi_threaded_service.calls import CallBatch, right_sum
+from checks.i2_3_multi_threaded_service.judges import (
+    disturbed_timer,
+    lost_calls,
+    no_answer,
+    other_pace,
+    waiting_calls,
+    wrong_answer,
+)
+from checks.i2_3_multi_threaded_service.listening import IdleRun
+from checks.i2_3_multi_threaded_service.pace import Fault, TimerPace
+from checks.i2_3_multi_threaded_service.single_calls import SingleCalls
+from tests.checks.test_i2_3 import EXECUTING, SERVICE, SERVING, answer, series_in, tick_logs
 from tutor.judge.symptom import Observation
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
@@ -38,7 +47,7 @@ def stops(trace: Trace, *, pool: bool = True, fault: Fault = Fault.GAP, pause_s:
     code = trace.sources[FILE].splitlines()
     line = next((number for number, text in enumerate(code, 1) if "sleep(" in text), 1)
     stuck = (Frame(f"{FOLDER}/{FILE}", line, "slow_add", code[line - 1].strip()), EXECUTING, *([IN_POOL] * pool))
-    pace = TimerPace(9 if pause_s < 3 else 0, 30.0, 3.0, pause_s, None, fault)
+    pace = TimerPace(9 if pause_s < 3 else 0, 3.0, pause_s, None, fault)
     return disturbed_timer(SingleCalls(trace, stuck=stuck), pace)
 
 
@@ -60,13 +69,13 @@ def stays_silent(trace: Trace) -> Observation:
 
 
 def adds_wrongly(sum_: int, trace: Trace) -> Observation:
-    return wrong_sum(answer(sum_=sum_), trace)
+    return wrong_answer(answer(sum_=sum_), trace)
 
 
 def mixes_up(trace: Trace) -> Observation:
     sums = [answer(sum_=sum_) for sum_ in (8, 8, 9)]
     assert right_sum(sums[0]) == 8
-    return lost_calls(trace, ConcurrentCalls(trace, (CallBatch(tuple(sums)),)).batches[0])
+    return lost_calls(trace, CallBatch(tuple(sums)))
 
 
 one_after_the_other, two_at_once = partial(calls_take, 3.0), partial(calls_take, 2.0)

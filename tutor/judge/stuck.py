@@ -10,6 +10,7 @@ from typing import Self
 
 from tutor.judge import tracebacks
 from tutor.judge.bench import Run
+from tutor.judge.tasks import Tasks
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.ros_model import Parameter
@@ -70,16 +71,12 @@ async def ask_unless_stuck(run: Run, limit_s: float, look: Look) -> tuple[tuple[
     `look` is called if the answer takes longer than that of a spinning node, and the answer is not waited for once the
     stack shows that none will come.
     """
-    asked = asyncio.ensure_future(run.parameters(limit_s))
-    try:
-        async with StuckTest(run, look) as test:
-            if not await run.until(asked.done, SLOW_ANSWER_S):
-                test.start()
-            await run.until(lambda: asked.done() or test.is_stuck(), inf)
-            return (None, True) if test.is_stuck() else (await asked, False)
-    finally:
-        asked.cancel()
-        await asyncio.gather(asked, return_exceptions=True)
+    async with Tasks() as tasks, StuckTest(run, look) as test:
+        asked = tasks.start(run.parameters(limit_s))
+        if not await run.until(asked.done, SLOW_ANSWER_S):
+            test.start()
+        await run.until(lambda: asked.done() or test.is_stuck(), inf)
+        return (None, True) if test.is_stuck() else (await asked, False)
 
 
 def waits_for_ever(trace: Trace, stuck: Sequence[Frame]) -> bool:

@@ -39,6 +39,7 @@ from tutor.mistakes.themes import parameter_effects as parameter_effects
 from tutor.mistakes.themes import timer_delays as timer_delays
 from tutor.mistakes.themes import replaced_timers as replaced_timers
 from tutor.mistakes.themes import timers as timers
+from tutor.mistakes.themes import timer_paces as timer_paces
 from tutor.mistakes.themes import parameter_declarations as parameter_declarations
 from tutor.mistakes.themes import parameter_values as parameter_values
 from tutor.mistakes.themes import parameter_refusals as parameter_refusals

@@ -21,7 +21,8 @@ def offering(name: str, type: str = "std_srvs/srv/Trigger", **qos: str) -> Graph
     return Graph(("/node",), servers=(ServiceEndpoint(name, type, "/node", **qos),))
 
 
-def _offered(case: Case) -> list[ServiceEndpoint]:
+def services_of(case: Case) -> list[ServiceEndpoint]:
+    """The services that the program offers, apart from those that every node has."""
     return [server for server in case.trace.graph.servers if not server.is_standard]
 
 
@@ -66,7 +67,7 @@ def wrong_type(case: Case) -> Iterator[Found]:
     See it: `ros2 service list -t`.
     """
     service, wanted = case.about("service"), case.about("type")
-    for server in _offered(case):
+    for server in services_of(case):
         if server.name == service and wanted is not None and server.type != wanted:
             yield found_service(case, service, service=service, given=server.type, wanted=wanted)
 
@@ -140,7 +141,7 @@ def wrong_name(case: Case) -> Iterator[Found]:
     taken = set(case.about("services", ()))
     if service is None or any(server.name == service for server in case.trace.graph.servers):
         return
-    offered = [server for server in _offered(case) if server.name not in taken]
+    offered = [server for server in services_of(case) if server.name not in taken]
     same = [server for server in offered if wanted_type is None or server.type == wanted_type]
     names = sorted({server.name for server in same or offered})
     if len(taken) > 1:  # one of several services: another one of a name that has nothing to do with it is not meant

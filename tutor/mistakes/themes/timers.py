@@ -18,6 +18,43 @@ _TOO_FEW = (Symptom.NO_MESSAGES, Symptom.WRONG_RATE, Symptom.STANDS_STILL, Sympt
 
 
 @mistake(
+    "timer-for-each-call",
+    explains=[Symptom.STANDS_STILL],
+    says="{line} makes one more timer in each call, and all of them tick from then on: {code}",
+    do="Make the timer once, where the node is set up.",
+)
+def timer_for_each_call(case: Case) -> Iterator[Found]:
+    """A service's callback makes a timer that nothing ends.
+
+    A timer runs until it is cancelled. One that is made anew in each call adds its ticks to those of all before it.
+
+    Bad:
+
+        def __init__(self):
+            self.create_service(Trigger, 'ring', self.ring)
+
+        def ring(self, request, response):
+            self.create_timer(1.0, self.blink)
+            return response
+
+    Good:
+
+        def __init__(self):
+            self.create_service(Trigger, 'ring', self.ring)
+            self.create_timer(1.0, self.blink)
+
+        def ring(self, request, response):
+            return response
+
+    See it: the time stamps of the log, after one call and after two.
+    """
+    for file in case.files:
+        inside = file.callbacks("create_service")
+        if not any(file.function_around(call) in inside for call in file.calls("cancel", "destroy_timer", "destroy")):
+            yield from (found(file, timer) for timer in file.timers if file.function_around(timer) in inside)
+
+
+@mistake(
     "two-timers",
     explains=(*_TOO_MANY, Symptom.STANDS_STILL),
     says="{line} makes a timer, and line {other} another with the same callback, so both call it",

@@ -9,8 +9,8 @@ from tutor.judge.symptom import Symptom
 from tutor.judge.trace import CallAnswer
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.services import place_of
-from tutor.source import argument, calls_in
+from tutor.mistakes.themes.services import place_of, services_of
+from tutor.source import argument, calls_in, last_name
 
 
 @mistake(
@@ -140,3 +140,85 @@ def shared_state(case: Case) -> Iterator[Found]:
     """
     if case.about("shared"):
         yield Found()
+
+
+@mistake(
+    "wrong-duration",
+    explains=[Symptom.WRONG_ANSWER],
+    evidence=Evidence.SYMPTOM,
+    says="the answer comes after {took_s:.1f} s, not after {wanted_s:g} s{where}",
+    do="Look at how long the callback works before it answers, and in which unit that is.",
+    example=in_run(Symptom.WRONG_ANSWER, took_s=1.0, wanted_s=5.0),
+)
+def wrong_duration(case: Case) -> Iterator[Found]:
+    """A callback takes longer, or less long, than it should.
+
+    time.sleep() takes seconds. The wait() of an Event that is already set returns at once; a loop of short sleeps takes
+    a little longer than their sum.
+
+    Bad:
+
+        time.sleep(500)
+
+    Good:
+
+        time.sleep(0.5)
+
+    See it: `time ros2 service call …`.
+    """
+    if case.about("took_s") is None:
+        return
+    words = {"took_s": case.about("took_s"), "wanted_s": case.about("wanted_s")}
+    waits = [
+        (file, call)
+        for file in case.files
+        for function in file.callbacks("create_service")
+        for call in calls_in(function, "sleep", "wait")
+    ]
+    if len(waits) == 1:
+        file, call = waits[0]
+        yield found(file, call, where=f"; {case.place(file.name, call.lineno)}: {file.line(call.lineno)}", **words)
+    yield Found({**words, "where": ""})
+
+
+@mistake(
+    "wrong-sum",
+    explains=[Symptom.WRONG_ANSWER],
+    evidence=Evidence.SYMPTOM,
+    says="{seen}; see {line}: {code}",
+    do="{step}",
+    example=in_run(
+        Symptom.WRONG_ANSWER,
+        answer=CallAnswer("/count", {"a": 2, "b": 5}, {"sum": 10}, 0.0, 0.1),
+        wanted=7,
+        says="10 instead of 7",
+        do="Count again.",
+    ),
+)
+def wrong_sum(case: Case) -> Iterator[Found]:
+    """What a callback puts into the response is wrong.
+
+    A response holds what the callback puts into its fields. Whole numbers in a request are Python's own integers, which
+    are as long as they need to be: neither a float nor a narrower type is needed in between.
+
+    Bad:
+
+        response.sum = 10
+
+    Good:
+
+        response.sum = request.a + request.b
+
+    See it: `ros2 service call`, with small numbers and with large ones.
+    """
+    answer = case.about("answer")
+    if answer is None or not (answer.response or {}).get("sum") or len(services_of(case)) > 1:
+        return  # where several services put their results, the place is not what makes one of them wrong
+    places = [
+        (file, node)
+        for file in case.files
+        for node in file.nodes
+        if isinstance(node, ast.Assign) and any(last_name(target) == "sum" for target in node.targets)
+    ]
+    if len(places) == 1:
+        yield found(*places[0], seen=case.seen.says, step=case.seen.do)
