@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[2]
 FILE = ROOT / "docs/forms.md"
 COMMAND = "./.ci/uv run python -m tests.exercise.docs"
 
-NOUNS = ("Program", "Topic", "Parameter", "ShownIn", "SetsRate", "SwitchesOff", "Service")
+NOUNS = ("Program", "Topic", "Parameter", "ShownIn", "SetsRate", "SwitchesOff", "Service", "Action")
 
 
 def document() -> str:

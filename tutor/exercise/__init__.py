@@ -22,13 +22,15 @@ from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.defaults import Defaults
 from tutor.exercise.ends_cleanly import EndsCleanly
 from tutor.exercise.form import Custom, Form, check
+from tutor.exercise.handles_goal import HandlesGoal
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
-from tutor.exercise.nouns import Parameter, Program, Service, SetsRate, ShownIn, SwitchesOff, Topic
-from tutor.exercise.publishes import Contains, Publishes, ShownByEcho
+from tutor.exercise.nouns import Action, Parameter, Program, Service, SetsRate, ShownIn, SwitchesOff, Topic
+from tutor.exercise.publishes import AtLeast, Contains, FieldEquals, Publishes, ShownByEcho
 from tutor.exercise.rate_at_run_time import RateAtRunTime
 from tutor.exercise.rate_at_start import RateAtStart
+from tutor.exercise.receives import Receives
 from tutor.exercise.rejects import Rejects, RejectsAtomically
 from tutor.exercise.running_node import Fields, Node
 from tutor.exercise.script import criterion
@@ -37,20 +39,26 @@ from tutor.exercise.service_calls import Question
 from tutor.exercise.set_at_run_time import SetAtRunTime
 from tutor.exercise.set_at_start import SetAtStart
 from tutor.exercise.survives_bad_call import SurvivesBadCall
+from tutor.exercise.watching import LogsText
 from tutor.exercise.words import SAYS_ERROR
 
 __all__ = [
     "SAYS_ERROR",
+    "Action",
     "Answers",
+    "AtLeast",
     "CallsAll",
     "Contains",
     "Custom",
     "Defaults",
     "EndsCleanly",
+    "FieldEquals",
     "Fields",
     "Form",
+    "HandlesGoal",
     "InRange",
     "LogsParameter",
+    "LogsText",
     "NamesBadValue",
     "Node",
     "OtherUnit",
@@ -60,6 +68,7 @@ __all__ = [
     "Question",
     "RateAtRunTime",
     "RateAtStart",
+    "Receives",
     "Rejects",
     "RejectsAtomically",
     "Serves",

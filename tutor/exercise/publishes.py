@@ -1,18 +1,26 @@
-"""Forms about messages of a plain start: that they go on arriving, that echo shows them, what is in them."""
+"""Forms about messages of a plain start: that they go on arriving, that echo shows them, how many, what is in them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Topic
 from tutor.exercise.publishing import NOT_STARTED, PublishingRun, PublishingStart
+from tutor.exercise.seen import Seen, fits
+from tutor.exercise.watching import Watching
+from tutor.judge.bench import Run
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
-from tutor.judge.trace import Trace
+from tutor.judge.trace import Sample, Trace
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.wording import output_tail
+from tutor.judge.waiting import IDLE_S, IN_FLIGHT_S, wait_for_message
+from tutor.judge.wording import counted, output_tail
+
+SHOWN = 3
+"""How many messages are shown as evidence."""
 
 
 def stopped(trace: Trace | None, topic: Topic) -> Observation:
@@ -130,3 +138,128 @@ class Contains(Form):
         if isinstance(self.wanted, str):
             return self.wanted.casefold() in str(value).casefold()
         return bool(value == self.wanted)
+
+
+@dataclass(frozen=True)
+class AtLeast(Watching):
+    """At least so many messages arrive on a topic within a time, counted from the first one.
+
+    `messages`: how many, the first one included. `within_s`: the time in seconds, to which a busy machine may add.
+    A message or two that the node sends at once at its start may not reach anyone: ask for it of a topic that goes on.
+
+        AtLeast("often", SCAN, 20, within_s=5)
+    """
+
+    topic: Topic
+    messages: int
+
+    @property
+    def watched(self) -> dict[str, str]:
+        return self.topic.watched
+
+    async def watch(self, run: Run) -> bool:
+        return await watch_messages(run, self.topic, self.within_s, lambda: len(self._samples(run)) >= self.messages)
+
+    def judge_seen(self, seen: Seen) -> Verdict:
+        expected = f"at least {self.messages} messages on {self.topic.name} within {self.within_s:g} s"
+        samples = self._samples(seen.trace)
+        if not samples:
+            return no_message(expected, seen, self.topic)
+        limit_s = self.within_s + seen.cpu_wait_s
+        counted_in = [each for each in samples if each.source_time - samples[0].source_time <= limit_s]
+        took_s = counted_in[-1].source_time - samples[0].source_time
+        observed = f"{counted(len(counted_in), 'message')} in {max(took_s, 0.0):.1f} s"
+        evidence = [self.topic.show(each) for each in counted_in[:SHOWN]]
+        if len(counted_in) >= self.messages:
+            return passed(expected, observed, evidence)
+        few = seen.symptom(
+            Symptom.NO_MESSAGES,
+            topic=self.topic.name,
+            type=self.topic.type,
+            some=True,
+            says=f"only {counted(len(counted_in), 'message')} came on {self.topic.name} within {self.within_s:g} s",
+            do="Publish from a timer that is fast enough, and let nothing hold it up.",
+        )
+        return failed(expected, observed, few, evidence)
+
+    def _samples(self, seen: Run | Trace) -> list[Sample]:
+        return list(seen.samples_on(self.topic.name))
+
+
+@dataclass(frozen=True)
+class FieldEquals(Watching):
+    """The topic's field has a value: in some message, or in every one.
+
+    `wanted`: the value, or a function that says whether a value is right; then `what` says in words what it must be.
+    A float is compared as nearly as 32 bits hold it. `every`: judge every message of the time `within_s`, in seconds
+    from the first one on; otherwise, one within that time is enough. `says` and `do`: what the learner is told.
+
+        FieldEquals("even", COUNT, lambda count: count % 2 == 0, what="even", every=True)
+
+    Raises ValueError for a function without `what`.
+    """
+
+    topic: Topic
+    wanted: Any = field(hash=False)
+    what: str = ""
+    every: bool = False
+    says: str = ""
+    do: str = ""
+
+    def __post_init__(self) -> None:
+        if callable(self.wanted) and not self.what:
+            raise ValueError(f"{self.id}: say in words what the value must be: what=...")
+
+    @property
+    def watched(self) -> dict[str, str]:
+        return self.topic.watched
+
+    async def watch(self, run: Run) -> bool:
+        return await watch_messages(run, self.topic, self.within_s, lambda: self._deciding(run) is not None)
+
+    def judge_seen(self, seen: Seen) -> Verdict:
+        topic, what = self.topic, self.what or repr(self.wanted)
+        some = "every message" if self.every else "a message"
+        expected = f"{some} on {topic.name} has {what} in {topic.field}"
+        samples = seen.trace.samples_on(topic.name)
+        if not samples:
+            return no_message(expected, seen, topic)
+        deciding = self._deciding(seen.trace)
+        if (deciding is not None) != self.every:
+            observed = topic.show(deciding) if deciding else f"all of {counted(len(samples), 'message')}"
+            return passed(expected, observed, [topic.show(each) for each in samples[:SHOWN]])
+        other = deciding or samples[0]
+        wrong = seen.symptom(
+            Symptom.WRONG_VALUES,
+            topic=topic.name,
+            text=str(topic.value(other)),
+            says=self.says or f"{topic.field} is {topic.value(other)!r}, not {what}",
+            do=self.do or f"Look at what the node puts into {topic.field} before it publishes.",
+        )
+        observed = topic.show(other) if deciding else f"in none of {counted(len(samples), 'message')}"
+        return failed(expected, observed, wrong, [topic.show(each) for each in samples[:SHOWN]])
+
+    def _deciding(self, seen: Run | Trace) -> Sample | None:
+        """The first message that decides: one that is wrong, if every one must be right, or else one that is right."""
+        samples = seen.samples_on(self.topic.name)
+        return next((each for each in samples if fits(self.wanted, self.topic.value(each)) != self.every), None)
+
+
+async def watch_messages(run: Run, topic: Topic, within_s: float, decided: Callable[[], bool]) -> bool:
+    """Wait until it is decided, or the time since the first message is over; return whether there is a message."""
+    if not await wait_for_message(run, topic.name, topic.type):
+        return False
+    first, late_s = run.samples_on(topic.name)[0], run.our_cpu_wait_s() + run.node_cpu_wait_s()
+
+    def is_over() -> bool:
+        waited_s = run.our_cpu_wait_s() + run.node_cpu_wait_s() - late_s
+        return run.now() >= first.source_time + within_s + IN_FLIGHT_S + waited_s
+
+    await run.until(lambda: decided() or is_over(), within_s + 1.0, idle_s=IDLE_S)
+    return True
+
+
+def no_message(expected: str, seen: Seen, topic: Topic) -> Verdict:
+    """Fail since no message came at all."""
+    missing = seen.symptom(Symptom.NO_MESSAGES, topic=topic.name, type=topic.type)
+    return failed(expected, "no such message arrived", missing, output_tail(seen.trace))

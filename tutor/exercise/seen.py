@@ -1,0 +1,65 @@
+"""What one criterion sees of a run, and how it looks once more at a node that did not do what was waited for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from tutor.exercise.nouns import Program, agrees
+from tutor.exercise.parameters import DumpSilentNode
+from tutor.judge.bench import Bench, Run
+from tutor.judge.symptom import Observation, Symptom
+from tutor.judge.trace import Trace
+from tutor.judge.tracebacks import Frame
+from tutor.judge.waiting import HARDLY_WAITED_SHARE
+
+SPIN_S = 2.0
+"""A node that spins answers a parameter request within this time."""
+
+MATCH_S = 0.4
+"""Time after which both ends know of each other, once one of them does: what is sent before may be lost."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A run, as far as a criterion looks at it.
+
+    `answers`: whether the node has shown that it spins, or need not. `stuck`: the stack, innermost frame first, of
+    another start of a node that does nothing. `slowed`: the node waited for a CPU, so that a failure may be the
+    machine's; `cpu_wait_s`: for how long.
+    """
+
+    trace: Trace
+    answers: bool = True
+    stuck: tuple[Frame, ...] = ()
+    slowed: bool = False
+    cpu_wait_s: float = 0.0
+
+    def symptom(self, kind: Symptom, **about: Any) -> Observation:
+        """An observation of this symptom in the run."""
+        return kind.seen(self.trace, stuck=self.stuck, answers=self.answers, **about)
+
+
+def was_slowed(run: Run) -> bool:
+    """Whether the node has waited for a CPU so much that what it did or left may be the machine's fault."""
+    return run.node_cpu_wait_s() >= HARDLY_WAITED_SHARE * (run.now() - run.started_at)
+
+
+async def look(bench: Bench, run: Run, program: Program, *, does_nothing: bool = False) -> Seen:
+    """What is seen now; of a node that `does_nothing`, also whether it answers, and if not, where it is stuck."""
+    answers = not does_nothing or await run.parameters(SPIN_S) is not None
+    trace = run.trace()
+    silent = not answers and trace.exit is None and bool(trace.graph.nodes)
+    stuck = await bench.facts(DumpSilentNode(program)) if silent else ()
+    return Seen(trace, answers, stuck, was_slowed(run), run.node_cpu_wait_s())
+
+
+async def settle(run: Run) -> None:
+    """Wait until the other end of an endpoint of ours, which knows of it already, is known to the node as well."""
+    until = run.now() + MATCH_S
+    await run.until(lambda: run.now() >= until, MATCH_S)
+
+
+def fits(wanted: Any, value: Any) -> bool:
+    """Whether a value is the wanted one, or meets it, if it is a function."""
+    return bool(wanted(value)) if callable(wanted) else agrees(value, wanted)
