@@ -12,16 +12,16 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from tutor.exercise.form import Exercise, Form
-from tutor.exercise.nouns import Program, Topic
+from tutor.exercise.nouns import Program
 from tutor.exercise.publishing import cancel
-from tutor.exercise.seen import Seen, fits, look
+from tutor.exercise.seen import Seen, look
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
 from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.symptom import Symptom
-from tutor.judge.trace import Ending, Level, LogRecord, Sample, Trace
+from tutor.judge.trace import Ending, Level, LogRecord, Trace
 from tutor.judge.verdict import Status, Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, IN_FLIGHT_S, wait_for_message, wait_until_seen
+from tutor.judge.waiting import IDLE_S, wait_until_seen
 from tutor.judge.wording import counted, output_tail
 
 LOG_DELAY_S = 0.5

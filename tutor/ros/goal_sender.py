@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from rclpy.action import ActionClient
+from rclpy.action.client import ActionClient
 
 from tutor.judge.trace import GoalAnswer, Sample
 from tutor.ros.messages import interface_class, set_fields, to_plain

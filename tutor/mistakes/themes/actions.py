@@ -38,9 +38,9 @@ def action_missing(case: Case) -> Iterator[Found]:
 def wrong_goal(case: Case) -> Iterator[Found]:
     """An action server handles a goal, but not as it should.
 
-    How a goal ends is what the callback calls on its handle before it returns: succeed(), abort() or canceled(). Without
-    any, it counts as aborted. The result is what the callback returns. A goal can be canceled only if a cancel_callback
-    accepts that, and if the callback looks at is_cancel_requested.
+    How a goal ends is what the callback calls on its handle before it returns: succeed(), abort() or canceled().
+    Without any, it counts as aborted. The result is what the callback returns. A goal can be canceled only if a
+    cancel_callback accepts that, and if the callback looks at is_cancel_requested.
 
     Bad:
 
