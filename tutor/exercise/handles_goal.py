@@ -166,7 +166,7 @@ class HandlesGoal(Form):
         if answer.accepted is None or (not outcome and self.ends != "rejected"):
             return unanswered(self.action, seen, answer, self.within_s)
         if outcome != self.ends:
-            ended = f"it is {outcome}" if outcome else "it is accepted"
+            ended = "it is accepted" if self.ends == "rejected" else f"it is {outcome}"
             accept = "Let the goal_callback return GoalResponse.ACCEPT for it."
             return wrong(f"{ended}, not {self.ends}", accept if outcome == "rejected" else _STEPS[self.ends])
         if len(answer.feedback) < self.feedback:
