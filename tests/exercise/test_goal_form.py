@@ -10,12 +10,11 @@ import pytest
 from tests.checks.builders import NO_NODE, assert_failed, assert_passed, graph, judge_of, trace
 from tutor.exercise import Action, HandlesGoal, Program, check
 from tutor.exercise.handles_goal import GoalRun, Outcome
-from tutor.exercise.seen import Seen
 from tutor.judge.trace import GoalAnswer, Sample
 
 COUNT = Action("/count", "example_interfaces/action/Fibonacci")
 FEEDBACK = (Sample("/count", {"sequence": [0, 1]}, 1001.0, 1001.0),)
-SERVED = Seen(trace(graph=graph(services={"/count/_action/send_goal": f"{COUNT.type}_SendGoal"})))
+SERVED = trace(graph=graph(services={"/count/_action/send_goal": f"{COUNT.type}_SendGoal"}))
 DONE = GoalAnswer(True, FEEDBACK, None, "succeeded", {"sequence": [0, 1, 1]})
 CANCELED = GoalAnswer(True, FEEDBACK, True, "canceled", {"sequence": [0, 1]})
 RUNNING = GoalAnswer(True, FEEDBACK)
@@ -48,7 +47,7 @@ def test_a_goal_ends_as_it_should(ends: Outcome, answer: GoalAnswer, cause: str,
     if ends == "succeeded":
         wanted["result"] = {"sequence": [0, 1, 1]}
     made = check("t1", Program("node.py"), HandlesGoal("counts", COUNT, {"order": 2}, ends, **wanted))
-    verdict = judge_of(made, "counts")(GoalRun(SERVED, answer))
+    verdict = judge_of(made, "counts")(GoalRun(SERVED, answer=answer))
     if cause:
         assert_failed(verdict, cause, words, check=made)
     else:
@@ -59,9 +58,9 @@ def test_a_missing_server_is_told_with_those_that_are_there() -> None:
     made = check("t1", Program("node.py"), HandlesGoal("counts", COUNT, {"order": 2}))
     judge = judge_of(made, "counts")
     other = trace(graph=graph(services={"/counter/_action/send_goal": f"{COUNT.type}_SendGoal"}))
-    assert_failed(judge(GoalRun(Seen(other))), "action missing", f"/counter of type {COUNT.type}", check=made)
-    assert_failed(judge(GoalRun(Seen(trace()))), "action missing", "has no action server /count", check=made)
-    assert_failed(judge(GoalRun(Seen(NO_NODE))), "no node", check=made)
+    assert_failed(judge(GoalRun(other)), "action missing", f"/counter of type {COUNT.type}", check=made)
+    assert_failed(judge(GoalRun(trace())), "action missing", "has no action server /count", check=made)
+    assert_failed(judge(GoalRun(NO_NODE)), "no node", check=made)
 
 
 def test_an_unknown_end_or_type_is_the_authors_mistake() -> None:

@@ -156,11 +156,11 @@ def test_a_log_message_says_a_value(text: str, wanted: object, is_it: bool) -> N
 def test_what_is_sent_is_shown() -> None:
     made = check("t1", ROBOT, Receives("hears", COMMAND, (1.5, 2.5), becomes=lambda value: 2 * value))
     listens = replace(graph(), subscriptions=(TopicEndpoint(COMMAND.name, COMMAND.type, "/node"),))
-    judge, up = judge_of(made, "hears"), Seen(trace(logs=[log("3.0")], graph=listens))
-    assert_passed(judge(Reception(up, 2, ("3.0", "5.0"), OURS)))
-    assert_failed(judge(Reception(up, 2, ("3.0",), OURS)), "nothing received", "2.5", "5.0", check=made)
-    assert_failed(judge(Reception(Seen(trace()), None, (), OURS)), "no subscription", "/command", check=made)
-    assert_failed(judge(Reception(Seen(NO_NODE), None, (), OURS)), "no node", check=made)
+    judge, up = judge_of(made, "hears"), trace(logs=[log("3.0")], graph=listens)
+    assert_passed(judge(Reception(up, shown=("3.0", "5.0"), ours=OURS)))
+    assert_failed(judge(Reception(up, shown=("3.0",), ours=OURS)), "nothing received", "2.5", "5.0", check=made)
+    assert_failed(judge(Reception(trace(), subscribed=False, ours=OURS)), "no subscription", "/command", check=made)
+    assert_failed(judge(Reception(NO_NODE, subscribed=False, ours=OURS)), "no node", check=made)
     assert COMMAND.message(1.5) == {"linear": {"x": 1.5}}
 
 

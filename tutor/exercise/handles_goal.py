@@ -32,16 +32,10 @@ _STEPS = {
 
 
 @dataclass(frozen=True)
-class GoalRun:
+class GoalRun(Seen):
     """What became of a goal that we sent. `answer`: None if there was no action server."""
 
-    seen: Seen
     answer: GoalAnswer | None = None
-
-    @property
-    def slowed(self) -> bool:
-        """Whether the machine may have kept the node from handling the goal."""
-        return self.seen.slowed
 
 
 async def wait_for_server(run: Run, action: Action, client: GoalClient) -> bool:
@@ -98,13 +92,14 @@ class SendGoal:
         ):
             bench.report_progress(0.1, f"waiting for the action server of {action.name}")
             if not await wait_for_server(run, action, client):
-                return GoalRun(await look(bench, run, self.program, does_nothing=True))
+                return await look(run, does_nothing=True, make=GoalRun)
             bench.report_progress(0.4, f"sending a goal to {action.name}")
             await pursue(run, client, self.goal, self.feedback if self.cancel else None, self.within_s)
             # Feedback and result come on different ways: the last feedback may come after the result.
             await run.until(lambda: len(client.seen.feedback) >= self.feedback, IDLE_S)
             answer = client.seen
-            return GoalRun(await look(bench, run, self.program, does_nothing=not answer.accepted), answer)
+            idle = not answer.accepted
+            return await look(run, does_nothing=idle, make=GoalRun, answer=answer)
 
 
 @dataclass(frozen=True)
@@ -143,11 +138,11 @@ class HandlesGoal(Form):
         parts += [f"after {counted(self.feedback, 'feedback message')}"] if self.feedback else []
         parts += [f"with {dict(self.result)}"] if self.result else []
         expected = " ".join(parts)
-        tail = output_tail(found.seen.trace)
+        tail = output_tail(found.trace)
         if answer is None:
-            return failed(expected, f"{action.name} has no action server", action_missing(action, found.seen), tail)
+            return failed(expected, f"{action.name} has no action server", action_missing(action, found), tail)
         trail = [str(dict(each.message)) for each in answer.feedback[:3]]
-        observed, why = self._what_is_wrong(found.seen, answer)
+        observed, why = self._what_is_wrong(found, answer)
         if why is not None:
             return failed(expected, observed, why, [*trail, *tail])
         return passed(expected, observed, trail)

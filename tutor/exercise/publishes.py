@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from abc import abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -26,6 +27,13 @@ SHOWN = 3
 def stopped(trace: Trace | None, topic: Topic) -> Observation:
     """The messages do not go on arriving."""
     return Symptom.NO_MESSAGES.seen(trace or NOT_STARTED, topic=topic.name, type=topic.type, some=True)
+
+
+def wrong_value(trace: Trace, topic: Topic, sample: Sample, says: str, do: str) -> Observation:
+    """A message has another value than it should; `do`: the next step, if there is a better one than to look."""
+    do = do or f"Look at what the node puts into {topic.field} before it publishes."
+    text = str(topic.value(sample))
+    return Symptom.WRONG_VALUES.seen(trace, topic=topic.name, text=text, says=says, do=do)
 
 
 @dataclass(frozen=True)
@@ -125,13 +133,8 @@ class Contains(Form):
         if found is not None:
             return passed(expected, topic.show(found))
         shown = [topic.show(sample) for sample in samples[:3]]
-        other = Symptom.WRONG_VALUES.seen(
-            seen.trace,
-            topic=topic.name,
-            text=str(topic.value(samples[0])),
-            says=self.says or f"{wanted!r} is in no message, such as {topic.value(samples[0])!r}",
-            do=self.do or f"Look at what the node puts into {topic.field} before it publishes.",
-        )
+        says = self.says or f"{wanted!r} is in no message, such as {topic.value(samples[0])!r}"
+        other = wrong_value(seen.trace, topic, samples[0], says, self.do)
         return failed(expected, shown[0], other, shown)
 
     def _is_in(self, value: Any) -> bool:
@@ -141,7 +144,50 @@ class Contains(Form):
 
 
 @dataclass(frozen=True)
-class AtLeast(Watching):
+class WatchingMessages(Watching):
+    """A criterion about the messages on a topic, judged on those of a time that begins with the first one."""
+
+    topic: Topic
+
+    @property
+    def watched(self) -> dict[str, str]:
+        return self.topic.watched
+
+    async def watch(self, run: Run) -> bool:
+        if not await wait_for_message(run, self.topic.name, self.topic.type):
+            return False
+        first, late_s = run.samples_on(self.topic.name)[0], run.our_cpu_wait_s() + run.node_cpu_wait_s()
+
+        def is_over() -> bool:
+            waited_s = run.our_cpu_wait_s() + run.node_cpu_wait_s() - late_s
+            return run.now() >= first.source_time + self.within_s + IN_FLIGHT_S + waited_s
+
+        await run.until(lambda: self.is_decided(run) or is_over(), self.within_s + 1.0, idle_s=IDLE_S)
+        return True
+
+    def judge_seen(self, seen: Seen) -> Verdict:
+        samples = seen.trace.samples_on(self.topic.name)
+        if not samples:
+            missing = seen.symptom(Symptom.NO_MESSAGES, topic=self.topic.name, type=self.topic.type)
+            return failed(self.expected, "no such message arrived", missing, output_tail(seen.trace))
+        return self.judge_messages(seen, samples)
+
+    @property
+    @abstractmethod
+    def expected(self) -> str:
+        """What must be seen, in words."""
+
+    @abstractmethod
+    def is_decided(self, run: Run) -> bool:
+        """Whether no later message can change the verdict."""
+
+    @abstractmethod
+    def judge_messages(self, seen: Seen, samples: Sequence[Sample]) -> Verdict:
+        """Judge the messages; there is one at least."""
+
+
+@dataclass(frozen=True)
+class AtLeast(WatchingMessages):
     """At least so many messages arrive on a topic within a time, counted from the first one.
 
     `messages`: how many, the first one included. `within_s`: the time in seconds, to which a busy machine may add.
@@ -150,28 +196,23 @@ class AtLeast(Watching):
         AtLeast("often", SCAN, 20, within_s=5)
     """
 
-    topic: Topic
     messages: int
 
     @property
-    def watched(self) -> dict[str, str]:
-        return self.topic.watched
+    def expected(self) -> str:
+        return f"at least {self.messages} messages on {self.topic.name} within {self.within_s:g} s"
 
-    async def watch(self, run: Run) -> bool:
-        return await watch_messages(run, self.topic, self.within_s, lambda: len(self._samples(run)) >= self.messages)
+    def is_decided(self, run: Run) -> bool:
+        return len(run.samples_on(self.topic.name)) >= self.messages
 
-    def judge_seen(self, seen: Seen) -> Verdict:
-        expected = f"at least {self.messages} messages on {self.topic.name} within {self.within_s:g} s"
-        samples = self._samples(seen.trace)
-        if not samples:
-            return no_message(expected, seen, self.topic)
+    def judge_messages(self, seen: Seen, samples: Sequence[Sample]) -> Verdict:
         limit_s = self.within_s + seen.cpu_wait_s
         counted_in = [each for each in samples if each.source_time - samples[0].source_time <= limit_s]
         took_s = counted_in[-1].source_time - samples[0].source_time
         observed = f"{counted(len(counted_in), 'message')} in {max(took_s, 0.0):.1f} s"
         evidence = [self.topic.show(each) for each in counted_in[:SHOWN]]
         if len(counted_in) >= self.messages:
-            return passed(expected, observed, evidence)
+            return passed(self.expected, observed, evidence)
         few = seen.symptom(
             Symptom.NO_MESSAGES,
             topic=self.topic.name,
@@ -180,14 +221,11 @@ class AtLeast(Watching):
             says=f"only {counted(len(counted_in), 'message')} came on {self.topic.name} within {self.within_s:g} s",
             do="Publish from a timer that is fast enough, and let nothing hold it up.",
         )
-        return failed(expected, observed, few, evidence)
-
-    def _samples(self, seen: Run | Trace) -> list[Sample]:
-        return list(seen.samples_on(self.topic.name))
+        return failed(self.expected, observed, few, evidence)
 
 
 @dataclass(frozen=True)
-class FieldEquals(Watching):
+class FieldEquals(WatchingMessages):
     """The topic's field has a value: in some message, or in every one.
 
     `wanted`: the value, or a function that says whether a value is right; then `what` says in words what it must be.
@@ -199,7 +237,6 @@ class FieldEquals(Watching):
     Raises ValueError for a function without `what`.
     """
 
-    topic: Topic
     wanted: Any = field(hash=False)
     what: str = ""
     every: bool = False
@@ -211,55 +248,23 @@ class FieldEquals(Watching):
             raise ValueError(f"{self.id}: say in words what the value must be: what=...")
 
     @property
-    def watched(self) -> dict[str, str]:
-        return self.topic.watched
-
-    async def watch(self, run: Run) -> bool:
-        return await watch_messages(run, self.topic, self.within_s, lambda: self._deciding(run) is not None)
-
-    def judge_seen(self, seen: Seen) -> Verdict:
-        topic, what = self.topic, self.what or repr(self.wanted)
+    def expected(self) -> str:
         some = "every message" if self.every else "a message"
-        expected = f"{some} on {topic.name} has {what} in {topic.field}"
-        samples = seen.trace.samples_on(topic.name)
-        if not samples:
-            return no_message(expected, seen, topic)
-        deciding = self._deciding(seen.trace)
+        return f"{some} on {self.topic.name} has {self.what or repr(self.wanted)} in {self.topic.field}"
+
+    def is_decided(self, run: Run) -> bool:
+        return self._deciding(run.samples_on(self.topic.name)) is not None
+
+    def judge_messages(self, seen: Seen, samples: Sequence[Sample]) -> Verdict:
+        topic, deciding = self.topic, self._deciding(samples)
+        shown, number = [topic.show(each) for each in samples[:SHOWN]], counted(len(samples), "message")
         if (deciding is not None) != self.every:
-            observed = topic.show(deciding) if deciding else f"all of {counted(len(samples), 'message')}"
-            return passed(expected, observed, [topic.show(each) for each in samples[:SHOWN]])
+            return passed(self.expected, topic.show(deciding) if deciding else f"all of {number}", shown)
         other = deciding or samples[0]
-        wrong = seen.symptom(
-            Symptom.WRONG_VALUES,
-            topic=topic.name,
-            text=str(topic.value(other)),
-            says=self.says or f"{topic.field} is {topic.value(other)!r}, not {what}",
-            do=self.do or f"Look at what the node puts into {topic.field} before it publishes.",
-        )
-        observed = topic.show(other) if deciding else f"in none of {counted(len(samples), 'message')}"
-        return failed(expected, observed, wrong, [topic.show(each) for each in samples[:SHOWN]])
+        says = self.says or f"{topic.field} is {topic.value(other)!r}, not {self.what or repr(self.wanted)}"
+        wrong = wrong_value(seen.trace, topic, other, says, self.do)
+        return failed(self.expected, topic.show(other) if deciding else f"in none of {number}", wrong, shown)
 
-    def _deciding(self, seen: Run | Trace) -> Sample | None:
+    def _deciding(self, samples: Sequence[Sample]) -> Sample | None:
         """The first message that decides: one that is wrong, if every one must be right, or else one that is right."""
-        samples = seen.samples_on(self.topic.name)
         return next((each for each in samples if fits(self.wanted, self.topic.value(each)) != self.every), None)
-
-
-async def watch_messages(run: Run, topic: Topic, within_s: float, decided: Callable[[], bool]) -> bool:
-    """Wait until it is decided, or the time since the first message is over; return whether there is a message."""
-    if not await wait_for_message(run, topic.name, topic.type):
-        return False
-    first, late_s = run.samples_on(topic.name)[0], run.our_cpu_wait_s() + run.node_cpu_wait_s()
-
-    def is_over() -> bool:
-        waited_s = run.our_cpu_wait_s() + run.node_cpu_wait_s() - late_s
-        return run.now() >= first.source_time + within_s + IN_FLIGHT_S + waited_s
-
-    await run.until(lambda: decided() or is_over(), within_s + 1.0, idle_s=IDLE_S)
-    return True
-
-
-def no_message(expected: str, seen: Seen, topic: Topic) -> Verdict:
-    """Fail since no message came at all."""
-    missing = seen.symptom(Symptom.NO_MESSAGES, topic=topic.name, type=topic.type)
-    return failed(expected, "no such message arrived", missing, output_tail(seen.trace))

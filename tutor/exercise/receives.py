@@ -27,21 +27,15 @@ _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
-class Reception:
-    """What became of the messages that we sent, one after the other: the first that is not shown is the last sent.
+class Reception(Seen):
+    """What became of the messages that we sent, one after the other, until one was not shown.
 
-    `sent`: None if the node never had a subscription for them. `shown`: how the first ones are shown, a line each.
+    `subscribed`: whether the node had a subscription for them. `shown`: how they are shown, a line each.
     """
 
-    seen: Seen
-    sent: int | None
+    subscribed: bool = True
     shown: tuple[str, ...] = ()
     ours: TopicEndpoint | None = None
-
-    @property
-    def slowed(self) -> bool:
-        """Whether the machine may have kept the node from showing the last one."""
-        return self.seen.slowed
 
 
 async def wait_for_subscription(run: Run, topic: Topic, publisher: Publisher) -> bool:
@@ -74,24 +68,22 @@ class SendMessages:
     within_s: float
 
     async def __call__(self, bench: Bench) -> Reception:
-        topic, shown = self.topic, list[str]()
+        topic, shown, program = self.topic, list[str](), self.program
         watched = self.shown_on.watched if self.shown_on is not None else {}
         async with (
             bench.start(self.program.file, watch=watched, expected_s=2.0) as run,
             run.publisher(topic.name, topic.type) as publisher,
         ):
             bench.report_progress(0.1, f"waiting for its subscription on {topic.name}")
-            if not await wait_for_subscription(run, topic, publisher):
-                return Reception(await look(bench, run, self.program, does_nothing=True), None, (), publisher.endpoint)
-            for value in self.values:
+            subscribed, ours = await wait_for_subscription(run, topic, publisher), publisher.endpoint
+            for value in self.values if subscribed else ():
                 bench.report_progress(0.4, f"sending {topic.field}: {value}")
                 sent = publisher.publish(topic.message(value))
                 if not await run.until(lambda: self._find(run, sent) != "", self.within_s, idle_s=IDLE_S):  # noqa: B023
                     break
                 shown.append(self._find(run, sent))
-            missing = len(shown) < len(self.values)
-            seen = await look(bench, run, self.program, does_nothing=missing and not shown)
-            return Reception(seen, len(shown) + missing, tuple(shown), publisher.endpoint)
+            found = {"subscribed": subscribed, "shown": tuple(shown), "ours": ours}
+            return await look(run, does_nothing=not shown, make=Reception, **found)
 
     def _find(self, run: Run, sent: Sample) -> str:
         """How a message is shown by now, or ""."""
@@ -127,13 +119,13 @@ class Receives(Form):
 
     def judge(self, found: Reception) -> Verdict:
         """Judge what became of the messages."""
-        topic, seen = self.topic, found.seen
+        topic = self.topic
         place = self.shown_on.name if self.shown_on is not None else "its log"
         expected = f"each message on {topic.name} is shown within {self.within_s:g} s in {place}"
         about = {"topic": topic.name, "type": topic.type, "ours": found.ours}
-        if found.sent is None:
-            unheard = seen.symptom(Symptom.NOTHING_RECEIVED, **about)
-            return failed(expected, f"no subscription on {topic.name}", unheard, output_tail(seen.trace))
+        if not found.subscribed:
+            unheard = found.symptom(Symptom.NOTHING_RECEIVED, **about)
+            return failed(expected, f"no subscription on {topic.name}", unheard, output_tail(found.trace))
         if len(found.shown) == len(self.values):
             return passed(expected, counted(len(found.shown), "message"), found.shown)
         value = self.values[len(found.shown)]
@@ -141,8 +133,8 @@ class Receives(Form):
         observed = f"{topic.field}: {value} was sent, and nothing shows {wanted!r} within {self.within_s:g} s"
         says = f"{value!r} on {topic.name} should show as {wanted!r} in {place}, and does not"
         do = f"Follow a message through the callback of {topic.name} to what it logs or publishes."
-        unheard = seen.symptom(Symptom.NOTHING_RECEIVED, says=says, do=do, **about)
-        return failed(expected, observed, unheard, [*found.shown, *output_tail(seen.trace)])
+        unheard = found.symptom(Symptom.NOTHING_RECEIVED, says=says, do=do, **about)
+        return failed(expected, observed, unheard, [*found.shown, *output_tail(found.trace)])
 
 
 def becoming(becomes: Callable[[Any], Any] | None, value: Any) -> Any:

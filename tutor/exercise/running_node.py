@@ -127,7 +127,7 @@ class Node:
         if topic not in self._publishers:
             publisher = await self._ours.enter_async_context(self._run.publisher(topic.name, topic.type))
             if not await wait_for_subscription(self._run, topic, publisher):
-                seen = await look(self._bench, self._run, self._program, does_nothing=True)
+                seen = await look(self._run, does_nothing=True)
                 about = {"topic": topic.name, "type": topic.type, "ours": publisher.endpoint}
                 self._fail(f"no subscription on {topic.name}", seen.symptom(Symptom.NOTHING_RECEIVED, **about))
             self._publishers[topic] = publisher
@@ -143,7 +143,7 @@ class Node:
             return next((str(log) for log in run.logs if log.stamp >= since and text_in(log.text, text)), "")
 
         if not await wait_until_seen(run, lambda: bool(found()), promised=lambda: True, message_gap_s=within_s):
-            seen = await look(self._bench, run, self._program, does_nothing=not run.logs)
+            seen = await look(run, does_nothing=not run.logs)
             self._fail(f"{text!r} is not logged", seen.symptom(Symptom.NOT_LOGGED, what=f"{text!r}"))
         self.seen.append(found())
         return found()
@@ -158,13 +158,13 @@ class Node:
         self._bench.report_progress(0.5, f"sending a goal to {action.name}")
         async with run.goal_client(action.name, action.type) as client:
             if not await wait_for_server(run, action, client):
-                seen = await look(self._bench, run, program, does_nothing=True)
+                seen = await look(run, does_nothing=True)
                 self._fail(f"{action.name} has no action server", action_missing(action, seen))
             await pursue(run, client, goal, cancel_after, GOAL_S)
             answer = client.seen
         outcome = "rejected" if answer.accepted is False else answer.outcome
         if not outcome:
-            seen = await look(self._bench, run, program, does_nothing=not answer.accepted)
+            seen = await look(run, does_nothing=not answer.accepted)
             self._fail(*unanswered(action, seen, answer, GOAL_S))
         self.seen.append(f"{action.name} {goal}: {outcome}, {dict(answer.result or {})}")
         now, feedback = run.now(), [Fields(each.message, at=each.source_time) for each in answer.feedback]
@@ -283,7 +283,7 @@ class Node:
         return Fields(sample.message, at=sample.source_time)
 
     async def _fail_silent(self, topic: Topic, *, some: bool) -> NoReturn:
-        seen = await look(self._bench, self._run, self._program, does_nothing=not some)
+        seen = await look(self._run, does_nothing=not some)
         silent = seen.symptom(Symptom.NO_MESSAGES, topic=topic.name, type=topic.type, some=some)
         self._fail(f"{'no more messages' if some else 'no message'} on {topic.name}", silent)
 

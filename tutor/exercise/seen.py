@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
 
-from tutor.exercise.nouns import Program, agrees
-from tutor.exercise.parameters import DumpSilentNode
-from tutor.judge.bench import Bench, Run
+from tutor.exercise.nouns import agrees
+from tutor.judge.bench import Run
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
@@ -19,13 +19,16 @@ SPIN_S = 2.0
 MATCH_S = 0.4
 """Time after which both ends know of each other, once one of them does: what is sent before may be lost."""
 
+Dump = Callable[[], Awaitable[tuple[Frame, ...]]]
+"""Returns a stack dump of the node's threads, innermost frame first."""
+
 
 @dataclass(frozen=True)
 class Seen:
     """A run, as far as a criterion looks at it.
 
-    `answers`: whether the node has shown that it spins, or need not. `stuck`: the stack, innermost frame first, of
-    another start of a node that does nothing. `slowed`: the node waited for a CPU, so that a failure may be the
+    `answers`: whether the node has shown that it spins, or need not. `stuck`: the stack, innermost frame first, of a
+    node that does nothing. `slowed`: the node waited for a CPU, so that a failure may be the
     machine's; `cpu_wait_s`: for how long.
     """
 
@@ -45,13 +48,19 @@ def was_slowed(run: Run) -> bool:
     return run.node_cpu_wait_s() >= HARDLY_WAITED_SHARE * (run.now() - run.started_at)
 
 
-async def look(bench: Bench, run: Run, program: Program, *, does_nothing: bool = False) -> Seen:
-    """What is seen now; of a node that `does_nothing`, also whether it answers, and if not, where it is stuck."""
+async def look[S: Seen](
+    run: Run, *, does_nothing: bool = False, dump: Dump | None = None, make: Callable[..., S] = Seen, **found: Any
+) -> S:
+    """What is seen now; of a node that `does_nothing`, also whether it answers, and if not, where it is stuck.
+
+    `dump`: returns the stack of another start; without it, the run is ended for that of its own. `make`: the kind of
+    facts to make, with what else was `found`.
+    """
     answers = not does_nothing or await run.parameters(SPIN_S) is not None
     trace = run.trace()
     silent = not answers and trace.exit is None and bool(trace.graph.nodes)
-    stuck = await bench.facts(DumpSilentNode(program)) if silent else ()
-    return Seen(trace, answers, stuck, was_slowed(run), run.node_cpu_wait_s())
+    stuck = await (dump or run.dump_stacks)() if silent else ()
+    return make(trace, answers, stuck, was_slowed(run), run.node_cpu_wait_s(), **found)
 
 
 async def settle(run: Run) -> None:

@@ -13,6 +13,7 @@ from typing import Any
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Program
+from tutor.exercise.parameters import DumpSilentNode
 from tutor.exercise.publishing import cancel
 from tutor.exercise.seen import Seen, look
 from tutor.judge.bench import Bench, Run
@@ -57,11 +58,12 @@ class Watch:
 
     async def _run(self, bench: Bench) -> WatchedStart:
         seen: list[Seen | None] = [None] * len(self.forms)
+        silent = DumpSilentNode(self.program)  # others still watch the run itself
         topics = {name: kind for form in self.forms for name, kind in form.watched.items()}
 
         async def watch(number: int, form: Watching, run: Run) -> None:
             does_nothing = not await form.watch(run)
-            seen[number] = await look(bench, run, self.program, does_nothing=does_nothing)
+            seen[number] = await look(run, does_nothing=does_nothing, dump=lambda: bench.facts(silent))
             bench.report_facts(WatchedStart(tuple(seen), run.trace()))
 
         expected_s = max(form.within_s for form in self.forms)
