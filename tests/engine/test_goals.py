@@ -120,7 +120,7 @@ async def test_a_server_that_sends_its_feedback_at_once_passes(scene: Scene) -> 
             "wrong-goal",
             "succ",
         ),
-        ("Server.first = 1", "short", "wrong-values", "[1, 1, 2]"),
+        ("Server.first = 1", "short", "wrong-goal", "[1, 1, 2]"),
         ("Server.name = 'counter'", "short", "action-missing", "no action server"),
     ],
 )

@@ -68,7 +68,7 @@ class SendMessages:
     within_s: float
 
     async def __call__(self, bench: Bench) -> Reception:
-        topic, shown, program = self.topic, list[str](), self.program
+        topic, shown = self.topic, list[str]()
         watched = self.shown_on.watched if self.shown_on is not None else {}
         async with (
             bench.start(self.program.file, watch=watched, expected_s=2.0) as run,

@@ -78,7 +78,7 @@ class Node:
         self._bench, self._run, self._program, self._expected, self._watch = bench, run, program, expected, watch
         self._ours = ours
         self._publishers: dict[Topic, Publisher] = {}
-        self._last: Service | Topic | None = None
+        self._last: Service | Topic | Action | None = None
         self.seen: list[str] = []
 
     def expect(self, actual: object, wanted: object, do: str, says: str = "") -> None:
@@ -92,6 +92,8 @@ class Node:
         about: dict[str, Any] = {}
         if isinstance(self._last, Service):
             symptom, about = Symptom.WRONG_ANSWER, {"service": self._last.name, "type": self._last.type}
+        elif isinstance(self._last, Action):
+            symptom, about = Symptom.WRONG_GOAL, {"action": self._last.name}
         elif self._last is not None:
             about = {"topic": self._last.name, "type": self._last.type}
         says = says or f"it is {show(actual)}, not {show(wanted)}"
@@ -154,7 +156,7 @@ class Node:
         The `outcome` is "succeeded", "aborted", "canceled" or "rejected"; there is also the `result`, and `feedback`,
         the list of its messages. `cancel_after`: ask to cancel the goal after so many of them.
         """
-        run, program = self._run, self._program
+        run, self._last = self._run, action
         self._bench.report_progress(0.5, f"sending a goal to {action.name}")
         async with run.goal_client(action.name, action.type) as client:
             if not await wait_for_server(run, action, client):
