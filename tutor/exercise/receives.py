@@ -16,7 +16,7 @@ from tutor.judge.check import Criterion
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Sample
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, patience_s, wait_until_seen
+from tutor.judge.waiting import RESENT_S, patience_s, wait_until_seen
 from tutor.judge.wording import counted, output_tail
 from tutor.ros_model import TopicEndpoint
 
@@ -79,7 +79,7 @@ class SendMessages:
             for value in self.values if subscribed else ():
                 bench.report_progress(0.4, f"sending {topic.field}: {value}")
                 sent = publisher.publish(topic.message(value))
-                if not await run.until(lambda: self._find(run, sent) != "", self.within_s, idle_s=IDLE_S):  # noqa: B023
+                if not await run.until(lambda: self._find(run, sent) != "", self.within_s, idle_s=RESENT_S):  # noqa: B023
                     break
                 shown.append(self._find(run, sent))
             found = {"subscribed": subscribed, "shown": tuple(shown), "ours": ours}

@@ -64,8 +64,9 @@ async def look[S: Seen](
 
 
 async def settle(run: Run) -> None:
-    """Wait until the other end of an endpoint of ours, which knows of it already, is known to the node as well."""
+    """Wait until the node knows an endpoint of ours, which is matched on our side, and spins."""
     until = run.now() + MATCH_S
+    await run.parameters(SPIN_S)
     await run.until(lambda: run.now() >= until, MATCH_S)
 
 

@@ -22,7 +22,7 @@ from tutor.judge.ending import repeat_if_doubtful
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Ending, Level, LogRecord, Trace
 from tutor.judge.verdict import Status, Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, wait_until_seen
+from tutor.judge.waiting import wait_until_seen
 from tutor.judge.wording import counted, output_tail
 
 LOG_DELAY_S = 0.5
@@ -148,9 +148,7 @@ class LogsText(Watching):
             return self._find(run.logs) is not None
 
         limit_s = self.within_s + LOG_DELAY_S
-        return await wait_until_seen(
-            run, is_logged, promised=lambda: True, message_gap_s=limit_s, idle_s=IDLE_S
-        ) or bool(run.logs)
+        return await wait_until_seen(run, is_logged, promised=lambda: True, message_gap_s=limit_s) or bool(run.logs)
 
     def judge_seen(self, seen: Seen) -> Verdict:
         what = repr(self.text if isinstance(self.text, str) else self.text.pattern)

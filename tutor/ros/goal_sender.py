@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from rclpy.action.client import ActionClient
+from rclpy.qos import QoSProfile
 
 from tutor.judge.trace import GoalAnswer, Sample
 from tutor.ros.messages import interface_class, set_fields, to_plain
@@ -33,7 +34,13 @@ class GoalSender(Observer):
         self._action = action
         self._handle: Any = None  # the client itself keeps it only weakly
         self._seen = GoalAnswer()
-        self._client: Any = ActionClient(self.node, self._type, action, callback_group=self._gate)
+        self._client: Any = ActionClient(
+            self.node,
+            self._type,
+            action,
+            callback_group=self._gate,
+            feedback_sub_qos_profile=QoSProfile(depth=MAX_FEEDBACK),
+        )
         self._executor.wake()
 
     @property
