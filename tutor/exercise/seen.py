@@ -11,7 +11,7 @@ from tutor.judge.bench import Run
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import HARDLY_WAITED_SHARE
+from tutor.judge.waiting import HARDLY_WAITED_SHARE, RESENT_S
 
 SPIN_S = 2.0
 """A node that spins answers a parameter request within this time."""
@@ -57,6 +57,8 @@ async def look[S: Seen](
     facts to make, with what else was `found`.
     """
     answers = not does_nothing or await run.parameters(SPIN_S) is not None
+    if not does_nothing:  # what it does may be seen before the node itself
+        await run.until(lambda: bool(run.graph.nodes), RESENT_S, idle_s=RESENT_S)
     trace = run.trace()
     silent = not answers and trace.exit is None and bool(trace.graph.nodes)
     stuck = await (dump or run.dump_stacks)() if silent else ()
