@@ -58,12 +58,14 @@ async def wait_for_subscription(run: Run, topic: Topic, publisher: Publisher) ->
 
 @dataclass(frozen=True)
 class SendMessages:
-    """Start without parameters, and send a message for each value, once the one before is shown."""
+    """Start without parameters, and send a message for each value, once the one before is shown.
+
+    `values`: each with what the node makes of it.
+    """
 
     program: Program
     topic: Topic
-    values: tuple[Any, ...]
-    becomes: Callable[[Any], Any] | None
+    values: tuple[tuple[Any, Any], ...]
     shown_on: Topic | None
     within_s: float
 
@@ -76,22 +78,21 @@ class SendMessages:
         ):
             bench.report_progress(0.1, f"waiting for its subscription on {topic.name}")
             subscribed, ours = await wait_for_subscription(run, topic, publisher), publisher.endpoint
-            for value in self.values if subscribed else ():
+            for value, wanted in self.values if subscribed else ():
                 bench.report_progress(0.4, f"sending {topic.field}: {value}")
                 sent = publisher.publish(topic.message(value))
-                if not await run.until(lambda: self._find(run, sent) != "", self.within_s, idle_s=RESENT_S):  # noqa: B023
+                if not await run.until(lambda: self._find(run, sent, wanted) != "", self.within_s, idle_s=RESENT_S):  # noqa: B023
                     break
-                shown.append(self._find(run, sent))
+                shown.append(self._find(run, sent, wanted))
             found = {"subscribed": subscribed, "shown": tuple(shown), "ours": ours}
             return await look(run, does_nothing=not shown, make=Reception, **found)
 
-    def _find(self, run: Run, sent: Sample) -> str:
+    def _find(self, run: Run, sent: Sample, wanted: Any) -> str:
         """How a message is shown by now, or ""."""
-        wanted = becoming(self.becomes, self.topic.value(sent))
-        if self.shown_on is None:
-            return next((str(log) for log in run.logs if log.stamp >= sent.source_time and says(log.text, wanted)), "")
-        samples = [each for each in run.samples_on(self.shown_on.name) if each.source_time >= sent.source_time]
         on = self.shown_on
+        if on is None:
+            return next((str(log) for log in run.logs if log.stamp >= sent.source_time and says(log.text, wanted)), "")
+        samples = [each for each in run.samples_on(on.name) if each.source_time >= sent.source_time]
         return next((f"{on.name}, {on.show(each)}" for each in samples if is_shown(on.value(each), wanted)), "")
 
 
@@ -114,8 +115,13 @@ class Receives(Form):
     within_s: float = 3.0
 
     def criterion(self, exercise: Exercise) -> Criterion:
-        scenario = SendMessages(exercise.program, self.topic, self.values, self.becomes, self.shown_on, self.within_s)
+        scenario = SendMessages(exercise.program, self.topic, self._pairs, self.shown_on, self.within_s)
         return self.judged(self.judge, scenario)
+
+    @property
+    def _pairs(self) -> tuple[tuple[Any, Any], ...]:
+        """Each value with what the node makes of it."""
+        return tuple((value, self.becomes(value) if self.becomes else value) for value in self.values)
 
     def judge(self, found: Reception) -> Verdict:
         """Judge what became of the messages."""
@@ -128,18 +134,12 @@ class Receives(Form):
             return failed(expected, f"no subscription on {topic.name}", unheard, output_tail(found.trace))
         if len(found.shown) == len(self.values):
             return passed(expected, counted(len(found.shown), "message"), found.shown)
-        value = self.values[len(found.shown)]
-        wanted = becoming(self.becomes, value)
+        value, wanted = self._pairs[len(found.shown)]
         observed = f"{topic.field}: {value} was sent, and nothing shows {wanted!r} within {self.within_s:g} s"
         says = f"{value!r} on {topic.name} should show as {wanted!r} in {place}, and does not"
         do = f"Follow a message through the callback of {topic.name} to what it logs or publishes."
         unheard = found.symptom(Symptom.NOTHING_RECEIVED, says=says, do=do, **about)
         return failed(expected, observed, unheard, [*found.shown, *output_tail(found.trace)])
-
-
-def becoming(becomes: Callable[[Any], Any] | None, value: Any) -> Any:
-    """What the node makes of a value."""
-    return value if becomes is None else becomes(value)
 
 
 def is_shown(value: Any, wanted: Any) -> bool:
