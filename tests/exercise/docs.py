@@ -64,7 +64,7 @@ def _signature(found: Any) -> str:
     if is_dataclass(found):
         shared = {field.name for field in fields(Form)} - {"id"} if issubclass(found, Form) else set()  # type: ignore[arg-type]
         arguments = []
-        for field in sorted(fields(found), key=lambda field: field.kw_only):
+        for field in sorted(fields(found), key=lambda field: field.kw_only is True):
             if field.name in shared:
                 continue
             default = "" if field.default is MISSING else f" = {field.default!r}"

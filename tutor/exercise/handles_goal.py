@@ -92,14 +92,13 @@ class SendGoal:
         ):
             bench.report_progress(0.1, f"waiting for the action server of {action.name}")
             if not await wait_for_server(run, action, client):
-                return await look(run, does_nothing=True, make=GoalRun)
+                return (await look(run, does_nothing=True)).having(GoalRun)
             bench.report_progress(0.4, f"sending a goal to {action.name}")
             await pursue(run, client, self.goal, self.feedback if self.cancel else None, self.within_s)
             # Feedback and result come on different ways: the last feedback may come after the result.
             await run.until(lambda: len(client.seen.feedback) >= self.feedback, IDLE_S)
             answer = client.seen
-            idle = not answer.accepted
-            return await look(run, does_nothing=idle, make=GoalRun, answer=answer)
+            return (await look(run, does_nothing=not answer.accepted)).having(GoalRun, answer=answer)
 
 
 @dataclass(frozen=True)

@@ -84,8 +84,8 @@ class SendMessages:
                 if not await run.until(lambda: self._find(run, sent, wanted) != "", self.within_s, idle_s=RESENT_S):  # noqa: B023
                     break
                 shown.append(self._find(run, sent, wanted))
-            found = {"subscribed": subscribed, "shown": tuple(shown), "ours": ours}
-            return await look(run, does_nothing=not shown, make=Reception, **found)
+            seen = await look(run, does_nothing=not shown)
+            return seen.having(Reception, subscribed=subscribed, shown=tuple(shown), ours=ours)
 
     def _find(self, run: Run, sent: Sample, wanted: Any) -> str:
         """How a message is shown by now, or ""."""

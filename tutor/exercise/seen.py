@@ -42,19 +42,20 @@ class Seen:
         """An observation of this symptom in the run."""
         return kind.seen(self.trace, stuck=self.stuck, answers=self.answers, **about)
 
+    def having[S: Seen](self, kind: type[S], **found: Any) -> S:
+        """The same as facts of another kind, with what else was found."""
+        return kind(**vars(self), **found)
+
 
 def was_slowed(run: Run) -> bool:
     """Whether the node has waited for a CPU so much that what it did or left may be the machine's fault."""
     return run.node_cpu_wait_s() >= HARDLY_WAITED_SHARE * (run.now() - run.started_at)
 
 
-async def look[S: Seen](
-    run: Run, *, does_nothing: bool = False, dump: Dump | None = None, make: Callable[..., S] = Seen, **found: Any
-) -> S:
+async def look(run: Run, *, does_nothing: bool = False, dump: Dump | None = None) -> Seen:
     """What is seen now; of a node that `does_nothing`, also whether it answers, and if not, where it is stuck.
 
-    `dump`: returns the stack of another start; without it, the run is ended for that of its own. `make`: the kind of
-    facts to make, with what else was `found`.
+    `dump`: returns the stack of another start; without it, the run is ended for that of its own.
     """
     answers = not does_nothing or await run.parameters(SPIN_S) is not None
     if not does_nothing:  # what it does may be seen before the node itself
@@ -62,7 +63,7 @@ async def look[S: Seen](
     trace = run.trace()
     silent = not answers and trace.exit is None and bool(trace.graph.nodes)
     stuck = await (dump or run.dump_stacks)() if silent else ()
-    return make(trace, answers, stuck, was_slowed(run), run.node_cpu_wait_s(), **found)
+    return Seen(trace, answers, stuck, was_slowed(run), run.node_cpu_wait_s())
 
 
 async def settle(run: Run) -> None:
