@@ -12,14 +12,13 @@ from pathlib import Path
 
 from tutor.content.expectations import Error, find_deviations
 from tutor.content.submissions import EXPECT, Case, read_case
+from tutor.engine.leftovers import find_leftovers
 from tutor.errors import ContentError
 from tutor.judge.events import ExerciseJudged, decode
 from tutor.judge.result import ExerciseResult
 
 ROOT = Path(__file__).parent / "submissions"
 LIMIT_S = 180.0
-LEFTOVERS_LIMIT_S = 60.0
-"""Longer than any check takes, so that whatever a check still ends itself has gone by then."""
 
 
 @dataclass
@@ -77,7 +76,7 @@ async def judge(case: Case, only: Sequence[str] = (), record: Path | None = None
     outcome.took_s = took
     if stderr and case.kind != "hostile":  # some hostile submissions write to our stderr directly
         outcome.wrong.append(f"stderr: {stderr[-300:]}")
-    outcome.wrong += [f"left behind: {command}" for command in await _find_leftovers(case.expected.gone)]
+    outcome.wrong += [f"left behind: {command}" for command in await find_leftovers(case.expected.gone)]
     return outcome
 
 
@@ -143,30 +142,3 @@ def compare(case: Case, result: ExerciseResult) -> Outcome:
         false_failure=Error.FALSE_FAILURE in errors,
         verdict=" ".join(f"{c.id}:{c.verdict.status.value}" for c in result.criteria),
     )
-
-
-async def _find_leftovers(text: str) -> list[str]:
-    """Return the command lines containing `text` that outlive every check.
-
-    Other submissions are judged at the same time; their processes end with their own checks.
-    """
-    left = _find_commands(text)
-    deadline = time.monotonic() + LEFTOVERS_LIMIT_S
-    while left and time.monotonic() < deadline:
-        await asyncio.sleep(0.2)
-        running = _find_commands(text)
-        left = {pid: command for pid, command in left.items() if running.get(pid) == command}
-    return list(left.values())
-
-
-def _find_commands(text: str) -> dict[str, str]:
-    """Return the command lines that contain `text`, by pid; nothing for an empty `text`."""
-    found: dict[str, str] = {}
-    for path in Path("/proc").glob("[0-9]*/cmdline") if text else ():
-        try:
-            command = path.read_bytes().replace(b"\0", b" ").decode(errors="replace")
-        except OSError:
-            continue
-        if text in command:
-            found[path.parent.name] = command
-    return found

@@ -36,6 +36,32 @@ def test_a_workspace_remembers_the_course_that_was_started_in_it(run: Run, greet
     assert "h1.1" not in listed(run, "--workspace", elsewhere)
 
 
+@pytest.mark.parametrize("called", ["hello", "greeting", "./greeting"])
+def test_a_remembered_course_is_forgotten_by_its_name_or_folder(run: Run, greeting: Path, called: str) -> None:
+    (greeting / "course.yaml").write_text("format: 1\nname: hello\n")
+    run("start", "h1.1", "--lessons", "greeting")
+    result = run("list", "--forget", called)
+    assert result.code == 0
+    assert "h1.1" not in result.out
+    assert "h1.1" not in listed(run)
+
+
+def test_a_remembered_course_that_is_gone_can_be_forgotten(run: Run, greeting: Path) -> None:
+    run("start", "h1.1", "--lessons", "greeting", "--only")
+    shutil.rmtree(greeting)
+    assert run("list", "--forget", "greeting").err == ""
+    assert run("list").err == ""
+    assert listed(run)[0] == "i1.1"
+
+
+def test_a_course_that_is_not_remembered_cannot_be_forgotten(run: Run, greeting: Path) -> None:
+    result = run("list", "--forget", "greeting")
+    assert (result.code, result.out) == (2, "")
+    assert "--forget greeting: this workspace does not remember such a course; it remembers none" in result.err
+    run("start", "h1.1", "--lessons", "greeting")
+    assert f"it remembers {greeting}" in run("list", "--forget", "other").err
+
+
 def test_the_command_that_start_advises_names_the_course_where_nothing_remembers_it(run: Run, greeting: Path) -> None:
     result = run("start", "h1.1", "here", "--lessons", "greeting")
     assert result.out.splitlines()[-1].endswith("check h1.1 here --lessons greeting")
@@ -48,6 +74,7 @@ def test_a_remembered_course_that_is_gone_is_said_and_left_out(run: Run, greetin
     result = run("list")
     assert result.code == 0
     assert f"a course of this workspace cannot be used: {greeting}: there is no such folder or file" in result.err
+    assert f"list --forget {greeting}` forgets it" in result.err
     assert "h1.1" not in result.out
 
 

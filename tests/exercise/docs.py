@@ -19,7 +19,17 @@ ROOT = Path(__file__).parents[2]
 FILE = ROOT / "docs/forms.md"
 COMMAND = "./.ci/uv run python -m tests.exercise.docs"
 
-NOUNS = ("Program", "LaunchFile", "Topic", "Parameter", "ShownIn", "SetsRate", "SwitchesOff", "Service")
+NOUNS = (
+    "Program",
+    "LaunchFile",
+    "Topic",
+    "Parameter",
+    "ShownIn",
+    "SetsRate",
+    "SwitchesOff",
+    "Service",
+    "Action",
+)
 
 
 def document() -> str:
@@ -64,7 +74,7 @@ def _signature(found: Any) -> str:
     if is_dataclass(found):
         shared = {field.name for field in fields(Form)} - {"id"} if issubclass(found, Form) else set()  # type: ignore[arg-type]
         arguments = []
-        for field in fields(found):
+        for field in sorted(fields(found), key=lambda field: field.kw_only is True):
             if field.name in shared:
                 continue
             default = "" if field.default is MISSING else f" = {field.default!r}"

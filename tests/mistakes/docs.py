@@ -86,6 +86,7 @@ PAGE_OF = {
     "python": "python",
     "syntax": "python",
     "unhandled": "python",
+    "actions": "symptoms",
     "more_symptoms": "symptoms",
     "parameter_symptoms": "symptoms",
     "symptoms": "symptoms",

@@ -207,7 +207,7 @@ def _print_proofs(proofs: Sequence[Proof], findings: list[Problem]) -> int:
     for proof in proofs:
         job, result = proof.job, proof.result
         if job.case is not None:
-            found = list(find_wrong_verdicts(job.case, result))
+            found = list(find_wrong_verdicts(job.case, result, proof.left))
         else:
             found = list(find_contradictions(job.lesson, job.kind, result))
         findings += found

@@ -27,14 +27,19 @@ _MIN_ID_WIDTH = 6
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add `[--format text|json]`."""
+    """Add `[--format text|json] [--forget COURSE]`."""
     parser.add_argument("--format", choices=("text", "json"), default="text", help="text (default) or json")
+    parser.add_argument(
+        "--forget", metavar="COURSE", help="first forget a course of the workspace: its name, folder or file"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print one line per exercise, what to do next, and the workspace's ROS domain; or all of it as JSON."""
-    course = context.load_course(arguments)
     workspace = context.require_workspace(arguments)
+    if arguments.forget is not None:
+        workspace.courses(terminal.say).forget(arguments.forget)
+    course = context.load_course(arguments)
     progress = context.read_progress(workspace)
     if arguments.format == "json":
         from tutor.cli.list_json import render

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from tutor.content.expectations import find_deviations
 from tutor.content.model import CriterionText, Lesson
@@ -34,9 +34,10 @@ def find_contradictions(lesson: Lesson, kind: str, result: ExerciseResult) -> It
         yield Problem(lesson.folder / kind, "no criterion fails", "leave something to do")
 
 
-def find_wrong_verdicts(case: Case, result: ExerciseResult) -> Iterator[Problem]:
+def find_wrong_verdicts(case: Case, result: ExerciseResult, left: Sequence[str] = ()) -> Iterator[Problem]:
     """Find where the verdict on a test submission is not what its `expect.yaml`, or its patch, says.
 
+    `left`: the processes with the text of `gone` that it has left behind.
     Criteria that could not be judged are no findings: see `unjudged_criteria`.
     """
     unjudged = {criterion.id for criterion in unjudged_criteria(result)}
@@ -45,6 +46,8 @@ def find_wrong_verdicts(case: Case, result: ExerciseResult) -> Iterator[Problem]
             line = find_line(case.source, _expects(deviation.criterion)) if deviation.criterion else None
             hint = "fix the check, or what is expected here"
             yield Problem(case.source, deviation.text.removesuffix(" | "), hint, line)
+    for command in left:
+        yield Problem(case.source, f"left behind: {command.strip()}", "end it", find_line(case.source, "^gone:"))
 
 
 def _expects(criterion: str) -> str:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from tutor.content.loader import BUNDLED
 from tutor.engine.check_errors import as_check_error, is_ours
+from tutor.engine.modules import enter_checks
 from tutor.judge.check import Check
 from tutor.judge.verdict import Failure, Verdict
 
@@ -16,6 +18,8 @@ def explain(verdict: Verdict, check: Check) -> Verdict:
         return verdict
     from tutor.mistakes import explain as explain_failure  # late: it reads the source, and most criteria pass
 
+    if check.mistakes.startswith("checks."):  # one of ours, which another course may have hidden
+        enter_checks(BUNDLED / "checks")
     try:
         return explain_failure(verdict, check)
     except Exception as error:  # an entry of the exercise's own catalogue may be wrong

@@ -10,6 +10,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from tutor.content import Course, Lesson
+from tutor.content.loader import BUNDLED
 from tutor.engine.check_errors import as_check_error, guarded, is_ours
 from tutor.engine.interface_types import unknown_types
 from tutor.errors import CheckError, EngineError, TableError
@@ -29,6 +30,8 @@ def load_check(lesson: Lesson) -> Check:
         raise CheckError(source, f"there is no such file, so nothing judges {lesson.id}")
     try:
         check = getattr(_import_check(source), "CHECK", None)
+        if isinstance(check, Check) and check.mistakes and not is_ours(source):
+            check = replace(check, mistakes=_import_mistakes(check.mistakes, checks_folder(source)))
     except TableError as error:
         raise CheckError(source, f"it has a table that cannot be used: {error}") from error
     except Exception as error:
@@ -71,18 +74,41 @@ def _load_catalogue(check: Check) -> Catalogue:
 
 
 def _import_check(source: Path) -> ModuleType:
-    """Import `checks.NAME`, from our own course or from another, whose folder is put first in the package's path."""
+    """Import `checks.NAME` from the course that it belongs to."""
+    enter_checks(checks_folder(source))
+    importlib.invalidate_caches()
+    name = (source.parent if source.name == "__init__.py" else source).stem
+    return importlib.import_module(f"checks.{name}")
+
+
+_imported: dict[Path, dict[str, ModuleType]] = {}
+"""The modules of `checks` that were imported from each course's folder: several courses may have the same names."""
+
+
+def enter_checks(folder: Path) -> None:
+    """Let `checks` be the package of this course; of our own, only what has another name is left in it."""
     import checks
 
-    name = (source.parent if source.name == "__init__.py" else source).stem
-    folder = str(checks_folder(source))
-    checks.__path__[:] = [folder, *(path for path in checks.__path__ if path != folder)]
-    loaded = sys.modules.get(f"checks.{name}")
-    if loaded is not None and Path(loaded.__file__ or "") != source.resolve():  # from a course loaded before
-        for module in [each for each in sys.modules if f"{each}.".startswith(f"checks.{name}.")]:
-            del sys.modules[module]
-    importlib.invalidate_caches()
-    return importlib.import_module(f"checks.{name}")
+    for name in [each for each in sys.modules if each.startswith("checks.")]:
+        module = sys.modules.pop(name)
+        home = next((each for each in Path(module.__file__ or "").parents if each.name == "checks"), folder)
+        _imported.setdefault(home, {})[name] = module
+        vars(checks).pop(name.removeprefix("checks."), None)
+    ours = (BUNDLED / "checks").resolve()
+    own_names = {each.stem for each in folder.iterdir()} if folder.is_dir() and folder != ours else set()
+    kept = {name: each for name, each in _imported.get(ours, {}).items() if name.split(".")[1] not in own_names}
+    for name, module in {**kept, **_imported.get(folder, {})}.items():
+        sys.modules[name] = module
+        if name.count(".") == 1:
+            setattr(checks, name.removeprefix("checks."), module)
+    checks.__path__[:] = dict.fromkeys([str(folder), str(ours)])
+
+
+def _import_mistakes(name: str, folder: Path) -> str:
+    """Import the module with the mistakes of another course, and return a name that it has in no other course."""
+    alias = f"{folder}/{name}"
+    sys.modules.setdefault(alias, importlib.import_module(name))
+    return alias
 
 
 def checks_folder(source: Path) -> Path:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
 from tutor.content import Course, Lesson
 from tutor.content.patches import patched
-from tutor.content.submissions import Case
+from tutor.content.submissions import Case, Expected
 from tutor.engine.check import run_check
+from tutor.engine.leftovers import find_leftovers
 from tutor.engine.start_limiter import StartLimiter
 from tutor.errors import SubmissionError
 from tutor.judge.result import ExerciseResult
@@ -47,10 +49,11 @@ class Job:
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """The result of one job."""
+    """The result of one job. `left`: the command lines of processes that a submission must not leave behind."""
 
     job: Job
     result: ExerciseResult
+    left: tuple[str, ...] = ()
 
 
 def jobs_of_lessons(lessons: Sequence[Lesson]) -> Iterator[Job]:
@@ -84,15 +87,18 @@ def job_of_case(lesson: Lesson, case: Case, scratch: Path) -> Job | None:
 async def prove(jobs: Sequence[Job], course: Course, on_proof: Callable[[Proof], None]) -> list[Proof]:
     """Judge everything, and return the proofs in the order of the jobs.
 
+    Those that keep the CPU busy are judged one at a time, beside the others.
     `on_proof` gets each proof as soon as it is there, in any order. No process that was started is left when this
     returns, is cancelled or raises. Raises EngineError.
     """
     slots, start_limiter = asyncio.Semaphore(MAX_CONCURRENT_CHECKS), StartLimiter()
+    busy = asyncio.Lock()
 
     async def prove_one(job: Job) -> Proof:
-        async with slots:
+        expected = job.case.expected if job.case is not None else Expected("")
+        async with busy if expected.keeps_busy else nullcontext(), slots:
             report = await run_check([job.submission], course, start_limiter=start_limiter)
-        proof = Proof(job, report.exercises[0])
+        proof = Proof(job, report.exercises[0], tuple(await find_leftovers(expected.gone)))
         on_proof(proof)
         return proof
 

@@ -16,7 +16,7 @@ from typing import Any
 from tutor.engine import ending
 from tutor.engine.source import launch_arguments, read_sources, uncalled_main
 from tutor.engine.waits import POLL_S, Waits
-from tutor.errors import UnknownType
+from tutor.errors import EngineError, UnknownType
 from tutor.judge.bench import Handler
 from tutor.judge.trace import (
     CallAnswer,
@@ -34,6 +34,7 @@ from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import RESENT_S
 from tutor.process import LearnerProcess, next_wake, own_cpu_time
 from tutor.ros import echo, graph, parameters
+from tutor.ros.goal_sender import GoalSender
 from tutor.ros.intake import MAX_SAMPLES
 from tutor.ros.messages import to_plain
 from tutor.ros.observer import ANY_PUBLISHER, AnswerTooLarge, Observer
@@ -229,6 +230,13 @@ class RosRun:
     async def publisher(self, topic: str, type: str) -> AsyncIterator[Talker]:
         with contextlib.closing(Talker(self._domain_id, topic, type)) as talker:
             yield talker
+
+    @asynccontextmanager
+    async def goal_client(self, action: str, type: str) -> AsyncIterator[GoalSender]:
+        with contextlib.closing(GoalSender(self._domain_id, action, type, self._facts.notify)) as client:
+            yield client
+            if client.fault is not None:
+                raise EngineError(f"watching the action failed: {client.fault}")
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         over = asyncio.Event()

@@ -24,14 +24,26 @@ from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.defaults import Defaults
 from tutor.exercise.ends_cleanly import EndsCleanly
 from tutor.exercise.form import Custom, Form, check
+from tutor.exercise.handles_goal import HandlesGoal
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
-from tutor.exercise.nouns import LaunchFile, Parameter, Program, Service, SetsRate, ShownIn, SwitchesOff, Topic
+from tutor.exercise.nouns import (
+    Action,
+    LaunchFile,
+    Parameter,
+    Program,
+    Service,
+    SetsRate,
+    ShownIn,
+    SwitchesOff,
+    Topic,
+)
 from tutor.exercise.pair_communicates import PairCommunicates
-from tutor.exercise.publishes import Contains, Publishes, ShownByEcho
+from tutor.exercise.publishes import AtLeast, Contains, FieldEquals, Publishes, ShownByEcho
 from tutor.exercise.rate_at_run_time import RateAtRunTime
 from tutor.exercise.rate_at_start import RateAtStart
+from tutor.exercise.receives import Receives
 from tutor.exercise.rejects import Rejects, RejectsAtomically
 from tutor.exercise.running_node import Fields, Node
 from tutor.exercise.script import criterion
@@ -41,23 +53,29 @@ from tutor.exercise.set_at_run_time import SetAtRunTime
 from tutor.exercise.set_at_start import SetAtStart
 from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
+from tutor.exercise.watching import LogsText
 from tutor.exercise.words import SAYS_ERROR
 
 __all__ = [
     "SAYS_ERROR",
+    "Action",
     "Answers",
     "ArgumentMovesNamespace",
     "ArgumentMovesTopic",
+    "AtLeast",
     "CallsAll",
     "Contains",
     "Custom",
     "Defaults",
     "EndsCleanly",
+    "FieldEquals",
     "Fields",
     "Form",
+    "HandlesGoal",
     "InRange",
     "LaunchFile",
     "LogsParameter",
+    "LogsText",
     "NamesBadValue",
     "Node",
     "OtherUnit",
@@ -68,6 +86,7 @@ __all__ = [
     "Question",
     "RateAtRunTime",
     "RateAtStart",
+    "Receives",
     "Rejects",
     "RejectsAtomically",
     "Serves",

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from tutor.judge.bench import Run
 from tutor.judge.trace import Sample, Trace
+from tutor.ros_model import Graph
 
 Value = bool | int | float | str
 """What a parameter can be set to."""
+
+FLOAT32 = 1e-6
+"""How much a number changes, relatively, if it is kept in 32 bits."""
+
+GOAL_SERVICE, GOAL_TYPE = "/_action/send_goal", "_SendGoal"
+"""How the name and the type end of the service by which an action server gets its goals."""
 
 _TYPES = {bool: "boolean", int: "integer", float: "double", str: "string"}
 
@@ -62,6 +70,14 @@ class Topic:
         for name in self.field.split("."):
             value = value[name]
         return value
+
+    def message(self, value: Any) -> dict[str, Any]:
+        """The fields of a message whose `field` has this value."""
+        *outer, last = self.field.split(".")
+        message = {last: value}
+        for name in reversed(outer):
+            message = {name: message}
+        return message
 
     def values(self, seen: Run | Trace) -> list[Any]:
         """The values of `field` in all messages of a run so far."""
@@ -145,6 +161,29 @@ class Service:
         _require_full_name("service", self.name, self.type, "srv")
 
 
+@dataclass(frozen=True)
+class Action:
+    """An action with its full name and type, such as "/fibonacci" and "example_interfaces/action/Fibonacci".
+
+    Raises ValueError unless both are full.
+    """
+
+    name: str
+    type: str
+
+    def __post_init__(self) -> None:
+        _require_full_name("action", self.name, self.type, "action")
+
+    def has_server(self, graph: Graph) -> bool:
+        """Whether the graph has a server of this action."""
+        return any((each.name, each.type) == self.goal_service for each in graph.servers)
+
+    @property
+    def goal_service(self) -> tuple[str, str]:
+        """The service by which goals are sent, by its name and type, as the graph shows it."""
+        return f"{self.name}{GOAL_SERVICE}", f"{self.type}{GOAL_TYPE}"
+
+
 def _require_full_name(what: str, name: str, type_name: str, kind: str) -> None:
     """Raise ValueError unless a name begins with a slash, and a type is one such as "std_msgs/msg/String"."""
     if not name.startswith("/"):
@@ -152,6 +191,17 @@ def _require_full_name(what: str, name: str, type_name: str, kind: str) -> None:
     package, _, rest = type_name.partition(f"/{kind}/")
     if not package or not rest or "/" in package + rest:
         raise ValueError(f"the {what} {name}: {type_name!r} is no type such as package/{kind}/Name")
+
+
+def agrees(value: Any, wanted: Any) -> bool:
+    """Whether a field has the wanted value: floats as nearly as 32 bits hold them, of a mapping the fields it names."""
+    if isinstance(wanted, Mapping):
+        return isinstance(value, Mapping) and all(k in value and agrees(value[k], w) for k, w in wanted.items())
+    if isinstance(wanted, list | tuple):
+        return isinstance(value, list | tuple) and len(value) == len(wanted) and all(map(agrees, value, wanted))
+    if isinstance(wanted, float) and isinstance(value, int | float):
+        return math.isclose(value, wanted, rel_tol=FLOAT32, abs_tol=FLOAT32)
+    return bool(value == wanted)
 
 
 def show(value: object) -> str:

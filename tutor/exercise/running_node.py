@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+from contextlib import AsyncExitStack
 from types import SimpleNamespace
 from typing import Any, NoReturn
 
 from tutor.exercise.bad_values import BadValues
 from tutor.exercise.defaults import DeclaringRun, Defaults
-from tutor.exercise.nouns import Parameter, Program, Service, Topic, Value, show
-from tutor.exercise.parameters import ANSWER_S, find_parameter
+from tutor.exercise.handles_goal import action_missing, pursue, unanswered, wait_for_server
+from tutor.exercise.nouns import Action, Parameter, Program, Service, Topic, Value, agrees, show
+from tutor.exercise.parameters import ANSWER_S, DumpSilentNode, find_parameter
+from tutor.exercise.receives import wait_for_subscription
 from tutor.exercise.rejects import Rejects
+from tutor.exercise.seen import SPIN_S, look
 from tutor.exercise.serves import service_missing
-from tutor.judge.bench import Bench, Run
+from tutor.exercise.watching import text_in
+from tutor.judge.bench import Bench, Publisher, Run
 from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Sample, SetAnswer
@@ -22,7 +28,6 @@ from tutor.judge.waiting import (
     MESSAGE_GAP_S,
     RESENT_S,
     START_S,
-    find_stuck_frames,
     measure_steady_rate,
     patience_s,
     wait_for_message,
@@ -31,8 +36,11 @@ from tutor.judge.waiting import (
 from tutor.judge.wording import describe_no_answer, output_tail
 from tutor.ros_model import Parameter as Reported
 
-SPIN_S = 2.0
-"""A node that spins answers a parameter request within this time."""
+GOAL_S = 10.0
+"""How long a goal may take."""
+
+SHOW_S = 3.0
+"""How long a node may take to log what it has received."""
 
 MAX_EVIDENCE = 6
 
@@ -63,9 +71,14 @@ class Node:
     `seen`: what was asked and answered so far, a line each.
     """
 
-    def __init__(self, bench: Bench, run: Run, program: Program, expected: str, watch: tuple[Topic, ...]) -> None:
+    def __init__(
+        self, bench: Bench, run: Run, program: Program, expected: str, watch: tuple[Topic, ...], ours: AsyncExitStack
+    ) -> None:
+        """`ours`: closes our endpoints."""
         self._bench, self._run, self._program, self._expected, self._watch = bench, run, program, expected, watch
-        self._last: Service | Topic | None = None
+        self._ours = ours
+        self._publishers: dict[Topic, Publisher] = {}
+        self._last: Service | Topic | Action | None = None
         self.seen: list[str] = []
 
     def expect(self, actual: object, wanted: object, do: str, says: str = "") -> None:
@@ -73,12 +86,14 @@ class Node:
 
         `do`: the next step, in one sentence; `says`: what is wrong, if the two values do not say it.
         """
-        if actual == wanted:
+        if agrees(actual, wanted):
             return
         symptom = Symptom.WRONG_VALUES
         about: dict[str, Any] = {}
         if isinstance(self._last, Service):
             symptom, about = Symptom.WRONG_ANSWER, {"service": self._last.name, "type": self._last.type}
+        elif isinstance(self._last, Action):
+            symptom, about = Symptom.WRONG_GOAL, {"action": self._last.name}
         elif self._last is not None:
             about = {"topic": self._last.name, "type": self._last.type}
         says = says or f"it is {show(actual)}, not {show(wanted)}"
@@ -105,6 +120,57 @@ class Node:
             await self._fail_unanswered(asked, answer.took_s, service=name, type=service.type, says=says, do=do)
         self.seen.append(f"{asked}: {dict(answer.response)}")
         return Fields(answer.response, at=answer.answered_at, took_s=answer.took_s)
+
+    async def publish(self, topic: Topic, **fields: Any) -> Fields:
+        """Publish a message on the node's topic, once a subscription of it is there, and return the message.
+
+        `fields`: the message's fields; a nested message is a dict.
+        """
+        if topic not in self._publishers:
+            publisher = await self._ours.enter_async_context(self._run.publisher(topic.name, topic.type))
+            if not await wait_for_subscription(self._run, topic, publisher):
+                seen = await look(self._run, does_nothing=True)
+                about = {"topic": topic.name, "type": topic.type, "ours": publisher.endpoint}
+                self._fail(f"no subscription on {topic.name}", seen.symptom(Symptom.NOTHING_RECEIVED, **about))
+            self._publishers[topic] = publisher
+        sent = self._publishers[topic].publish(fields)
+        self.seen.append(f"{topic.name} got {fields}")
+        return Fields(sent.message, at=sent.source_time)
+
+    async def logs(self, text: str | re.Pattern[str], after: Fields | None = None, within_s: float = SHOW_S) -> str:
+        """Fail unless the node logs a text, or a pattern, after a response or a message; return the log message."""
+        run, since = self._run, after.at if after is not None else 0.0
+
+        def found() -> str:
+            return next((str(log) for log in run.logs if log.stamp >= since and text_in(log.text, text)), "")
+
+        if not await wait_until_seen(run, lambda: bool(found()), promised=lambda: True, message_gap_s=within_s):
+            seen = await look(run, does_nothing=not run.logs)
+            self._fail(f"{text!r} is not logged", seen.symptom(Symptom.NOT_LOGGED, what=f"{text!r}"))
+        self.seen.append(found())
+        return found()
+
+    async def send_goal(self, action: Action, *, cancel_after: int | None = None, **goal: Any) -> Fields:
+        """Send a goal to an action server, and return how it ended.
+
+        The `outcome` is "succeeded", "aborted", "canceled" or "rejected"; there is also the `result`, and `feedback`,
+        the list of its messages. `cancel_after`: ask to cancel the goal after so many of them.
+        """
+        run, self._last = self._run, action
+        self._bench.report_progress(0.5, f"sending a goal to {action.name}")
+        async with run.goal_client(action.name, action.type) as client:
+            if not await wait_for_server(run, action, client):
+                seen = await look(run, does_nothing=True)
+                self._fail(f"{action.name} has no action server", action_missing(action, seen))
+            await pursue(run, client, goal, cancel_after, GOAL_S)
+            answer = client.seen
+        outcome = "rejected" if answer.accepted is False else answer.outcome
+        if not outcome:
+            seen = await look(run, does_nothing=not answer.accepted)
+            self._fail(*unanswered(action, seen, answer, GOAL_S))
+        self.seen.append(f"{action.name} {goal}: {outcome}, {dict(answer.result or {})}")
+        now, feedback = run.now(), [Fields(each.message, at=each.source_time) for each in answer.feedback]
+        return Fields({"outcome": outcome, "result": answer.result or {}, "feedback": feedback}, at=now)
 
     async def next(self, topic: Topic, after: Fields, *, skip: int = 1) -> Fields:
         """Return a message that was published after a response or another message.
@@ -197,7 +263,7 @@ class Node:
         declared = await run.parameters(ANSWER_S) if run.graph.parameter_nodes else None
         trace = run.trace()
         silent = declared is None and trace.exit is None and bool(trace.graph.nodes)
-        stuck = await find_stuck_frames(self._bench, self._program.file) if silent else ()
+        stuck = await self._bench.facts(DumpSilentNode(self._program)) if silent else ()
         return DeclaringRun(trace, declared, None, stuck)
 
     async def _fail_unanswered(self, asked: str, took_s: float, **about: Any) -> NoReturn:
@@ -219,15 +285,9 @@ class Node:
         return Fields(sample.message, at=sample.source_time)
 
     async def _fail_silent(self, topic: Topic, *, some: bool) -> NoReturn:
-        run = self._run
-        answers = some or await run.parameters(SPIN_S) is not None
-        trace = run.trace()
-        silent = not answers and trace.exit is None and bool(trace.graph.nodes)
-        stuck = await find_stuck_frames(self._bench, self._program.file) if silent else ()
-        seen = Symptom.NO_MESSAGES.seen(
-            trace, stuck=stuck, answers=answers, topic=topic.name, type=topic.type, some=some
-        )
-        self._fail(f"{'no more messages' if some else 'no message'} on {topic.name}", seen)
+        seen = await look(self._run, does_nothing=not some)
+        silent = seen.symptom(Symptom.NO_MESSAGES, topic=topic.name, type=topic.type, some=some)
+        self._fail(f"{'no more messages' if some else 'no message'} on {topic.name}", silent)
 
     def _require(self, verdict: Verdict) -> None:
         if not verdict.passed:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Mapping
+from contextlib import AsyncExitStack
 from dataclasses import dataclass, replace
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Parameter, Program, Topic, Value
 from tutor.exercise.running_node import Node, Unmet
+from tutor.exercise.seen import was_slowed
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.verdict import Verdict, passed
-from tutor.judge.waiting import HARDLY_WAITED_SHARE
 
 Script = Callable[[Node], Awaitable[None]]
 
@@ -37,15 +38,17 @@ class RunScript:
     async def __call__(self, bench: Bench) -> ScriptRun:
         given = {parameter.name: value for parameter, value in self.parameters}
         watched = {topic.name: topic.type for topic in self.watch}
-        async with bench.start(self.program.file, parameters=given, watch=watched) as run:
-            node = Node(bench, run, self.program, self.expected, self.watch)
+        async with (
+            bench.start(self.program.file, parameters=given, watch=watched) as run,
+            AsyncExitStack() as ours,
+        ):
+            node = Node(bench, run, self.program, self.expected, self.watch, ours)
             try:
                 await self.script(node)
                 verdict = passed(self.expected, node.seen[-1] if node.seen else "it does", node.seen)
             except Unmet as unmet:
                 verdict = replace(unmet.verdict, expected=self.expected)
-            slowed = run.node_cpu_wait_s() >= HARDLY_WAITED_SHARE * (run.now() - run.started_at)
-        return ScriptRun(verdict, slowed)
+            return ScriptRun(verdict, was_slowed(run))
 
 
 @dataclass(frozen=True)

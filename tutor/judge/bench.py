@@ -18,6 +18,7 @@ from tutor.judge.trace import (
     Echo,
     Ending,
     Exit,
+    GoalAnswer,
     LogRecord,
     OutputLine,
     Sample,
@@ -52,6 +53,24 @@ class Publisher(Protocol):
 
     def publish(self, message: Mapping[str, Any]) -> Sample:
         """Publish a message (fields to values) at once; return it with the time at which it was sent."""
+
+
+class GoalClient(Protocol):
+    """Our client of an action of the learner's, for one goal."""
+
+    @property
+    def matched(self) -> bool:
+        """Whether it is matched with an action server now."""
+
+    @property
+    def seen(self) -> GoalAnswer:
+        """What has become of the goal so far."""
+
+    def send(self, goal: Mapping[str, Any]) -> None:
+        """Send the goal (fields to values), and ask for its result if it is accepted."""
+
+    def cancel(self) -> None:
+        """Ask the server to cancel the goal, which must have been accepted."""
 
 
 class Run(Protocol):
@@ -149,6 +168,9 @@ class Run(Protocol):
 
         Messages published before a subscription is matched are lost (see `Publisher.subscribers`).
         """
+
+    def goal_client(self, action: str, type: str) -> AbstractAsyncContextManager[GoalClient]:
+        """Create an action client in a node and participant of our own; both leave the graph when the context exits."""
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         """Subscribe as `ros2 topic echo` does: a separate participant that takes type and QoS from the publishers.

@@ -27,6 +27,8 @@ class Symptom(Enum):
     NOT_LOGGED = "something is missing from the log"
     WRONG_LOG = "the log says something that is not so"
     SERVICE_MISSING = "a service is missing"
+    ACTION_MISSING = "an action server is missing"
+    WRONG_GOAL = "a goal of an action does not go as it should"
     WRONG_ANSWER = "a service's answer is wrong"
     CALLS_MISSING = "a client does not make its calls, or not all"
     RUNS_ON = "a program that should end by itself goes on"

@@ -132,6 +132,21 @@ class ServedRequest:
 
 
 @dataclass(frozen=True, slots=True)
+class GoalAnswer:
+    """What has become of a goal that we sent to an action server.
+
+    `accepted` and `cancel_accepted` are None without an answer. `outcome`: how the goal ended ("succeeded", "canceled",
+    "aborted", or "unknown" to the server), or "" as long as it has not; then there is a `result`.
+    """
+
+    accepted: bool | None = None
+    feedback: tuple[Sample, ...] = ()
+    cancel_accepted: bool | None = None
+    outcome: str = ""
+    result: Mapping[str, Any] | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Echo:
     """What `ros2 topic echo` would have shown. `types`: all types on the topic; with more than one, echo refuses.
 

@@ -74,9 +74,15 @@ def text_bytes(text: str) -> int:
 
 
 def set_fields(message: Any, values: Mapping[str, Any]) -> Any:
-    """Set the fields of `message` and return it. Raises AttributeError for an unknown field."""
+    """Set the fields of `message`, those of nested messages too, and return it.
+
+    Raises AttributeError for an unknown field.
+    """
     for name, value in values.items():
-        setattr(message, name, value)
+        if isinstance(value, Mapping):
+            set_fields(getattr(message, name), value)
+        else:
+            setattr(message, name, value)
     return message
 
 

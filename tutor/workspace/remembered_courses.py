@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from tutor.content.courses import Courses
-from tutor.errors import StorageError, UsageError
+from tutor.content.courses import Courses, find_course, read_manifest
+from tutor.errors import ContentError, StorageError, UsageError
+from tutor.invocation import command
 from tutor.json_codec import convert_to, read_document, write_document
 from tutor.workspace.atomic import write_atomically
 from tutor.workspace.damaged import set_aside
@@ -39,7 +42,8 @@ class RememberedCourses:
             try:
                 more = Courses.find([given])
             except (UsageError, StorageError) as error:
-                self._notify(f"a course of this workspace cannot be used: {str(error).removeprefix('--lessons ')}")
+                why, forget = str(error).removeprefix("--lessons "), command("list", "--forget", given)
+                self._notify(f"a course of this workspace cannot be used: {why}; `{forget}` forgets it")
                 continue
             found = Courses((*found.folders, *more.folders), given=(*found.given, *more.given))
         return Courses(found.folders, saved.only and bool(found.folders), found.given)
@@ -50,6 +54,18 @@ class RememberedCourses:
         after = _Saved(tuple(dict.fromkeys((*before.courses, *courses.given))), courses.only)
         if courses.given and after != before:
             write_atomically(self.path, write_document(SCHEMA, courses=after.courses, only=after.only))
+
+    def forget(self, course: str) -> None:
+        """Forget a course, given by its name, its folder or its file; one that is gone, too.
+
+        Raises UsageError if the workspace does not remember it, and StorageError.
+        """
+        before = self._load()
+        kept = tuple(given for given in before.courses if not _is_called(given, course))
+        if kept == before.courses:
+            known = f"it remembers {', '.join(kept)}" if kept else "it remembers none"
+            raise UsageError(f"--forget {course}: this workspace does not remember such a course; {known}")
+        write_atomically(self.path, write_document(SCHEMA, courses=kept, only=before.only and bool(kept)))
 
     def _load(self) -> _Saved:
         try:
@@ -62,3 +78,12 @@ class RememberedCourses:
             aside = set_aside(self.path)
             self._notify(f"the courses of this workspace could not be read ({reason}); the file is kept as {aside}")
             return _Saved()
+
+
+def _is_called(given: str, name: str) -> bool:
+    """Whether a remembered course has this name, or is this folder or file."""
+    if name in (given, Path(given).name) or os.path.abspath(Path(name).expanduser()) == given:
+        return True
+    with suppress(UsageError, StorageError, ContentError):  # one that is gone has no name any more
+        return read_manifest(find_course(given)).name == name
+    return False

@@ -63,5 +63,6 @@ from tutor.mistakes.themes import lasting_threads as lasting_threads
 from tutor.mistakes.themes import loops as loops
 from tutor.mistakes.themes import unhandled as unhandled
 from tutor.mistakes.themes import more_symptoms as more_symptoms
+from tutor.mistakes.themes import actions as actions
 from tutor.mistakes.themes import parameter_symptoms as parameter_symptoms
 from tutor.mistakes.themes import symptoms as symptoms

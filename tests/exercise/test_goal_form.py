@@ -1,0 +1,70 @@
+"""The form of an action's goal, judged on made-up facts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from tests.checks.builders import NO_NODE, assert_failed, assert_passed, graph, judge_of, trace
+from tutor.exercise import Action, HandlesGoal, Program, check
+from tutor.exercise.handles_goal import GoalRun, Outcome
+from tutor.judge.trace import GoalAnswer, Sample
+
+COUNT = Action("/count", "example_interfaces/action/Fibonacci")
+FEEDBACK = (Sample("/count", {"sequence": [0, 1]}, 1001.0, 1001.0),)
+SERVED = trace(graph=graph(services={"/count/_action/send_goal": f"{COUNT.type}_SendGoal"}))
+DONE = GoalAnswer(True, FEEDBACK, None, "succeeded", {"sequence": [0, 1, 1]})
+CANCELED = GoalAnswer(True, FEEDBACK, True, "canceled", {"sequence": [0, 1]})
+RUNNING = GoalAnswer(True, FEEDBACK)
+REFUSED = GoalAnswer(accepted=False)
+
+
+@pytest.mark.parametrize(
+    ("ends", "answer", "cause", "words"),
+    [
+        ("succeeded", DONE, "", ""),
+        ("canceled", CANCELED, "", ""),
+        ("rejected", REFUSED, "", ""),
+        ("aborted", replace(DONE, outcome="aborted"), "", ""),
+        ("succeeded", replace(DONE, result={"sequence": [0, 2]}), "wrong goal", "[0, 2]"),
+        ("succeeded", replace(DONE, feedback=()), "wrong goal", "0 feedback messages"),
+        ("succeeded", replace(DONE, outcome="aborted"), "wrong goal", "it is aborted, not succeeded"),
+        ("succeeded", REFUSED, "wrong goal", "GoalResponse.ACCEPT"),
+        ("succeeded", RUNNING, "no answer", "does not end it within 10 s"),
+        ("succeeded", GoalAnswer(), "no answer", "does not answer a goal"),
+        ("rejected", RUNNING, "wrong goal", "it is accepted, not rejected"),
+        ("rejected", DONE, "wrong goal", "it is accepted, not rejected"),
+        ("rejected", GoalAnswer(), "no answer", "does not answer a goal"),
+        ("canceled", DONE, "wrong goal", "it is succeeded, not canceled"),
+        ("canceled", replace(RUNNING, cancel_accepted=False), "wrong goal", "cancel_callback"),
+        ("canceled", replace(RUNNING, cancel_accepted=True), "no answer", "does not end it"),
+    ],
+)
+def test_a_goal_ends_as_it_should(ends: Outcome, answer: GoalAnswer, cause: str, words: str) -> None:
+    wanted: dict[str, Any] = {} if ends == "rejected" else {"feedback": 1}
+    if ends == "succeeded":
+        wanted["result"] = {"sequence": [0, 1, 1]}
+    made = check("t1", Program("node.py"), HandlesGoal("counts", COUNT, {"order": 2}, ends, **wanted))
+    verdict = judge_of(made, "counts")(GoalRun(SERVED, answer=answer))
+    if cause:
+        assert_failed(verdict, cause, words, check=made)
+    else:
+        assert_passed(verdict)
+
+
+def test_a_missing_server_is_told_with_those_that_are_there() -> None:
+    made = check("t1", Program("node.py"), HandlesGoal("counts", COUNT, {"order": 2}))
+    judge = judge_of(made, "counts")
+    other = trace(graph=graph(services={"/counter/_action/send_goal": f"{COUNT.type}_SendGoal"}))
+    assert_failed(judge(GoalRun(other)), "action missing", f"/counter of type {COUNT.type}", check=made)
+    assert_failed(judge(GoalRun(trace())), "action missing", "has no action server /count", check=made)
+    assert_failed(judge(GoalRun(NO_NODE)), "no node", check=made)
+
+
+def test_an_unknown_end_or_type_is_the_authors_mistake() -> None:
+    with pytest.raises(ValueError, match="'won' is no end of a goal: take one of succeeded, aborted, canceled"):
+        HandlesGoal("counts", COUNT, {}, "won")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="is no type such as package/action/Name"):
+        Action("/count", "std_msgs/msg/String")
