@@ -20,8 +20,9 @@ CHECKS = Path(__file__).parents[2] / "checks"
 def all_catalogues() -> Iterator[tuple[str, Catalogue]]:
     """Ours and those of the exercises, each with the name of where it is."""
     yield "ours", CATALOGUE
-    for module in sorted(CHECKS.glob("*/mistakes*")):
-        yield module.parent.name, importlib.import_module(f"checks.{module.parent.name}.mistakes").CATALOGUE
+    for module in sorted((*CHECKS.glob("*/mistakes.py"), *CHECKS.glob("*/mistakes/__init__.py"))):
+        exercise = module.relative_to(CHECKS).parts[0]
+        yield exercise, importlib.import_module(f"checks.{exercise}.mistakes").CATALOGUE
 
 
 def case_of(mistake: Mistake, source: str) -> Case:
