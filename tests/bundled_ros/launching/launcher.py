@@ -27,9 +27,9 @@ sys.exit(run(sys.argv[1], arguments, "show" in options, noninteractive="terminal
 
 PRELOAD = f"""\
 import sys
-from tutor.bundled_ros.launching.runner import SUBSTITUTES
-sys.path.append(str(SUBSTITUTES))
-import difflib, yaml, launch.frontend, launch_ros.packages
+from tutor.bundled_ros.launching.runner import install_substitutes
+install_substitutes()
+import difflib, yaml, launch.frontend, launch_ros
 {IMPORTS}
 """
 """Imports what most launch files need, for a fork server."""

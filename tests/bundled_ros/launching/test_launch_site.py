@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import subprocess
 import sys
 from pathlib import Path
@@ -43,18 +42,15 @@ def test_substitutes_cannot_be_imported_elsewhere() -> None:
     assert ran.stdout.strip() == "None"
 
 
-def test_substitutes_import_neither_tutor_nor_rclpy() -> None:
-    site = Path(importlib.util.find_spec("tutor.bundled_ros.launching").origin).parent / "site"  # type: ignore[union-attr, arg-type]
-    code = "import sys, launch, launch_ros; print({'tutor', 'rclpy'} & {name.split('.')[0] for name in sys.modules})"
-    ran = subprocess.run(
-        [sys.executable, "-P", "-c", code],
-        env={"PYTHONPATH": str(site)},
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=True,
+def test_substitutes_do_not_import_rclpy() -> None:
+    code = (
+        "import sys; from tutor.bundled_ros.launching import runner; runner.install_substitutes(); "
+        "import launch, launch_ros.actions; print('rclpy' in sys.modules)"
     )
-    assert ran.stdout.strip() == "set()"
+    ran = subprocess.run(
+        [sys.executable, "-P", "-c", code], env={"PATH": ""}, capture_output=True, text=True, timeout=60, check=True
+    )
+    assert ran.stdout.strip() == "False"
 
 
 def test_a_real_launch_takes_precedence(importing_launcher: Launcher) -> None:
@@ -91,14 +87,18 @@ def test_a_folder_named_launch_is_not_a_real_launch(importing_launcher: Launcher
 
 
 CHECK_NAMES = """\
-import importlib
-from launch import _real_names
-for module, (is_package, names) in _real_names._modules().items():
+import importlib, launch, types
+for name in ("actions", "event_handlers", "launch_description_sources"):
+    assert getattr(launch, name)
+from tutor.bundled_ros.launching import real_names
+for module, (is_package, names) in real_names._modules().items():
     loaded = importlib.import_module(module)
     assert hasattr(loaded, "__path__") == is_package, module
     for name in names:
         if not hasattr(loaded, name):
             print(module, name)
+        elif names[name] == f"{module}.{name}:{name}" and isinstance(getattr(loaded, name), types.ModuleType):
+            print(module, name, "is hidden by the module of its name")
 """
 
 
@@ -110,22 +110,20 @@ def test_every_name_of_the_real_packages_can_be_imported_from_all_its_modules(im
 
 CHECK_ALIASES = """\
 import importlib, inspect, pickle, sys
-from launch import _aliases
+from tutor.bundled_ros.launching.real_names import HOMES
 import launch.actions.opaque_function as module
 from launch.actions import OpaqueFunction
 from launch.actions.opaque_function import OpaqueFunction as Same
 print(module.OpaqueFunction is OpaqueFunction is Same, sys.modules["launch.actions.opaque_function"] is module)
 print(OpaqueFunction.__module__, inspect.getmodule(OpaqueFunction) is module)
 print(inspect.getsource(OpaqueFunction).splitlines()[0])
-for home, packages in _aliases.MODULES.items():
-    for package, names in packages.items():
-        for name in names.split():
-            alias = importlib.import_module(f"{package}.{name}".lstrip("."))
-            for each in alias.__all__:
-                thing = getattr(alias, each)
-                if isinstance(thing, type) and thing.__module__.startswith("launch"):
-                    if pickle.loads(pickle.dumps(thing)) is not thing or inspect.getmodule(thing) is None:
-                        print(alias, each)
+for name in HOMES:
+    alias = importlib.import_module(name)
+    for public in alias.__all__:
+        thing = getattr(alias, public)
+        if isinstance(thing, type) and thing.__module__.startswith("launch"):
+            if pickle.loads(pickle.dumps(thing)) is not thing or inspect.getmodule(thing) is None:
+                print(alias, public)
 """
 
 
@@ -250,6 +248,20 @@ def test_a_name_unknown_to_the_real_launch_is_a_plain_import_error(launcher: Lau
     assert ran.code == 1
 
 
+@pytest.mark.parametrize(
+    ("statement", "meant"),
+    [
+        ("from launch import LaunchDescripton", "LaunchDescription"),
+        ("import launch_ros; launch_ros.actions.Nodee", "Node"),
+        ("import launch; launch.actons", "actions"),
+    ],
+)
+def test_a_misspelt_name_is_told_what_it_may_mean(launcher: Launcher, statement: str, meant: str) -> None:
+    ran = launcher.run(write(launcher, f"{statement}\n{EMPTY}"))
+    assert any(line.endswith(f"Did you mean: '{meant}'?") for line in ran.lines), ran.lines
+    assert ran.code == 1
+
+
 # --- how they report faults
 
 
@@ -305,7 +317,7 @@ def test_a_fault_is_shown_with_the_learners_own_line(launcher: Launcher, fault: 
     shown = "\n".join(ran.lines)
     assert f'  File "$DIR/main.launch.py", line {line}' in shown
     assert error in ran.lines, shown
-    assert "launching/site" not in shown
+    assert "bundled_ros/launching" not in shown
     assert ran.code == 1
 
 

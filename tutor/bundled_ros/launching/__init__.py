@@ -1,7 +1,7 @@
-"""Run launch files with the installed `launch`, or else with the subset of it in `site/`.
+"""Run launch files with the installed `launch`, or else with a subset of it.
 
-`site/` holds two packages named `launch` and `launch_ros`. They can be imported only in a process that runs a launch
-file, and they import none of our own code.
+The subset is in `launch/` and `launch_ros/`. Launch files know its parts by the names of the real packages, which
+`real_names` makes importable, only in the process that runs a launch file.
 """
 
 from tutor.bundled_ros.launching.runner import run

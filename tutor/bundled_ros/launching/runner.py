@@ -2,34 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
 import importlib
 import importlib.util
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
-
-from tutor.bundled_ros import packages
-
-SUBSTITUTES = Path(__file__).parent / "site"
-"""The folder of our substitutes for `launch` and `launch_ros`."""
-
-
-class Resolver(Protocol):
-    """Finds packages. Raises LookupError, with a message for the user, if it does not."""
-
-    def find_executable(self, package: str, executable: str) -> list[str]:
-        """Return the command words that run a package's executable."""
-
-    def find_share(self, package: str) -> Path:
-        """Return a package's share folder."""
+from typing import Any
 
 
 def has_real_launch() -> bool:
     """Return whether a real `launch` is installed. A folder that merely has this name does not count."""
     spec = importlib.util.find_spec("launch")
-    return spec is not None and spec.origin is not None and Path(spec.origin).parent != SUBSTITUTES / "launch"
+    return spec is not None and spec.origin is not None
 
 
 def run(
@@ -40,21 +24,20 @@ def run(
     show_description: bool = False,
     noninteractive: bool | None = None,
     debug: bool = False,
-    resolver: Resolver = packages,
 ) -> int:
     """Run the launch file, or only print its arguments or its description.
 
     Returns the exit code: 0, 1 after an error, or 130 after a Ctrl+C that the launch itself did not handle.
 
     `arguments` are `name:=value` words or a mapping. `noninteractive` means that no terminal sends Ctrl+C to the nodes
-    (None: if stdin is not a terminal). `resolver` is for our substitutes only: a real launch finds packages by itself.
+    (None: if stdin is not a terminal).
     """
     try:
         pairs = list(arguments.items()) if isinstance(arguments, Mapping) else _parse_arguments(arguments)
     except ValueError as error:
         print(error, file=sys.stderr)
         return 1
-    launch = _import_launch(resolver)
+    launch = _import_launch()
     try:
         if show_args or show_description:
             return _show(launch, path, _show_arguments if show_args else _show_description)
@@ -77,14 +60,19 @@ def _parse_arguments(arguments: Sequence[str]) -> list[tuple[str, str]]:
     return list(values.items())
 
 
-def _import_launch(resolver: Resolver) -> Any:
-    if has_real_launch():
-        return importlib.import_module("launch")
-    if str(SUBSTITUTES) not in sys.path:
-        sys.path.append(str(SUBSTITUTES))
-    launch = importlib.import_module("launch")
-    importlib.import_module("launch_ros.packages").resolver = resolver  # type: ignore[attr-defined]
-    return launch
+def _import_launch() -> Any:
+    if not has_real_launch():
+        install_substitutes()
+    return importlib.import_module("launch")
+
+
+def install_substitutes() -> None:
+    """Make our substitutes importable as `launch` and `launch_ros`, with the tags of XML and YAML files."""
+    from tutor.bundled_ros.launching import real_names
+    from tutor.bundled_ros.launching.launch import tags as launch_tags  # noqa: F401 - registers them
+    from tutor.bundled_ros.launching.launch_ros import tags as ros_tags  # noqa: F401
+
+    real_names.install()
 
 
 def _launch(
@@ -139,14 +127,20 @@ def _show_arguments(launch: Any, description: Any) -> None:
 
 def _print_unreadable() -> None:
     """Report included files that could not be read: their arguments are missing from the list."""
-    unreadable = getattr(importlib.import_module("launch.launch_description_source"), "unreadable", {})
+    if has_real_launch():
+        return
+    from tutor.bundled_ros.launching.launch.description import unreadable
+
     for path, error in unreadable.items():
         cause = error.__cause__ or error
         print(f"the arguments of {path} are missing: {type(cause).__name__}: {cause}", file=sys.stderr)
 
 
 def _print_learner_traceback(error: Exception) -> None:
-    with contextlib.suppress(ImportError):
-        text = importlib.import_module("launch._tracebacks").of_learner(error)
-        if text is not None:
-            print(text, file=sys.stderr)
+    if has_real_launch():
+        return
+    from tutor.bundled_ros.launching.launch.errors import of_learner
+
+    text = of_learner(error)
+    if text is not None:
+        print(text, file=sys.stderr)

@@ -77,7 +77,6 @@ def main(arguments: argparse.Namespace) -> int:
         show_description=arguments.print,
         noninteractive=arguments.noninteractive or None,
         debug=arguments.debug,
-        resolver=packages,
     )
     return code
 

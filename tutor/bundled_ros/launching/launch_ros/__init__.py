@@ -1,0 +1,1 @@
+"""What launch files know as `launch_ros`."""
