@@ -54,8 +54,8 @@ class RosBench:
     machine: Machine
     submission: Submission
     get_facts: Callable[[Scenario[Any]], Any]
-    on_facts: Callable[[object], None] = lambda facts: None
-    progress: ScenarioProgress = field(default_factory=ScenarioProgress)
+    on_facts: Callable[[object], None]
+    progress: ScenarioProgress
     expected_s: float = 0.0
     sigkilled: list[Path] = field(default_factory=list)
 

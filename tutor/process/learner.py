@@ -62,7 +62,7 @@ class LearnerProcess:
             stderr = PipeReader(self._feed_stderr)
             made.pop_all()
         self._stdout, self._stderr = stdout, stderr
-        self._link = SupervisorLink(spawner, self._run, frozenset((stdout.inode, stderr.inode)), self._set_exit)
+        self._link = SupervisorLink(self._run, frozenset((stdout.inode, stderr.inode)), self._set_exit, spawner)
         self._link.gone.add_done_callback(lambda _: self._finish())
 
     @classmethod

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from tutor.judge.trace import Exit
 from tutor.process import orphans, prctl
 from tutor.process.cpu_wait import recent_processes
-from tutor.process.spawner import Spawner, SupervisorProcess
+from tutor.process.spawner import DIRECTLY, Spawner, SupervisorProcess
 from tutor.process.supervisor import Process, descendants, descendants_in, kill, namespace_pid
 from tutor.process.wake_time import NextWake, next_wake
 
@@ -29,7 +29,9 @@ class SupervisorLink(asyncio.Protocol):
     resolves to "" once the supervisor and all its processes are gone, or to a list of those that could not be ended.
     """
 
-    def __init__(self, spawner: Spawner, run: str, pipes: frozenset[int], on_exit: Callable[[Exit], None]) -> None:
+    def __init__(
+        self, run: str, pipes: frozenset[int], on_exit: Callable[[Exit], None], spawner: Spawner = DIRECTLY
+    ) -> None:
         """`run` and `pipes` identify the processes of this run (see `orphans.RunMarks`)."""
         self.pid = 0
         self.started_at = 0.0
