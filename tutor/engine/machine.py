@@ -19,7 +19,7 @@ from tutor.engine.scheduling import TURN_LIMIT_S, StartLimiter
 from tutor.errors import EngineError
 from tutor.judge.submission import Submission
 from tutor.process.spawner import DIRECTLY, Spawner
-from tutor.ros.environment import RosEnvironment
+from tutor.ros.environment import RosEnvironment, detect
 
 MIN_DESCRIPTORS, WANTED_DESCRIPTORS = 512, 4096
 """Limits on open files: a check of all exercises needs about 350, and Fast DDS does not report that it lacks some."""
@@ -71,7 +71,6 @@ async def prepare(isolation: Isolation | None = None, submissions: Iterable[Subm
     """
     from tutor.ros import bytecode, process_setup
     from tutor.ros.discovery import require_loopback
-    from tutor.ros.environment import detect
 
     try:
         require_loopback()

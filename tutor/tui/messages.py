@@ -1,4 +1,4 @@
-"""Messages that workers post to the screens. Only the handlers of these messages touch widgets."""
+"""Messages that widgets and workers post to the screens, whose handlers then touch other widgets."""
 
 from __future__ import annotations
 

@@ -115,7 +115,7 @@ class Checks:
         model = self._host.model
         arguments = model.session.check_arguments(lesson, first=model.state.first_failure)
         start = partial(self._engines.start, arguments, model.session.workspace.root)
-        self.running = CheckProcess(lesson.id, start, self._take)
+        self.running = CheckProcess(lesson.id, start, partial(self._take, lesson.id))
         self._update(model.findings[lesson.id].with_check_started())
         self._host.refresh_bindings()
         self._host.start_worker(self._run, lesson, self.running, group="check")
@@ -132,13 +132,11 @@ class Checks:
             self.running.cancel()
             self._update(self._host.model.findings[self.running.exercise].stopped(note))
 
-    def _take(self, event: Event) -> None:
-        """Apply an event of the running check to the findings. The worker calls it on the app's own loop."""
-        if self.running is None or self.running.cancelled:
-            return
+    def _take(self, exercise: str, event: Event) -> None:
+        """Apply an event of a check to the findings. The worker calls this on the app's own loop."""
         if isinstance(event, ExerciseJudged) and event.result.digests:
             self._judged[event.result.id] = event.result.digests
-        self._update(self._host.model.findings[self.running.exercise].with_event(event))
+        self._update(self._host.model.findings[exercise].with_event(event))
         if isinstance(event, ExerciseJudged):
             self.compare_files()
             self._records.record_attempt(event.result)
