@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import signal
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -134,7 +134,8 @@ class TutorApp(TextApp[int]):
         self._leaving = True
         if self.main.busy:
             self.notify("Ending your node and the check. Press q again to leave at once.", timeout=20)
-        self.run_worker(self._shut_down, group="leave", exit_on_error=False)
+        shut_down: Callable[[], Any] = self._shut_down
+        self.run_worker(shut_down, group="leave", exit_on_error=False)
 
     async def _shut_down(self) -> None:
         try:
