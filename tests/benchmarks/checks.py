@@ -14,7 +14,7 @@ import sys
 import time
 
 from tutor.content import load_course
-from tutor.engine.modules import load_check
+from tutor.engine.loading import load_check
 
 PROGRAM = "import sys; from tutor.cli import main; sys.exit(main())"
 

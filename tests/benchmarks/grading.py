@@ -27,7 +27,7 @@ from tests.benchmarks.grading_model import Job, simulate
 from tests.grade.classes import MadeClass, make_class
 from tests.grade.grade_process import GradeProcess
 from tutor.content import load_course
-from tutor.engine.modules import load_check
+from tutor.engine.loading import load_check
 from tutor.grade.machine import COSTS, DEFAULT_COST, cores, estimate_s
 from tutor.grade.results import Result, ResultFolder
 

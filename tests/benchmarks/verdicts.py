@@ -29,7 +29,7 @@ from tests.judging import find_cases
 from tests.sampling import sample
 from tutor.content import load_course
 from tutor.content.submissions import RIGHT, WRONG
-from tutor.engine.modules import load_check
+from tutor.engine.loading import load_check
 from tutor.judge.events import CriterionJudged, ExerciseJudged, decode
 from tutor.judge.verdict import Status
 from tutor.process.supervisor import descendants

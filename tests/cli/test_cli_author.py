@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-import tutor.engine.proving
+import tutor.engine.verification
 from tests.cli.conftest import Run
 from tests.failures import failure
 from tutor.content import Course, load_course, loader
 from tutor.content.submissions import Expected
-from tutor.engine.proving import Job, Kind, Proof
+from tutor.engine.verification import Job, Kind, Proof
 from tutor.errors import EngineError
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict, fault, passed, skipped
@@ -64,7 +64,7 @@ class FakeProver:
 @pytest.fixture
 def prover(monkeypatch: pytest.MonkeyPatch) -> FakeProver:
     prover = FakeProver()
-    monkeypatch.setattr(tutor.engine.proving, "prove", prover)
+    monkeypatch.setattr(tutor.engine.verification, "prove", prover)
     return prover
 
 

@@ -11,7 +11,7 @@ from tests.cli.conftest import Run
 from tutor.content import load_course
 from tutor.doctor.ros2 import own_domain
 from tutor.session import Session
-from tutor.tui.live.launching import watcher_command
+from tutor.tui.live.watcher import watcher_command
 from tutor.workspace import RunOptions, Workspace, claims, domain_of
 
 

@@ -6,14 +6,16 @@ import importlib
 import sys
 import warnings
 from collections.abc import AsyncIterator, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from tests.engine.helpers import Scene
-from tutor.engine.forking import start_fork_server
-from tutor.engine.preparation import NODE_MODULES
-from tutor.process.fork_link import ForkServerLink
+from tutor.engine.environment import NODE_MODULES, start_fork_server
+from tutor.engine.machine import Machine
+from tutor.engine.scheduling import StartLimiter
+from tutor.process.spawner import Spawner
 from tutor.ros import process_setup
 from tutor.ros.environment import RosEnvironment, detect
 
@@ -34,18 +36,16 @@ def ros() -> Iterator[RosEnvironment]:
 
 
 @pytest.fixture(scope="module")
-def fork_server(ros: RosEnvironment) -> Iterator[ForkServerLink | None]:
-    """The server that nodes are forked from, as in a check."""
+def machine(ros: RosEnvironment) -> Iterator[Machine]:
+    """The machine with a server that nodes are forked from, as in a check."""
     with start_fork_server(ros, NODE_MODULES) as server:
-        yield server
+        yield Machine(ros, spawner=Spawner(server))
 
 
 @pytest.fixture
-async def scene(
-    ros: RosEnvironment, fork_server: ForkServerLink | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> AsyncIterator[Scene]:
+async def scene(machine: Machine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> AsyncIterator[Scene]:
     """Runs learners' scripts; after the test none of their processes may be left, and no domain reserved."""
-    scene = Scene(ros, fork_server, tmp_path, monkeypatch)
+    scene = Scene(replace(machine, starts=StartLimiter()), tmp_path, monkeypatch)
     yield scene
     leftovers = scene.leftovers()
     assert not leftovers

@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tutor.content import CriterionText, Difficulty, Lesson
+from tutor.content import CriterionText, Difficulty, Lesson, LiveView
+from tutor.engine.machine import Machine
+from tutor.engine.progress import ScenarioProgress
 from tutor.judge.bench import Scenario
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import Event
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Verdict, passed
-from tutor.process.fork_link import ForkServerLink
 from tutor.process.supervisor import processes
 from tutor.ros import domain
-from tutor.ros.environment import RosEnvironment
 
 if TYPE_CHECKING:  # it imports rclpy, which needs a prepared environment
     from tutor.engine.bench import RosBench
@@ -66,11 +66,9 @@ node.create_timer(0.05, lambda: publisher.publish(String(data=node.get_name())))
 class Scene:
     """Runs learners' scripts in a folder, and tracks their processes and domains."""
 
-    def __init__(
-        self, ros: RosEnvironment, fork_server: ForkServerLink | None, folder: Path, monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        self.ros = ros
-        self.fork_server = fork_server
+    def __init__(self, machine: Machine, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.machine = machine
+        self.ros = machine.ros
         self.folder = folder
         self.events: list[Event] = []
         self.reserved_domains: set[int] = set()
@@ -108,7 +106,8 @@ class Scene:
         """Return a bench with this submission."""
         from tutor.engine.bench import RosBench
 
-        return RosBench(submission, self.ros, refuse_facts, lambda fraction, text: None, fork_server=self.fork_server)
+        progress = ScenarioProgress(lambda fraction, doing, so_far: None, LiveView(), set())
+        return RosBench(self.machine, submission, refuse_facts, lambda facts: None, progress)
 
     async def judge(
         self,
@@ -128,9 +127,7 @@ class Scene:
 
         check = Check("t1", criteria)
         submission = self.submission(node=source)
-        return await Runner(
-            check, lesson(check), submission, self.ros, only, record, fork_server=self.fork_server, first=first
-        ).run()
+        return await Runner(self.machine, check, lesson(check), submission, only, record, first=first).run()
 
     def leftovers(self) -> list[int]:
         """Return the pids of living processes that this test has started."""

@@ -11,7 +11,7 @@ import pytest
 from tests.engine.helpers import FILE, Scene
 from tutor.content import load_course
 from tutor.engine.explanation import explain
-from tutor.engine.modules import load_check
+from tutor.engine.loading import load_check
 from tutor.judge import ending
 from tutor.judge.bench import Bench
 from tutor.judge.check import Check

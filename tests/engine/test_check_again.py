@@ -9,10 +9,10 @@ from pathlib import Path
 CHECKS_AGAIN = """
 import asyncio, os, sys
 from tutor.content import load_course
-from tutor.engine import run_check, unchanged
+from tutor.engine import loading, run_check
 from tutor.workspace import solution
 
-refuse, early = unchanged.refuse_changed_modules, set()
+refuse, early = loading.refuse_changed_modules, set()
 def refuse_and_note():
     refuse()
     early.update(sys.modules)
@@ -27,9 +27,9 @@ async def check_twice_at_once():
 
 course = load_course()
 before = dict(os.environ)
-unchanged.refuse_changed_modules = refuse_and_note
+loading.refuse_changed_modules = refuse_and_note
 asyncio.run(check(i11="publishes", i13="services", i21="defaults"))
-unchanged.refuse_changed_modules = refuse
+loading.refuse_changed_modules = refuse
 late = {name.partition(".")[0] for name in set(sys.modules) - early} - {"tutor", "checks", *sys.stdlib_module_names}
 print("late:", *late)
 # Programs that the user starts from this process next must not inherit a check's environment.

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tests.content.conftest import make_course
 from tutor.content import load_course
-from tutor.engine.modules import load_catalogues, load_check
+from tutor.engine.loading import load_catalogues, load_check
 from tutor.mistakes.diagnosis import catalogues_of
 
 CHECK = """

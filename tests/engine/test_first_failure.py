@@ -5,14 +5,17 @@ from __future__ import annotations
 import asyncio
 from typing import Any
 
+import pytest
+
 from tests.engine.helpers import FILE, WAITS, Scene, criterion, statuses
 from tests.failures import failure
-from tutor.engine.first_failure import judge_until_failure
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.events import CriterionJudged
 from tutor.judge.result import CriterionResult
 from tutor.judge.verdict import Status, Verdict, passed
+
+pytestmark = pytest.mark.usefixtures("ros")
 
 FAILED = failure("this", "that", ("no", "it does not", "do it"))
 
@@ -27,6 +30,7 @@ async def no_facts(bench: Bench) -> str:
 
 async def _judge(*verdicts: Verdict | None, bonus: tuple[int, ...] = ()) -> tuple[dict[str, Status], str]:
     """Judge criteria c0, c1, ... with these verdicts, in this order; with None, the judge never returns."""
+    from tutor.engine.runner import judge_until_failure  # imports rclpy
 
     async def judge(criterion: Criterion) -> CriterionResult:
         index = int(criterion.id[1:])

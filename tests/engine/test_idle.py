@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from tutor.engine import idle
+from tutor.engine import waits
 from tutor.process import NextWake
 
 DEADLINE = 1000.0
@@ -19,7 +19,7 @@ class FakeProcess:
         self.now, self.wake, self.cpu_wait_s = 50.0, NextWake(math.inf, 7), 3.0
         monkeypatch.setattr("time.monotonic", lambda: self.now)
         self.may_have_lost = True
-        self.idle = idle.IdleDetector(
+        self.idle = waits.IdleDetector(
             lambda by: self.wake,
             lambda: self.cpu_wait_s,
             0.7,
@@ -79,7 +79,7 @@ def test_a_loss_that_shows_while_it_is_idle_counts(process: FakeProcess) -> None
 
 
 def test_a_short_idle_time_is_not_made_longer(process: FakeProcess) -> None:
-    process.idle = idle.IdleDetector(
+    process.idle = waits.IdleDetector(
         lambda by: process.wake, lambda: 0.0, 0.7, lossless_s=1.0, may_have_lost=lambda: False
     )
     assert [process.advance(0.2) for _ in range(6)] == [False, False, False, False, True, True]

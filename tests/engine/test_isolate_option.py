@@ -29,25 +29,25 @@ FILE = "temperature_publisher.py"
 ISOLATOR = """
 import asyncio, json, os, sys
 from pathlib import Path
-from tutor.engine.forking import node_env
-from tutor.engine.isolation import Isolation, restrict_environment
-from tutor.engine.sandbox import Sandboxes
+from tutor.engine.environment import node_env
+from tutor.engine.isolation import Isolation, Sandboxes, restrict_environment
+from tutor.judge.submission import Submission
 from tutor.process import LearnerProcess, run_limits
+from tutor.process.spawner import Spawner
 from tutor.ros.environment import detect
 submission, tools, way = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
 
 async def main():
     isolation, ros = Isolation.set_up(), detect()
-    with Sandboxes(isolation, [submission]) as sandboxes:
+    probe = submission / "probe.py"
+    with Sandboxes(isolation, [Submission("t1", {probe.name: probe})]) as sandboxes:
         sandboxes.start(ros, tools, [])
-        sandbox = sandboxes.of(submission)
+        sandbox = sandboxes.of(probe)
         env = node_env(ros, 250, Path("/tmp"), None)
         restrict_environment(env)
-        argv = [str(ros.python), str(submission / "probe.py"), *sys.argv[4:]]
-        fork_server = sandbox.fork_server if way == "forked" else None
-        async with await LearnerProcess.start(
-            argv, env=env, cwd=submission, wrapper=sandbox.command, fork_server=fork_server
-        ) as process:
+        argv = [str(ros.python), str(probe), *sys.argv[4:]]
+        spawner = sandbox.spawner if way == "forked" else Spawner(wrapper=sandbox.spawner.wrapper)
+        async with await LearnerProcess.start(argv, env=env, cwd=submission, spawner=spawner) as process:
             enforcing = asyncio.ensure_future(run_limits.enforce(process))
             await process.wait(120)
             enforcing.cancel()

@@ -10,8 +10,8 @@ import sys
 from tutor import engine
 from tutor.content import load_course
 from tutor.engine.explanation import explain
-from tutor.engine.modules import load_check
-from tutor.engine.so_far import RunSnapshot, describe
+from tutor.engine.loading import load_check
+from tutor.engine.progress import RunSnapshot, describe
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import failed, passed

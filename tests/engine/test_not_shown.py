@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tutor.content import load_course
-from tutor.engine.not_shown import items_not_shown, read_all_sources
+from tutor.engine.explanation import items_not_shown, read_all_sources
 from tutor.judge.result import CriterionResult
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import passed

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import subprocess
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -15,11 +16,20 @@ from tests.engine.helpers import lesson
 from tutor.content import Checklist, Course
 from tutor.content.proof import find_wrong_verdicts
 from tutor.content.submissions import Case, Expected
-from tutor.engine import leftovers, proving
-from tutor.engine.proving import Job, Kind, prove
+from tutor.engine import leftovers, verification
+from tutor.engine.machine import Machine
+from tutor.engine.verification import Job, Kind, prove
 from tutor.judge.check import Check
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
+from tutor.ros.environment import detect
+
+
+@pytest.fixture(autouse=True)
+def _machine(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No ROS is needed, since no check is run."""
+    monkeypatch.setattr(verification, "prepare", lambda: nullcontext(Machine(detect())))
+
 
 REPORT = SimpleNamespace(exercises=(ExerciseResult("t1", "Made", (), (), 0.0),))
 COURSE = Course((), Checklist())
@@ -35,7 +45,7 @@ async def test_what_a_submission_leaves_behind_is_found(monkeypatch: pytest.Monk
     async def run_check(*_: object, **__: object) -> Any:
         return REPORT
 
-    monkeypatch.setattr(proving, "run_check", run_check)
+    monkeypatch.setattr(verification, "run_check", run_check)
     monkeypatch.setattr(leftovers, "LIMIT_S", 0.3)
     text = f"left_by_{tmp_path.name}"
     (tmp_path / "expect.yaml").write_text(f"says: made\ngone: {text}\n")
@@ -64,7 +74,7 @@ async def test_submissions_that_keep_the_cpu_busy_are_judged_one_at_a_time(monke
         running -= 1
         return REPORT
 
-    monkeypatch.setattr(proving, "run_check", run_check)
+    monkeypatch.setattr(verification, "run_check", run_check)
     await prove([job(name, keeps_busy=True) for name in "abc"], COURSE, lambda _: None)
     assert most == 1
     await prove([job(name) for name in "abc"], COURSE, lambda _: None)

@@ -555,16 +555,17 @@ async def test_a_launch_has_launched_all_once_no_timer_is_pending(scene: Scene) 
 
 
 async def test_of_waiting_runs_the_longest_one_starts_first(scene: Scene) -> None:
-    from tutor.engine.start_limiter import StartLimiter
+    from tutor.engine.scheduling import StartLimiter
 
     began: list[float] = []
-    bench = replace(scene.bench(WAITS), start_limiter=StartLimiter(slots=1), expected_s=2.0)
+    machine = replace(scene.machine, starts=StartLimiter(slots=1))
+    bench = replace(scene.bench(WAITS), machine=machine, expected_s=2.0)
 
     async def start(expected_s: float | None) -> None:
         async with bench.start(FILE, expected_s=expected_s):
             began.append(bench.expected_s if expected_s is None else expected_s)
 
-    async with bench.start_limiter.slot(0.0) as up:
+    async with machine.starts.slot(0.0) as up:
         waiting = [asyncio.create_task(start(expected_s)) for expected_s in (0.5, None, 7.0)]
         await asyncio.sleep(0)  # all three queue for the slot
         up()

@@ -11,8 +11,8 @@ import pytest
 from tests.checks.builders import CRASH, NODE_UP, exited, graph, log, samples, trace
 from tests.engine.helpers import FILE, Scene, criterion, node
 from tutor.content import LiveTopic, LiveView
-from tutor.engine import provisional
-from tutor.engine.so_far import RunSnapshot, SoFar, describe
+from tutor.engine import progress
+from tutor.engine.progress import RunSnapshot, ScenarioProgress, SoFar, describe
 from tutor.judge.bench import Bench
 from tutor.judge.events import CriterionJudged, Progress
 from tutor.judge.trace import Exit, LogRecord, OutputLine, Sample, Trace
@@ -150,20 +150,20 @@ class FakeRun:
 
 
 class Reports:
-    """Records the reports of a Provisional, and waits for them."""
+    """Records the reports of a ScenarioProgress, and waits for them."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setattr(provisional, "QUIET_WAIT_S", 0.05)
-        monkeypatch.setattr(provisional, "UPDATE_INTERVAL_S", 0.01)
+        monkeypatch.setattr(progress, "QUIET_WAIT_S", 0.05)
+        monkeypatch.setattr(progress, "UPDATE_INTERVAL_S", 0.01)
         self.all: list[tuple[float, str, str]] = []
-        self.provisional = provisional.Provisional(self._record, VIEW, set())
-        self.provisional.report(0.1, "waiting")
+        self.progress = ScenarioProgress(self._record, VIEW, set())
+        self.progress.report(0.1, "waiting")
 
     def _record(self, fraction: float, doing: str, so_far: SoFar) -> None:
         self.all.append((fraction, doing, so_far.text))
 
     def follow(self, run: FakeRun) -> Any:
-        return self.provisional.follow(run, {TOPIC: TYPE})  # type: ignore[arg-type]
+        return self.progress.follow(run, {TOPIC: TYPE})  # type: ignore[arg-type]
 
     async def until(self, so_far: str) -> None:
         async with asyncio.timeout(20):
@@ -182,7 +182,7 @@ async def test_a_long_wait_is_reported_and_diagnosed_once_per_change(
         traces = run.traces
         await asyncio.sleep(0.1)
         assert run.traces == traces
-        reports.provisional.report(0.5, "pressing Ctrl+C")
+        reports.progress.report(0.5, "pressing Ctrl+C")
         assert reports.all[-1] == (0.5, "pressing Ctrl+C", "")  # the previous report was about the step before
         run.interrupted_at = 990.0
         await reports.until("it has not ended after Ctrl+C yet")

@@ -11,7 +11,7 @@ import pytest
 
 from tutor.bundled_ros.ros2 import sourced, sources
 from tutor.content import load_course
-from tutor.engine import forking
+from tutor.engine import environment
 from tutor.ros.environment import RosEnvironment, detect
 from tutor.session.session import Session
 from tutor.workspace import RunOptions, Workspace
@@ -40,8 +40,8 @@ def test_a_checked_program_finds_ros2_and_the_packages_of_its_workspace(
     monkeypatch.setenv("PATH", USER_PATH)
     ros, tools = detect(), tmp_path / "tools"
     sourced.write_programs(tools, ros, os.environ)
-    env = forking.node_env(ros, 7, workspace, None)
-    forking.source_workspace(env, ros, workspace / "src/my_package/my_package/calculator_client.py", tools)
+    env = environment.node_env(ros, 7, workspace, None)
+    environment.source_workspace(env, ros, workspace / "src/my_package/my_package/calculator_client.py", tools)
     assert shutil.which("ros2", path=env["PATH"]) == str(tools / "bin" / "ros2")
     script = "ros2 pkg prefix other && python3 -c 'import other, example_interfaces.srv'"
     done = subprocess.run(["sh", "-c", script], env=env, capture_output=True, text=True, check=False)
@@ -62,7 +62,7 @@ def test_with_an_installed_ros_what_is_built_is_found_as_its_setup_file_would(wo
     (built / site).mkdir(parents=True)
     (workspace / "install" / "COLCON_IGNORE").touch()
     env = {"PATH": "/opt/ros/jazzy/bin", "AMENT_PREFIX_PATH": "/opt/ros/jazzy", "PYTHONPATH": "/opt/ros/py"}
-    forking.source_workspace(env, SYSTEM, workspace / "src/my_package/my_package/a.py", workspace / "no-tools")
+    environment.source_workspace(env, SYSTEM, workspace / "src/my_package/my_package/a.py", workspace / "no-tools")
     roots = [str(workspace / "src" / name) for name in ("my_package", "other")]
     assert env == {
         "PATH": "/opt/ros/jazzy/bin",

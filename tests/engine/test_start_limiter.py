@@ -6,7 +6,7 @@ import asyncio
 
 import pytest
 
-from tutor.engine.start_limiter import GATHER_ITERATIONS, StartLimiter
+from tutor.engine.scheduling import GATHER_ITERATIONS, StartLimiter
 
 
 class Starts:

@@ -14,7 +14,7 @@ from tests.ros.own_network import OWN_NETWORK, needs_own_network
 # Ten checks in a network namespace without other checks, each counting how many run at once.
 TEN = """
 import asyncio, os
-from tutor.engine.turns import turn
+from tutor.engine.scheduling import turn
 
 async def main():
     under_way, most = 0, 0

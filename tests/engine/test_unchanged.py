@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import base64
+import csv
+import hashlib
 import importlib
 import os
 import py_compile
@@ -12,7 +15,18 @@ from pathlib import Path
 
 import pytest
 
-from tutor.engine import unchanged
+from tutor.engine import loading
+
+
+def record(folder: Path, *names: str) -> None:
+    """Write the RECORD of a package in which modules were installed, as installers do."""
+    info = folder / "package-1.0.dist-info"
+    info.mkdir(exist_ok=True)
+    with (info / "RECORD").open("w", newline="") as file:
+        for name in names:
+            source = (folder / f"{name}.py").read_bytes()
+            digest = base64.urlsafe_b64encode(hashlib.sha256(source).digest()).rstrip(b"=").decode()
+            csv.writer(file).writerow([f"{name}.py", f"sha256={digest}", len(source)])
 
 
 @pytest.fixture
@@ -20,11 +34,12 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A folder of modules, in the state in which learners' programs begin to run."""
     for name in ("kept_as_it_was", "replaced_later", "compiled_later"):
         (tmp_path / f"{name}.py").write_text("is_ours = True\n")
+    record(tmp_path, "kept_as_it_was", "replaced_later")
     monkeypatch.syspath_prepend(tmp_path)
     modules = set(sys.modules)
     monkeypatch.setattr(sys, "meta_path", list(sys.meta_path))
     time.sleep(0.05)  # file timestamps have a resolution of some milliseconds
-    unchanged.refuse_changed_modules()
+    loading.refuse_changed_modules()
     time.sleep(0.05)
     yield tmp_path
     for name in set(sys.modules) - modules:
@@ -39,11 +54,25 @@ def test_an_unchanged_module_is_imported(folder: Path) -> None:
     assert import_is_ours("kept_as_it_was")
 
 
-def test_a_replaced_module_is_refused(folder: Path) -> None:
+def test_an_installed_module_that_is_linked_into_another_environment_is_imported(folder: Path) -> None:
+    os.link(folder / "kept_as_it_was.py", folder / "in_another_environment.py")
+    assert import_is_ours("kept_as_it_was")
+
+
+def test_a_module_that_no_record_tells_of_is_refused_when_it_is_linked(folder: Path) -> None:
+    os.link(folder / "compiled_later.py", folder / "in_another_environment.py")
+    with pytest.raises(ImportError, match="was changed"):
+        import_is_ours("compiled_later")
+
+
+@pytest.mark.parametrize("forges_record", [False, True])
+def test_a_replaced_module_is_refused(folder: Path, forges_record: bool) -> None:
     file = folder / "replaced_later.py"
     before = file.stat()
     file.write_text("is_ours = None\n")
     os.utime(file, ns=(before.st_atime_ns, before.st_mtime_ns))
+    if forges_record:
+        record(folder, "replaced_later")
     with pytest.raises(ImportError, match=r"replaced_later\.py was changed while a program was checked"):
         import_is_ours("replaced_later")
 

@@ -9,7 +9,7 @@ import pytest
 
 from tests.failures import failure
 from tutor.content import Lesson, load_course
-from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
+from tutor.engine.explanation import first_todo, point_to_todo
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import passed
 

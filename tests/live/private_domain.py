@@ -17,8 +17,8 @@ from tests.ros.ordinary_domain import ordinary_domain
 from tutor import private_folders
 from tutor.ros.environment import detect, learner_env
 from tutor.tui import messages
-from tutor.tui.live.launching import WatcherCommand, watcher_command
 from tutor.tui.live.pane import LivePane
+from tutor.tui.live.watcher import WatcherCommand, watcher_command
 from tutor.tui.text_app import TextApp
 from tutor.tui.themes import DARK, LIGHT
 

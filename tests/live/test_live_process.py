@@ -180,8 +180,7 @@ def test_an_invalid_request_line_is_ignored(ros_world: PrivateDomain) -> None:
 # Starts the watcher as the real app does, prints its pid, and is then killed.
 APP = """
 import asyncio, os, sys
-from tutor.tui.live.child import LiveChild
-from tutor.tui.live.launching import watcher_command
+from tutor.tui.live.watcher import LiveChild, watcher_command
 
 async def main():
     child = await LiveChild.start(watcher_command(int(os.environ["ROS_DOMAIN_ID"])))

@@ -18,6 +18,7 @@ import pytest
 from tests.process.conftest import LIMIT_S, until
 from tutor.process import LearnerProcess, fork_link, supervisor
 from tutor.process.fork_link import ForkedSupervisor, ForkServerLink
+from tutor.process.spawner import DIRECTLY, Spawner
 
 PACKAGE = {
     "pack/__init__.py": "",
@@ -55,7 +56,7 @@ class Programs:
             [sys.executable, str(file), *arguments],
             env={**self.env, **env},
             cwd=self.folder,
-            fork_server=self.server if fork else None,
+            spawner=Spawner(self.server) if fork else DIRECTLY,
         )
 
     async def run(
@@ -302,7 +303,7 @@ async def test_a_path_that_a_program_adds_counts(programs: Programs) -> None:
 async def test_a_missing_file_and_other_arguments_are_left_to_python(programs: Programs) -> None:
     for argv in (["/no/such.py"], ["-c", "print(1)"], ["-V"]):
         async with await LearnerProcess.start(
-            [sys.executable, *argv], env=programs.env, cwd=programs.folder, fork_server=programs.server
+            [sys.executable, *argv], env=programs.env, cwd=programs.folder, spawner=Spawner(programs.server)
         ) as process:
             assert await process.wait(LIMIT_S) is not None
             text = process.output[0].text
@@ -313,7 +314,9 @@ async def test_a_program_whose_executable_is_missing_cannot_be_started(programs:
     from tutor.errors import StartError
 
     with pytest.raises(StartError, match="No such file"):
-        await LearnerProcess.start(["/no/such"], env=programs.env, cwd=programs.folder, fork_server=programs.server)
+        await LearnerProcess.start(
+            ["/no/such"], env=programs.env, cwd=programs.folder, spawner=Spawner(programs.server)
+        )
 
 
 @pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGSTOP])
@@ -361,10 +364,11 @@ import asyncio, os, sys
 from pathlib import Path
 from tutor.process import LearnerProcess
 from tutor.process.fork_link import ForkServerLink
+from tutor.process.spawner import Spawner
 async def main():
     server = ForkServerLink(Path(sys.executable), {programs.env!r}, ["yaml"])
     process = await LearnerProcess.start(
-        [sys.executable, {str(file)!r}], env={programs.env!r}, cwd=Path("."), fork_server=server
+        [sys.executable, {str(file)!r}], env={programs.env!r}, cwd=Path("."), spawner=Spawner(server)
     )
     while not process.output:
         await asyncio.sleep(0.01)

@@ -282,7 +282,7 @@ async def test_a_supervisor_that_fails_at_once_says_why(
 ) -> None:
     broken = tmp_path / "broken.py"
     broken.write_text("raise SystemExit('this machine is odd')")
-    monkeypatch.setattr("tutor.process.link._SUPERVISOR", broken)
+    monkeypatch.setattr("tutor.process.spawner._SUPERVISOR", broken)
     with pytest.raises(StartError, match="this machine is odd"):
         await bench.start("pass")
 

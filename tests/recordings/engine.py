@@ -10,7 +10,7 @@ from typing import Any
 
 from tests.recordings.recording import JudgeCall, Recording, outcome, scenario_name, write
 from tutor.engine import __main__ as engine
-from tutor.engine import modules, run_check
+from tutor.engine import loading, run_check
 from tutor.judge.check import Check, Criterion
 from tutor.judge.result import ExerciseResult, Report
 from tutor.judge.verdict import Status, Verdict
@@ -56,8 +56,8 @@ def main() -> int:
     """Run the engine as usual, and write the recording into the folder FILE when it has judged the submission."""
     folder, case, *arguments = sys.argv[1:]
     calls: Calls = []
-    load = modules.load_check
-    modules.load_check = lambda lesson: recorded(load(lesson), calls)
+    load = loading.load_check
+    loading.load_check = lambda lesson: recorded(load(lesson), calls)
 
     async def run_and_keep(*given: Any, **named: Any) -> Report:
         report = await run_check(*given, **named)

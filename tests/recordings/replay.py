@@ -22,7 +22,7 @@ from tests.mistakes.limits import MAX_WORDS, MEDIAN_WORDS, faults_of, solution_l
 from tests.recordings.recording import JudgeCall, Outcome, Recording, outcome, read_all, scenario_name, write
 from tutor.content import load_course
 from tutor.engine.explanation import explain
-from tutor.engine.modules import load_check
+from tutor.engine.loading import load_check
 from tutor.judge.check import Check
 from tutor.judge.result import CriterionResult, tell_roots_once
 from tutor.judge.verdict import Status, Verdict, bounded, skipped

@@ -14,9 +14,8 @@ import pytest
 
 from tests.waiting import wait_for
 from tutor.process.supervisor import processes
-from tutor.session import engine_starter
-from tutor.session.engine_child import EngineChild
-from tutor.session.engine_starter import EngineStarter
+from tutor.session import engine_process
+from tutor.session.engine_process import EngineChild, EngineStarter
 
 ENGINE = """
 import json, os, sys
@@ -94,7 +93,7 @@ async def test_only_one_is_kept_and_not_for_ever(tmp_path: Path, monkeypatch: py
     async with ready_engine(engines, tmp_path):
         await engines.keep_ready(tmp_path)  # returns at once
     (tmp_path / "ready").unlink()
-    monkeypatch.setattr(engine_starter, "KEEP_READY_S", 0.01)
+    monkeypatch.setattr(engine_process, "KEEP_READY_S", 0.01)
     await engines.keep_ready(tmp_path)
     assert not engines.keeps_one
     pids = [int(path.read_text()) for path in [tmp_path / "ready"] if path.exists()]  # it may have ended before it ran

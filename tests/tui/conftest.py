@@ -181,8 +181,7 @@ async def open_app(session: Session, size: tuple[int, int] = (120, 36)) -> Async
         finally:
             if isinstance(session, fakes.FakeSession):
                 session.engine.close()
-            if app.main is not None:
-                await app.main.close_down()
+            await app.close_down()
 
 
 @pytest.fixture

@@ -95,8 +95,7 @@ class Album:
             else:
                 await until(pilot, lambda: isinstance(app.screen, WelcomeScreen))
             yield pilot
-            if app.main is not None:
-                await app.main.close_down()
+            await app.close_down()
 
     async def take(self, pilot: Pilot[int], name: str) -> None:
         for theme in (LIGHT, DARK):

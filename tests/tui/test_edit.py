@@ -212,7 +212,7 @@ async def test_the_views_of_the_code_and_a_reset_that_keeps_a_backup(learner: An
 async def test_a_file_that_is_still_being_read_when_the_app_closes_is_not_shown(learner: Any) -> None:
     async with learner((80, 24)) as me:
         pane = me.main.query_one(CodePane)
-        await me.main.close_down()
+        await me.app.close_down()
         await pane.remove_children()
         await me.main.files.refresh(me.file)
         assert not pane.children

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tests.waiting import wait_for
 from tutor.process.supervisor import processes
-from tutor.session.engine_child import EngineChild
+from tutor.session.engine_process import EngineChild
 
 DAEMONIZES_AND_KILLS_ITSELF = """
 import os, signal, sys, time

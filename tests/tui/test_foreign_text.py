@@ -15,9 +15,8 @@ from tutor.live.protocol import Ready, Update, WatcherError
 from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, TopicUpdate
 from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
 from tutor.tui import messages
-from tutor.tui.dialogs.confirm import ConfirmScreen
-from tutor.tui.dialogs.conflict import ConflictScreen
 from tutor.tui.dialogs.run_options import RunOptionsScreen
+from tutor.tui.dialogs.simple import ConfirmScreen, ConflictScreen
 from tutor.tui.live.pane import LivePane
 from tutor.tui.live.publish_dialog import PublishScreen
 from tutor.tui.live.status import TABS

@@ -16,7 +16,7 @@ from textual.widgets.markdown import MarkdownBlock
 from tests.tui import fakes
 from tutor.tui.app import TutorApp
 from tutor.tui.commands import all_commands
-from tutor.tui.control.layout import Criteria, Layout, layout_for
+from tutor.tui.control.pages import Criteria, Layout, layout_for
 from tutor.tui.dialogs.help import KeyTable
 from tutor.tui.themes import BACKGROUNDS, DARK, LIGHT, TEXT_COLOURS
 from tutor.tui.widgets.criteria import CriteriaPanel

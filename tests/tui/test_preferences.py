@@ -16,7 +16,7 @@ async def reopen(me: Any) -> Any:
         await fakes.wait_until_ready(app, pilot)
         assert app.main is not None
         start = (app.main.model.lesson.id, app.main.page, app.theme, app.main.model.state)
-        await app.main.close_down()
+        await app.close_down()
     return start
 
 

@@ -93,7 +93,7 @@ async def test_the_start_does_no_work_of_the_whole_screen_twice(
         await pilot.resize_terminal(80, 24)
         await pilot.pause()
         assert done == ["restyled", "laid out"]  # there is another layout for this size
-        await app.main.close_down()
+        await app.close_down()
 
 
 @pytest.fixture

@@ -130,7 +130,7 @@ async def test_several_terminals_are_opened_shown_and_closed_by_keys(learner: An
         await me.press("7")
         await prints(me, "out 3")
         pid = int((me.session.workspace.root / "pid").read_text())
-        await me.main.close_down()
+        await me.app.close_down()
         assert not is_alive(pid)
 
 

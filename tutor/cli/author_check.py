@@ -16,7 +16,7 @@ from tutor.judge.wording import counted
 if TYPE_CHECKING:
     from tutor.content import Course, Lesson, Problem
     from tutor.content.courses import Courses
-    from tutor.engine.proving import Job, Proof
+    from tutor.engine.verification import Job, Proof
     from tutor.judge.check import Check
 
 
@@ -67,7 +67,7 @@ def _choose(arguments: argparse.Namespace, course: Course, own: Courses) -> _Cho
 
 def _load_checks(lessons: Sequence[Lesson]) -> tuple[dict[str, Check], list[Problem]]:
     from tutor.content import Problem
-    from tutor.engine.modules import load_check
+    from tutor.engine.loading import load_check
 
     checks: dict[str, Check] = {}
     findings = []
@@ -154,7 +154,7 @@ def _prove(
     """Run everything; return None if interrupted."""
     from tutor import private_folders
     from tutor.cli.judging import NoDisplay, interruptible
-    from tutor.engine.proving import jobs_of_lessons, prove
+    from tutor.engine.verification import jobs_of_lessons, prove
 
     def report_progress(proof: Proof) -> None:
         result = proof.result
@@ -180,7 +180,7 @@ def _jobs_of_submissions(
     """
     from tutor.content.lint_submissions import find_cases
     from tutor.content.loader import BUNDLED
-    from tutor.engine.proving import job_of_case
+    from tutor.engine.verification import job_of_case
     from tutor.ros.environment import detect
 
     for folder, lessons in submissions.items():

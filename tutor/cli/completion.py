@@ -119,7 +119,7 @@ def _make_completer(name: str, action: argparse.Action, commands: list[str]) -> 
 
 def _mistakes(course: Course, given: argparse.Namespace) -> dict[str, str]:
     """Return the ids of all mistakes, with what zsh and fish show beside them; none after the first word."""
-    from tutor.engine.modules import load_catalogues
+    from tutor.engine.loading import load_catalogues
     from tutor.mistakes import pages
 
     if given.words:

@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print a page, the mistakes that the words fit, or all. Raises UsageError if there is none."""
-    from tutor.engine.modules import load_catalogues
+    from tutor.engine.loading import load_catalogues
     from tutor.mistakes import pages
 
     mistakes = pages.every_mistake(load_catalogues(context.load_course(arguments)))

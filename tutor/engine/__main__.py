@@ -18,12 +18,15 @@ import signal
 import sys
 import time
 from collections.abc import Sequence
+from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 
 from tutor.content import load_course
-from tutor.engine import run_check, turns
+from tutor.engine import run_check
 from tutor.engine.isolation import Isolation
-from tutor.engine.preparation import Prepared, prepare
+from tutor.engine.machine import Limits, Machine, prepare
+from tutor.engine.scheduling import TURN_LIMIT_S
 from tutor.errors import ContentError, EngineError, SubmissionError, UnknownExercise
 from tutor.interpreter import reduce_gc_frequency
 from tutor.judge.events import Event, ResourcesUsed, encode
@@ -48,7 +51,7 @@ def main() -> int:
         if arguments.try_isolation:
             return _try_isolation()
         isolation = Isolation.set_up() if arguments.isolate else None  # while this process is still single-threaded
-        run_until_stopped(lambda: _stand_by() if arguments.standby else _check(arguments, isolation=isolation))
+        run_until_stopped(_stand_by if arguments.standby else lambda: _check(arguments, isolation=isolation))
     except (ContentError, SubmissionError, UnknownExercise) as error:
         print(error, file=sys.stderr)
         return 2
@@ -93,10 +96,10 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 async def _stand_by() -> None:
-    async with prepare() as prepared:
+    async with prepare() as machine:
         importlib.import_module("tutor.mistakes")  # a check that is not on standby imports it when something fails
         if line := await _read_line():
-            await _check(_parse(json.loads(line)), prepared)
+            await _check(_parse(json.loads(line)), machine)
 
 
 async def _read_line() -> str:
@@ -112,23 +115,21 @@ async def _read_line() -> str:
 
 
 async def _check(
-    arguments: argparse.Namespace, prepared: Prepared | None = None, isolation: Isolation | None = None
+    arguments: argparse.Namespace, machine: Machine | None = None, isolation: Isolation | None = None
 ) -> None:
     course = load_course(arguments.lessons, only=arguments.only)
     submission = find_submission(course.find(arguments.exercise), arguments.path, None)
-    only = frozenset(arguments.criterion) if arguments.criterion else None
-    await run_check(
-        [submission],
-        course,
-        only=only,
-        on_event=_print_event,
-        first=arguments.first,
-        prepared=prepared,
-        isolation=isolation,
-        limit_s=arguments.limit,
-        turn_limit_s=math.inf if arguments.patient else turns.LIMIT_S,
-    )
-    if prepared is None:  # else the fork server is still running
+    limits = Limits(arguments.limit, math.inf if arguments.patient else TURN_LIMIT_S)
+    async with nullcontext(machine) if machine else prepare(isolation, [submission]) as ready:
+        await run_check(
+            [submission],
+            course,
+            only=frozenset(arguments.criterion) if arguments.criterion else None,
+            first=arguments.first,
+            on_event=_print_event,
+            machine=replace(ready, limits=limits),
+        )
+    if machine is None:  # else the fork server is still running
         _reap_orphans()
     if arguments.usage:
         own, ended = resource.getrusage(resource.RUSAGE_SELF), resource.getrusage(resource.RUSAGE_CHILDREN)

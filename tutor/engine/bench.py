@@ -4,28 +4,26 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
-from contextlib import AbstractAsyncContextManager, asynccontextmanager, contextmanager, nullcontext, suppress
+from contextlib import asynccontextmanager, contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
 from tutor.bundled_ros.ros2 import overlay, sourced
 from tutor.bundled_ros.ros2.starting import ros2_command
-from tutor.engine.forking import node_env, source_workspace
+from tutor.engine.environment import node_env, package_root, source_workspace
 from tutor.engine.isolation import restrict_environment
-from tutor.engine.package_folders import package_folder, package_root
-from tutor.engine.run import CollectedFacts, RosRun
-from tutor.engine.sandbox import Sandboxes
-from tutor.engine.start_limiter import StartLimiter
+from tutor.engine.machine import Machine
+from tutor.engine.progress import ScenarioProgress
+from tutor.engine.run import RosRun
+from tutor.engine.waits import CollectedFacts
 from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
 from tutor.judge.bench import Run, Scenario
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MAX_CHARACTERS
 from tutor.process import LearnerProcess, run_limits
-from tutor.process.fork_link import ForkServerLink
 from tutor.process.log_folder import temporary_log_folder
 from tutor.ros.domain import reserve_domain
-from tutor.ros.environment import RosEnvironment
 from tutor.ros.observer import Observer
 
 T = TypeVar("T")
@@ -48,28 +46,18 @@ _KILLED_HINT = (
 class RosBench:
     """The `Bench` of `tutor.judge.bench` for one scenario.
 
-    `get_facts` returns the facts of another scenario. `on_progress` gets (fraction, text), and `on_facts` what
-    the scenario reports before it ends. `expected_s`: the check's; of several waiting starts, the one with the longest
-    goes first (a start may give its own). `follow`: entered for each run,
-    with its watched topics and their types. `sigkilled`: the files whose process was ended by SIGKILL.
-    `sandboxes`: where submissions run in isolation. `fork_server`: where processes are forked without it. `tools`: the
-    programs of a sourced terminal (see `Prepared`).
+    `get_facts` returns the facts of another scenario; `on_facts` gets what this one reports before it ends.
+    `expected_s`: the check's; of several waiting starts, the one with the longest goes first (a start may give its
+    own). `sigkilled`: the files whose process was ended by SIGKILL.
     """
 
+    machine: Machine
     submission: Submission
-    ros: RosEnvironment
     get_facts: Callable[[Scenario[Any]], Any]
-    on_progress: Callable[[float, str], None]
-    start_limiter: StartLimiter = field(default_factory=StartLimiter)
+    on_facts: Callable[[object], None]
+    progress: ScenarioProgress
     expected_s: float = 0.0
-    sandboxes: Sandboxes | None = None
-    follow: Callable[[RosRun, Mapping[str, str]], AbstractAsyncContextManager[None]] = lambda run, watched: (
-        nullcontext()
-    )
-    on_facts: Callable[[object], None] = lambda facts: None
     sigkilled: list[Path] = field(default_factory=list)
-    fork_server: ForkServerLink | None = None
-    tools: Path | None = None
 
     @asynccontextmanager
     async def start(
@@ -81,7 +69,7 @@ class RosBench:
         expected_s: float | None = None,
     ) -> AsyncIterator[Run]:
         path = self.submission.files[file].resolve()
-        argv = [str(self.ros.python), str(path), *ros_arguments(parameters or {})]
+        argv = [str(self.machine.ros.python), str(path), *ros_arguments(parameters or {})]
 
         def make_argv(env: dict[str, str], folder: Path) -> list[str]:
             return argv
@@ -96,9 +84,9 @@ class RosBench:
         given = [f"{name}:={value}" for name, value in (arguments or {}).items()]
 
         def make_argv(env: dict[str, str], folder: Path) -> list[str]:
-            if self.ros.kind == "system":  # our own launch does this by itself
-                overlay.make_overlay(folder / "overlay", path, env, python=str(self.ros.python))
-            return [*ros2_command(self.ros, env), "launch", str(path), *given]
+            if self.machine.ros.kind == "system":  # our own launch does this by itself
+                overlay.make_overlay(folder / "overlay", path, env, python=str(self.machine.ros.python))
+            return [*ros2_command(self.machine.ros, env), "launch", str(path), *given]
 
         async with self._start(
             path, make_argv, {}, {}, terminal=True, nodes=2, expected_s=self.expected_s + LAUNCH_OVERHEAD_S
@@ -119,10 +107,10 @@ class RosBench:
     ) -> AsyncIterator[Run]:
         """Run a command as `_run` does once it has a start slot; free the slot once the run has this many nodes."""
         async with (
-            self.start_limiter.slot(expected_s) as up,
+            self.machine.starts.slot(expected_s) as up,
             self._run(path, make_argv, parameters, watch, terminal=terminal) as run,
             _report_when_up(run, nodes, up),
-            self.follow(run, watch),
+            self.progress.follow(run, watch),
         ):
             yield run
 
@@ -137,8 +125,8 @@ class RosBench:
         terminal: bool,
     ) -> AsyncIterator[RosRun]:
         """Run a command on a private domain; `make_argv` builds it from its environment and a folder for files."""
-        facts = CollectedFacts()
-        sandbox = self.sandboxes.of(package_folder(path)) if self.sandboxes is not None else None
+        facts, machine = CollectedFacts(), self.machine
+        sandbox = machine.sandbox_of(path)
         with (
             _as_engine_errors(),
             reserve_domain() as domain_id,
@@ -149,11 +137,11 @@ class RosBench:
                 observer.watch_logs()
                 for topic, type_name in watch.items():
                     observer.watch(topic, type_name)
-                env = node_env(self.ros, domain_id, log_dir, package_root(path))
+                env = node_env(machine.ros, domain_id, log_dir, package_root(path))
                 if sandbox is None:  # else it would see the folders of its workspace
-                    source_workspace(env, self.ros, path, self.tools)
-                elif self.tools is not None:
-                    sourced.add_programs(env, self.tools)
+                    source_workspace(env, machine.ros, path, machine.tools)
+                elif machine.tools is not None:
+                    sourced.add_programs(env, machine.tools)
                 argv = make_argv(env, ours)
                 if sandbox is not None:
                     restrict_environment(env)
@@ -164,8 +152,7 @@ class RosBench:
                     env=env,
                     cwd=cwd,
                     terminal=terminal,
-                    wrapper=sandbox.command if sandbox else (),
-                    fork_server=sandbox.fork_server if sandbox else self.fork_server,
+                    spawner=sandbox.spawner if sandbox else machine.spawner,
                     on_change=facts.notify,
                 ) as process:
                     with _raise_if_killed(process), _limited(process):
@@ -183,7 +170,7 @@ class RosBench:
         return found
 
     def report_progress(self, fraction: float, text: str) -> None:
-        self.on_progress(min(1.0, max(0.0, fraction)), text[:MAX_CHARACTERS])
+        self.progress.report(min(1.0, max(0.0, fraction)), text[:MAX_CHARACTERS])
 
     def report_facts(self, facts: object) -> None:
         self.on_facts(facts)

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import nullcontext
-from pathlib import Path
+from collections.abc import Callable, Sequence
+from contextlib import AbstractAsyncContextManager, nullcontext
 
 from tutor.content import Course
-from tutor.engine import turns
 from tutor.engine.isolation import Isolation
-from tutor.engine.package_folders import package_folder
-from tutor.engine.preparation import Prepared, prepare
-from tutor.engine.sandbox import Sandboxes
-from tutor.engine.start_limiter import StartLimiter
-from tutor.judge.check import Check
+from tutor.engine.machine import Machine, prepare
+from tutor.engine.scheduling import turn
 from tutor.judge.events import CheckFinished, Event
 from tutor.judge.result import Report
 from tutor.judge.submission import Submission
@@ -26,50 +21,28 @@ async def run_check(
     course: Course,
     *,
     only: frozenset[str] | None = None,
-    on_event: Callable[[Event], None] = lambda event: None,
-    start_limiter: StartLimiter | None = None,
-    isolation: Isolation | None = None,
     first: bool = False,
-    prepared: Prepared | None = None,
-    limit_s: float | None = None,
-    turn_limit_s: float = turns.LIMIT_S,
+    on_event: Callable[[Event], None] = lambda event: None,
+    isolation: Isolation | None = None,
+    machine: Machine | None = None,
 ) -> Report:
     """Judge the submissions in parallel. No process is left when this returns, is cancelled or raises.
 
-    `only`: ids of the criteria to show (None: all). `start_limiter`: shared among checks that run concurrently.
-    `isolation`: isolates all processes of the submissions. `first`: end each submission's check at the first required
-    criterion that fails, and skip those not judged by then. `prepared`: by a `prepare` block around this call, without
-    isolation; otherwise this process is prepared here, and its environment variables are restored afterwards.
-    `limit_s`: what is not judged by then is an error. `turn_limit_s`: how long to wait for a turn at most.
-    Raises EngineError if checks cannot run here.
+    `only`: ids of the criteria to show (None: all). `first`: end each submission's check at the first required
+    criterion that fails, and skip those not judged by then. `machine`: by a `prepare` block around this call; otherwise
+    this process is prepared here, and its environment variables are restored afterwards. `isolation`: what isolates all
+    processes of the submissions then. Raises EngineError if checks cannot run here.
     """
-    from tutor.engine import unchanged
-    from tutor.engine.modules import load_check
+    from tutor.engine import loading
 
-    shared_limiter = start_limiter or StartLimiter()
-    sandboxes = Sandboxes(isolation, map(package_folder, _files_of(submissions))) if isolation else None
-    async with nullcontext(prepared) if prepared else prepare(sandboxes=sandboxes) as ready:
+    async with nullcontext(machine) if machine else prepare(isolation, submissions) as ready:
         from tutor.engine.runner import Runner  # imports rclpy, whose environment is set by now
 
-        unchanged.refuse_changed_modules()
+        loading.refuse_changed_modules()
 
         def make_runner(submission: Submission) -> Runner:
             lesson = course.find(submission.exercise)
-            check: Check = load_check(lesson)
-            return Runner(
-                check,
-                lesson,
-                submission,
-                ready.ros,
-                only,
-                on_event,
-                shared_limiter,
-                sandboxes,
-                ready.fork_server,
-                tools=ready.tools,
-                first=first,
-                limit_s=limit_s,
-            )
+            return Runner(ready, loading.load_check(lesson), lesson, submission, only, on_event, first=first)
 
         runners = [make_runner(submission) for submission in submissions]
 
@@ -77,10 +50,7 @@ async def run_check(
             for runner in runners:
                 runner.announce_waiting()
 
-        # A caller that shares a limiter among checks decides itself how many run concurrently.
-        turn_socket = isolation.turn_socket if isolation else None
-        waits = turns.turn(turn_socket, turn_limit_s, announce_waiting) if start_limiter is None else nullcontext()
-        async with waits:
+        async with _turn(ready, announce_waiting):
             started = time.monotonic()
             tasks = [asyncio.ensure_future(runner.run()) for runner in runners]
             try:
@@ -93,11 +63,13 @@ async def run_check(
         environment=ready.ros.for_report(),
         exercises=tuple(results),
         duration_s=time.monotonic() - started,
-        isolation=isolation.restrictions if isolation else (),
+        isolation=ready.isolation.restrictions if ready.isolation else (),
     )
     on_event(CheckFinished(report))
     return report
 
 
-def _files_of(submissions: Sequence[Submission]) -> Iterator[Path]:
-    return (path.resolve() for submission in submissions for path in submission.files.values())
+def _turn(machine: Machine, on_wait: Callable[[], None]) -> AbstractAsyncContextManager[None]:
+    if machine.limits.turn_s is None:
+        return nullcontext()
+    return turn(machine.isolation.turn_socket if machine.isolation else None, machine.limits.turn_s, on_wait)

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 from tutor.engine.source import add_source_lines
 from tutor.judge import tracebacks
+from tutor.judge.trace import Ending
 from tutor.judge.tracebacks import Frame
 from tutor.process import LearnerProcess, NextWake, fork_link
 from tutor.process.cpu_wait import MAX_EXTENSION_FACTOR
@@ -55,7 +56,24 @@ async def wait_until_blocked(process: LearnerProcess, cpu_wait_s: Callable[[], f
         await asyncio.sleep(BLOCKED_POLL_S)
 
 
-async def survivors(process: LearnerProcess) -> tuple[str, ...]:
+async def ending_of(
+    process: LearnerProcess, interrupted_at: float, limit_s: float, cpu_wait_share: float
+) -> Ending | None:
+    """Return how a process ended, or did not within `limit_s`, after Ctrl+C; None if that did not reach it.
+
+    `interrupted_at`: in seconds since the epoch. `cpu_wait_share`: the share of the time before, in which it waited for
+    a CPU.
+    """
+    ended = process.exit
+    if ended is not None and not process.interrupted:
+        return None
+    took_s = (process.started_at + ended.after_s if ended is not None else time.time()) - interrupted_at
+    survivors = await _survivors(process)
+    output = tuple(line for line in process.output if line.at >= interrupted_at)
+    return Ending(ended, took_s, limit_s, output, survivors, cpu_wait_share)
+
+
+async def _survivors(process: LearnerProcess) -> tuple[str, ...]:
     """The command lines of surviving processes, after a grace period if the first process has ended."""
     deadline = time.monotonic() + (CHILD_EXIT_S if process.exit is not None else 0.0)
     while (left := process.survivors()) and time.monotonic() < deadline:

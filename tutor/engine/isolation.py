@@ -1,7 +1,8 @@
 """Isolates a submission for `ros-tutor check --isolate` with bubblewrap's namespaces and the kernel's limits.
 
 Our own process stays outside, with the user's files and the report. It shares only a network namespace with the
-isolated processes, so that our observers can discover the nodes.
+isolated processes, so that our observers can discover the nodes. The runs of a submission share a sandbox, as they
+share a folder and the machine without isolation.
 """
 
 from __future__ import annotations
@@ -9,18 +10,28 @@ from __future__ import annotations
 import os
 import shutil
 import socket
+import stat
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import TracebackType
+from typing import Self
 
-from tutor.engine import turns
+from tutor import private_folders
+from tutor.engine.environment import node_env, package_folder, start_fork_server
+from tutor.engine.scheduling import kept_turn_socket
 from tutor.errors import EngineError
 from tutor.judge.result import Restriction
+from tutor.judge.submission import Submission
 from tutor.process import namespaces
-from tutor.process.isolation_support import Machine, why_not
+from tutor.process.isolation_support import NamespaceSupport, why_not
+from tutor.process.log_folder import temporary_log_folder
 from tutor.process.run_limits import MAX_MB, MAX_TASKS
+from tutor.process.spawner import Spawner
+from tutor.ros.environment import RosEnvironment
 
 MEMORY_MB, FILE_MB, TASKS = 2048, 64, 2 * MAX_TASKS
 """The kernel's limits on the writable memory of a process (our solutions' nodes use 165 to 230 MB), the size of a file,
@@ -39,6 +50,9 @@ _NO_MORE_NAMESPACES = "--disable-userns"  # since bubblewrap 0.8
 _KILL_FIRST = ("-n", "1000", "--")
 """Arguments of choom: when the machine runs out of memory, the kernel ends these processes before all others."""
 
+_MAX_FILES, _MAX_MB = 2000, 64
+"""Limits on the copy of a submission."""
+
 _VARIABLES = frozenset(["COLORTERM", "LANG", "LANGUAGE", "LD_LIBRARY_PATH", "NO_COLOR", "PATH", "TERM", "TZ"])
 _VARIABLE_PREFIXES = (
     *("AMENT_", "COLCON_", "CYCLONEDDS_", "FASTDDS_", "FASTRTPS_", "LC_", "OMP_", "OPENBLAS_", "PYTHON", "RCL_"),
@@ -49,9 +63,10 @@ _VARIABLE_PREFIXES = (
 
 @dataclass(frozen=True, slots=True)
 class Isolation:
-    """A working way to isolate processes on this machine; made by `Isolation.set_up`. `turn_socket`: see `turns`.
+    """A working way to isolate processes on this machine; made by `Isolation.set_up`.
 
-    `prefix` comes before a command in isolation; `no_namespaces`: a submission can make no namespaces of its own.
+    `turn_socket`: see `scheduling.turn`. `prefix` comes before a command in isolation; `no_namespaces`: a submission
+    can make no namespaces of its own.
     """
 
     bwrap: str
@@ -66,25 +81,25 @@ class Isolation:
         This process must be single-threaded. Raises EngineError if isolation fails; then nothing may be checked.
         """
         bwrap, prlimit, choom = (shutil.which(name) for name in ("bwrap", "prlimit", "choom"))
-        machine = Machine.read()
+        support = NamespaceSupport.read()
         if bwrap is None:
-            raise why_not("", machine, bwrap)
+            raise why_not("", support, bwrap)
         if prlimit is None:
             raise EngineError(
                 "isolation needs prlimit, which is not installed", "install it: sudo apt install util-linux"
             )
         limits = (f"--data={MEMORY_MB << 20}", f"--fsize={FILE_MB << 20}", f"--nproc={TASKS}", "--core=0", "--")
         prefix = (*((choom, *_KILL_FIRST) if choom else ()), prlimit, *limits)
-        isolation = cls(bwrap, prefix, turns.kept_turn_socket())  # made in the network namespace that all checks share
+        isolation = cls(bwrap, prefix, kept_turn_socket())  # made in the network namespace that all checks share
         try:
             namespaces.enter(bwrap)
         except OSError as error:
-            raise why_not(error.strerror or str(error), machine, bwrap) from error
+            raise why_not(error.strerror or str(error), support, bwrap) from error
         if isolation._fault() is None:
             return isolation
         isolation = replace(isolation, no_namespaces=False)
         if fault := isolation._fault():
-            raise why_not(fault, machine, bwrap)
+            raise why_not(fault, support, bwrap)
         return isolation
 
     @property
@@ -164,3 +179,119 @@ def readable_folders(env: Mapping[str, str]) -> Iterator[Path]:
             and not any(home.is_relative_to(folder) for home in homes)
         ):
             yield folder
+
+
+class Sandbox:
+    """Where one submission runs in isolation: its copy, all that it writes, and the fork server of its nodes."""
+
+    def __init__(
+        self,
+        isolation: Isolation,
+        folder: Path,
+        disk: Path,
+        ros: RosEnvironment,
+        tools: Path,
+        modules: Iterable[str],
+        stack: ExitStack,
+    ) -> None:
+        """`folder`: what is copied, and mounted in its place. `disk`: an empty folder for all that is written.
+
+        Raises EngineError.
+        """
+        self._logs = disk / "logs"
+        self._given = disk / "given"
+        copy, tmp, shm = disk / "submission", disk / "tmp", disk / "shm"
+        for each in (self._logs, self._given, tmp, tmp / TEMPORARY.relative_to("/tmp"), shm):
+            each.mkdir()
+        _copy_submission(folder, copy)
+        env = node_env(ros, 0, Path(os.devnull), None)
+        readable = [*readable_folders(env), tools, self._given]
+        writable = {folder: copy, self._logs: self._logs, Path("/tmp"): tmp, Path("/dev/shm"): shm}
+        command = isolation.command(readable, writable)
+        restrict_environment(env)
+        self.spawner = Spawner(stack.enter_context(start_fork_server(ros, modules, env, command)), command)
+
+    @contextmanager
+    def folders(self) -> Iterator[tuple[Path, Path]]:
+        """Create the log folder of a run, and a folder of ours for it, which it cannot change. Raises EngineError."""
+        with ExitStack() as stack:
+            try:
+                log_dir = stack.enter_context(temporary_log_folder(self._logs))
+                ours = self._given / log_dir.name
+                ours.mkdir()
+            except OSError as error:
+                raise EngineError(
+                    f"the submission has filled what it may write, {DISK_MB} MB and {FILES} files, so it cannot be "
+                    f"started again: {error.strerror}",
+                    "look for a loop that writes files",
+                ) from error
+            yield log_dir, ours
+
+
+class Sandboxes:
+    """The sandboxes of a check. A context manager that ends and removes them."""
+
+    def __init__(self, isolation: Isolation, submissions: Iterable[Submission]) -> None:
+        self.isolation = isolation
+        files = (path.resolve() for submission in submissions for path in submission.files.values())
+        self._folders = frozenset(map(package_folder, files))
+        self._made: dict[Path, Sandbox | EngineError] = {}
+        self._stack = ExitStack()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._stack.close()
+
+    def start(self, ros: RosEnvironment, tools: Path, modules: Iterable[str]) -> None:
+        """Make them all, without waiting for what their fork servers import. `tools`: see `Machine`."""
+        for folder in self._folders:
+            try:
+                self._made[folder] = self._make(folder, ros, tools, modules)
+            except EngineError as error:
+                self._made[folder] = error
+
+    def of(self, path: Path) -> Sandbox:
+        """Return that of the submission that a file belongs to. Raises EngineError if it could not be made."""
+        changed = EngineError("the submission's folder was changed during its check")
+        made = self._made.get(package_folder(path), changed)
+        if isinstance(made, EngineError):
+            raise made
+        return made
+
+    def _make(self, folder: Path, ros: RosEnvironment, tools: Path, modules: Iterable[str]) -> Sandbox:
+        with ExitStack() as stack:
+            try:
+                disk = stack.enter_context(private_folders.temporary("sandbox")) / "disk"
+                disk.mkdir()
+                stack.enter_context(namespaces.tmpfs(disk, DISK_MB << 20, FILES))
+            except OSError as error:
+                raise EngineError(f"no file system in memory can be made for the submission: {error}") from error
+            sandbox = Sandbox(self.isolation, folder, disk, ros, tools, modules, stack)
+            self._stack.push(stack.pop_all())
+            return sandbox
+
+
+def _copy_submission(submission: Path, copy: Path) -> None:
+    """Copy files, folders and symbolic links as such; leave out anything else, such as sockets and FIFOs."""
+    count = size = 0
+
+    def find_special(folder: str, names: list[str]) -> list[str]:
+        nonlocal count, size
+        stats = {name: os.lstat(os.path.join(folder, name)) for name in names}
+        count, size = count + len(names), size + sum(each.st_size for each in stats.values())
+        if count > _MAX_FILES or size > _MAX_MB << 20:
+            raise EngineError(
+                f"{submission} is too large to copy: more than {_MAX_FILES} files or {_MAX_MB} MB",
+                "put the submission into a folder of its own",
+            )
+        copied = (stat.S_IFREG, stat.S_IFDIR, stat.S_IFLNK)
+        return [name for name, each in stats.items() if stat.S_IFMT(each.st_mode) not in copied]
+
+    try:
+        shutil.copytree(submission, copy, symlinks=True, ignore=find_special)
+    except (OSError, shutil.Error) as error:
+        raise EngineError(f"{submission} cannot be copied: {error}", "make its files readable") from error

@@ -13,9 +13,8 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
-from tutor.engine import ending
-from tutor.engine.source import launch_arguments, read_sources, uncalled_main
-from tutor.engine.waits import POLL_S, Waits
+from tutor.engine import ending, source
+from tutor.engine.waits import POLL_S, CollectedFacts, Waits
 from tutor.errors import EngineError, UnknownType
 from tutor.judge.bench import Handler
 from tutor.judge.trace import (
@@ -46,18 +45,6 @@ ROS_ARGUMENTS = "--ros-args"
 
 NO_TIMEOUT_S = 1e6
 """Timeout of a request whose time limit `until` enforces."""
-
-
-class CollectedFacts:
-    """The facts about one run that are kept here, and an event that is set for every new fact about it."""
-
-    def __init__(self) -> None:
-        self.changed = asyncio.Event()
-        self.served: list[ServedRequest] = []
-
-    def notify(self) -> None:
-        """Wake up all waits for a new fact."""
-        self.changed.set()
 
 
 class RosRun:
@@ -256,25 +243,17 @@ class RosRun:
         await ending.wait_until_blocked(self._process, self.node_cpu_wait_s)
         if self._has_lost_its_nodes():  # it is on its way out
             await self.wait_for_exit(limit_s, all_sent=lambda: True)
-        return await self._press_ctrl_c(limit_s) if self.exit is None else None
+        if self.exit is not None:
+            return None
+        self.interrupted_at = time.time()
+        cpu_wait_share = self.node_cpu_wait_s() / max(self.interrupted_at - self.started_at, POLL_S)
+        self._process.interrupt()
+        await self.wait_for_exit(limit_s)
+        return await ending.ending_of(self._process, self.interrupted_at, limit_s, cpu_wait_share)
 
     def _has_lost_its_nodes(self) -> bool:
         had_nodes = self.exit is None and bool(self._graph[1].nodes)
         return had_nodes and not graph.read_graph(self._observer.node).nodes
-
-    async def _press_ctrl_c(self, limit_s: float) -> Ending | None:
-        pressed = time.time()
-        cpu_wait_share = self._waits.cpu_time().waited_s / max(pressed - self.started_at, POLL_S)
-        self.interrupted_at = pressed
-        self._process.interrupt()
-        await self.wait_for_exit(limit_s)
-        ended = self.exit
-        if ended is not None and not self._process.interrupted:
-            return None
-        took = (self.started_at + ended.after_s if ended is not None else time.time()) - pressed
-        survivors = await ending.survivors(self._process)
-        output = tuple(line for line in self.output if line.at >= pressed)
-        return Ending(ended, took, limit_s, output, survivors, cpu_wait_share)
 
     def command_lines(self) -> tuple[str, ...]:
         return tuple(survivor.command for survivor in self._process.survivors())
@@ -308,14 +287,8 @@ class RosRun:
         )
 
     @cached_property
-    def _source(self) -> dict[str, Any]:
-        """What the file's source says; read once, at the first trace."""
-        path = self._path
-        return {
-            "uncalled_main": uncalled_main(path),
-            "launch_arguments": launch_arguments(path),
-            "sources": read_sources(path),
-        }
+    def _source(self) -> Mapping[str, Any]:
+        return source.trace_fields(self._path)  # read once, at the first trace
 
     def _final_graph(self) -> Graph:
         """The current graph, or, once the process has ended, the last one seen."""

@@ -4,87 +4,59 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 from tutor.content import Lesson
-from tutor.engine.bench import RosBench
-from tutor.engine.explanation import explain
-from tutor.engine.first_failure import judge_until_failure, skipped_after, skipped_verdict
-from tutor.engine.not_shown import items_not_shown, read_all_sources
-from tutor.engine.provisional import Provisional
-from tutor.engine.sandbox import Sandboxes
-from tutor.engine.so_far import SoFar
-from tutor.engine.start_limiter import StartLimiter
-from tutor.engine.unchanged_skeleton import first_todo, point_to_todo
-from tutor.engine.waits import TOO_BUSY
-from tutor.errors import Fault, MachineTooBusy
+from tutor.engine.explanation import explain, first_todo, items_not_shown, point_to_todo, read_all_sources
+from tutor.engine.machine import Machine
+from tutor.engine.scenarios import Scenarios
+from tutor.errors import Fault
 from tutor.judge.bench import Scenario, was_slowed
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import WAITING, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
 from tutor.judge.result import CriterionResult, ExerciseResult, Remark, tell_roots_once
 from tutor.judge.submission import Submission
-from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault
-from tutor.process.fork_link import ForkServerLink
-from tutor.ros.environment import RosEnvironment
+from tutor.judge.verdict import Status, Undecided, Verdict, bounded, fault, skipped
 from tutor.workspace import digests_of
 from tutor.workspace.given_code import given_criteria
 
 OnEvent = Callable[[Event], None]
-
-MAX_REPEATS = 2
-"""Maximum repetitions of a scenario because of a busy machine."""
-
-REPEAT_WITHIN_S = 60.0
-"""No repetition starts after this much of the check: the machine, or the node itself, is not going to calm down."""
 
 
 class Runner:
     """One check of one submission.
 
     `only`: ids of the criteria to show (None: all); their dependencies are judged too, but not shown. `first`: stop at
-    the first required criterion that fails. `tools`: see `Prepared`. `limit_s`: what is not judged by then is an error.
+    the first required criterion that fails.
     """
 
     def __init__(
         self,
+        machine: Machine,
         check: Check,
         lesson: Lesson,
         submission: Submission,
-        ros: RosEnvironment,
         only: frozenset[str] | None,
         on_event: OnEvent,
-        start_limiter: StartLimiter | None = None,
-        sandboxes: Sandboxes | None = None,
-        fork_server: ForkServerLink | None = None,
         *,
-        tools: Path | None = None,
         first: bool = False,
-        limit_s: float | None = None,
     ) -> None:
+        self._limit_s = machine.limits.check_s
         self._check = check
         self._texts = {text.id: text for text in lesson.criteria}
         self._lesson = lesson
         self._submission = submission
-        self._ros = ros
         self._shown = tuple(c for c in check.criteria if only is None or c.id in only)
         self._on_event = on_event
-        self._start_limiter = start_limiter or StartLimiter()
-        self._sandboxes = sandboxes
-        self._fork_server = fork_server
-        self._tools = tools
         self._first = first
-        self._limit_s = limit_s
         self._deadline: float | None = None
-        self._scenarios: dict[Scenario[Any], asyncio.Task[Any]] = {}
+        self._scenarios = Scenarios(
+            machine, submission, check.expected_s, lesson.live, self._take_facts, self._emit_progress
+        )
         self._verdicts: dict[str, asyncio.Task[Verdict]] = {}
         self._early: dict[str, asyncio.Future[Verdict]] = {}
-        self._repeats: Counter[Scenario[Any]] = Counter()
-        self._progress: dict[Scenario[Any], tuple[float, str, SoFar]] = {}
-        self._published: set[str] = set()
         self._todo = first_todo(lesson, submission)
         self._announced = False
         self._started = time.monotonic()
@@ -108,13 +80,13 @@ class Runner:
         try:
             for criterion in needed:
                 for scenario in criterion.facts:
-                    self._task_of(scenario)
+                    self._scenarios.task_of(scenario)
             for criterion in needed:
                 self._early[criterion.id] = asyncio.get_running_loop().create_future()
                 self._verdicts[criterion.id] = asyncio.create_task(self._judge(criterion))
             results, unjudged = await self._judge_shown()
         finally:
-            await _cancel([*self._verdicts.values(), *self._scenarios.values()])
+            await _cancel([*self._verdicts.values(), *self._scenarios.tasks])
         result = ExerciseResult(
             id=exercise,
             title=self._lesson.title,
@@ -150,65 +122,6 @@ class Runner:
         if not self._announced:
             self._announced = True
             self._on_event(CheckStarted(self._check.exercise, tuple(c.id for c in self._shown)))
-
-    def _task_of(self, scenario: Scenario[Any]) -> asyncio.Task[Any]:
-        """Return the task that gathers a scenario's facts; start it on first use."""
-        if scenario not in self._scenarios:
-            self._scenarios[scenario] = asyncio.ensure_future(self._gather_facts(scenario))
-        return self._scenarios[scenario]
-
-    def _repeat(self, scenario: Scenario[Any], last: asyncio.Task[Any], *, alone: bool) -> bool:
-        """Start the scenario again, unless its `last` run already was repeated. Return False if out of repetitions."""
-        if self._scenarios[scenario] is last:
-            if self._repeats[scenario] >= MAX_REPEATS or self._elapsed_s() > REPEAT_WITHIN_S:
-                return False
-            self._repeats[scenario] += 1
-            self._scenarios[scenario] = asyncio.ensure_future(self._gather_facts(scenario, alone=alone))
-        return True
-
-    async def _facts_for_scenario(self, scenario: Scenario[Any]) -> Any:
-        """Return the facts of a scenario that another scenario asks for."""
-        with self._start_limiter.scenarios.waiting():
-            # Shielded: the cancellation of one waiter must not cancel a scenario that others are waiting for, too.
-            return await asyncio.shield(self._task_of(scenario))
-
-    async def _gather_facts(self, scenario: Scenario[Any], *, alone: bool = False) -> Any:
-        """Run a scenario for its facts, and repeat it alone if the machine was too busy to let the node run."""
-        for _ in range(MAX_REPEATS):
-            try:
-                return await self._run_scenario(scenario, alone=alone)
-            except MachineTooBusy:
-                if self._elapsed_s() > REPEAT_WITHIN_S:
-                    raise
-                alone = True
-        return await self._run_scenario(scenario, alone=alone)
-
-    async def _run_scenario(self, scenario: Scenario[Any], *, alone: bool) -> Any:
-        def on_progress(fraction: float, text: str, so_far: SoFar) -> None:
-            self._emit_progress(scenario, fraction, text, so_far)
-
-        provisional = Provisional(on_progress, self._lesson.live, self._published)
-        bench = RosBench(
-            self._submission,
-            self._ros,
-            self._facts_for_scenario,
-            provisional.report,
-            self._start_limiter,
-            self._check.expected_s,
-            self._sandboxes,
-            provisional.follow,
-            lambda facts: self._take_facts(scenario, facts),
-            fork_server=self._fork_server,
-            tools=self._tools,
-        )
-        async with self._start_limiter.scenarios.running(alone=alone):
-            if alone and self._elapsed_s() > REPEAT_WITHIN_S:
-                raise MachineTooBusy(TOO_BUSY)
-            facts = await scenario(bench)
-            if bench.sigkilled:  # one run does not show who sent the signal
-                facts = await scenario(bench)
-        self._take_facts(scenario, facts)
-        return facts
 
     async def _judge(self, criterion: Criterion) -> Verdict:
         for dependency in criterion.after:
@@ -251,14 +164,14 @@ class Runner:
     async def _judge_fully(self, criterion: Criterion) -> Verdict:
         """Judge a criterion, and repeat its scenarios if the machine may be why it is not met, or skipped."""
         while True:
-            runs = [self._task_of(scenario) for scenario in criterion.facts]
+            runs = [self._scenarios.task_of(scenario) for scenario in criterion.facts]
             facts = [await asyncio.shield(run) for run in runs]
-            if any(self._scenarios[scenario] is not run for scenario, run in zip(criterion.facts, runs, strict=True)):
+            if runs != [self._scenarios.task_of(scenario) for scenario in criterion.facts]:
                 continue  # a scenario was repeated in the meantime
             verdict = criterion.judge(*facts)
             undecided = isinstance(verdict, Undecided)
             repeated = [
-                self._repeat(scenario, run, alone=undecided)
+                self._scenarios.repeat(scenario, run, alone=undecided)
                 for scenario, run, seen in zip(criterion.facts, runs, facts, strict=True)
                 if undecided or (verdict.status in (Status.FAILED, Status.SKIPPED) and was_slowed(seen))
             ]
@@ -283,17 +196,11 @@ class Runner:
         self._on_event(CriterionJudged(self._check.exercise, result))
         return result
 
-    def _emit_progress(self, scenario: Scenario[Any], fraction: float, text: str, so_far: SoFar) -> None:
-        if self._progress.get(scenario) == (fraction, text, so_far):
-            return
-        self._progress[scenario] = (fraction, text, so_far)
+    def _emit_progress(self, scenario: Scenario[Any]) -> None:
         for criterion in self._shown:
             if scenario in criterion.facts and not self._is_judged(criterion):
-                progress = [self._progress.get(each, (0.0, "", SoFar())) for each in criterion.facts]
-                fraction = sum(each for each, _, _ in progress) / len(progress)
-                doing = text or next((each for _, each, _ in progress if each), "")
-                known = max((each for _, _, each in progress), key=lambda each: each.weight)
-                self._on_event(Progress(self._check.exercise, criterion.id, fraction, doing, known.text))
+                progress = self._scenarios.progress_of(criterion.facts, latest=scenario)
+                self._on_event(Progress(self._check.exercise, criterion.id, *progress))
 
     def _is_judged(self, criterion: Criterion) -> bool:
         task = self._verdicts.get(criterion.id)
@@ -322,3 +229,43 @@ def _raising_line(error: BaseException) -> str:
     while step is not None and step.tb_next is not None:
         step = step.tb_next
     return f"{step.tb_frame.f_code.co_filename}:{step.tb_lineno}" if step is not None else "unknown place"
+
+
+async def judge_until_failure(
+    shown: Sequence[Criterion], judge: Callable[[Criterion], Awaitable[CriterionResult]]
+) -> tuple[Mapping[str, CriterionResult], str]:
+    """Judge all criteria concurrently, and stop at the first failure.
+
+    Return the results by then (id to result), and the id of the failed criterion ("" if none failed). The failure of a
+    bonus criterion counts only if all of `shown` are bonus criteria. An exception raised by `judge` is passed on.
+    """
+    tasks = {asyncio.ensure_future(judge(criterion)): criterion for criterion in shown}
+    only_bonus = all(criterion.bonus for criterion in shown)
+    pending, failure = set(tasks), ""
+    try:
+        while pending and not failure:
+            _, pending = await asyncio.wait(pending, return_when=asyncio.FIRST_COMPLETED)
+            failed = [
+                criterion.id
+                for task, criterion in tasks.items()
+                if task.done() and task.result().verdict.status is Status.FAILED and (only_bonus or not criterion.bonus)
+            ]
+            failure = next(iter(failed), "")
+    finally:
+        for task in pending:
+            task.cancel()
+        await asyncio.gather(*pending, return_exceptions=True)
+    return {criterion.id: task.result() for task, criterion in tasks.items() if not task.cancelled()}, failure
+
+
+def skipped_verdict(criterion: Criterion, results: Mapping[str, CriterionResult], failure: str) -> Verdict:
+    """The verdict on a criterion that was not judged: a dependency did not pass, or the check ended at `failure`."""
+    for dependency in criterion.after:
+        if dependency in results and not results[dependency].verdict.passed:
+            return skipped_after(dependency, results[dependency].verdict)
+    return skipped(f"not judged, because the check ended at its first failure, `{failure}`")
+
+
+def skipped_after(dependency: str, verdict: Verdict) -> Verdict:
+    """The verdict on a criterion whose dependency got this verdict; the reason is the same if that was skipped, too."""
+    return verdict if verdict.status is Status.SKIPPED else skipped(f"not judged, because `{dependency}` did not pass")

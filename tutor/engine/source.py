@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 from tutor.judge.tracebacks import Frame
 from tutor.source.tree import parse
@@ -28,6 +29,15 @@ _MAX_TREE_DEPTH = 100
 
 _MAX_LINE_LENGTH = 2_000
 """Files with longer lines are ignored: a regular expression might take minutes on them."""
+
+
+def trace_fields(path: Path) -> Mapping[str, Any]:
+    """Return the fields of a `Trace` that come from the source of the file."""
+    return {
+        "uncalled_main": uncalled_main(path),
+        "launch_arguments": launch_arguments(path),
+        "sources": read_sources(path),
+    }
 
 
 def uncalled_main(path: Path) -> bool:

@@ -1,4 +1,8 @@
-"""Waits for facts about a running node, whose limits its own and our waits for a CPU extend."""
+"""Waits for facts about a running node, whose limits its own and our waits for a CPU extend.
+
+A wait ends early once the process is idle: a node whose threads are all blocked, none of them with a timeout, sends
+nothing more.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +13,10 @@ import time
 from collections.abc import Callable, Coroutine
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from tutor.engine.idle import IdleDetector
 from tutor.errors import EngineError, MachineTooBusy
-from tutor.judge.trace import Exit
+from tutor.judge.trace import Exit, ServedRequest
 from tutor.judge.waiting import IDLE_S, RESENT_S
-from tutor.process import CpuMeter, CpuTime, LearnerProcess, count_dropped_datagrams, own_cpu_time
+from tutor.process import CpuMeter, CpuTime, LearnerProcess, NextWake, count_dropped_datagrams, own_cpu_time
 from tutor.process.cpu_wait import MAX_EXTENSION_FACTOR, estimate_unblocked_s
 
 if TYPE_CHECKING:
@@ -26,6 +29,9 @@ LOSSLESS_S = 1.0
 
 POLL_S = 0.05
 """Poll interval for what raises no events of its own, such as the graph; also the maximum age of cached readings."""
+
+IDLE_POLL_S = 0.1
+"""Minimum interval between two readings of the process's threads."""
 
 TOO_BUSY = "this machine is too busy: the node, or the process that observes it, did not get to run"
 
@@ -43,6 +49,18 @@ DISCOVERY_S = 0.1
 
 Discovery takes some milliseconds on one machine. Our own waits for a CPU extend this, up to `MAX_LATENCY_S`.
 """
+
+
+class CollectedFacts:
+    """The facts about one run that are kept here, and an event that is set for every new fact about it."""
+
+    def __init__(self) -> None:
+        self.changed = asyncio.Event()
+        self.served: list[ServedRequest] = []
+
+    def notify(self) -> None:
+        """Wake up all waits for a new fact."""
+        self.changed.set()
 
 
 class Waits:
@@ -201,3 +219,53 @@ class Waits:
                 deadline, extended_by_s = deadline + extension_s, extended_by_s + extension_s
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._changed.wait(), min(POLL_S, deadline - now))
+
+
+class IdleDetector:
+    """Detects whether a process is idle.
+
+    `next_wake(by)`: see `tutor.process.next_wake`. `for_s`: how long its threads must have been blocked, in seconds;
+    `lossless_s`: the same if nothing can have been lost on its way, as `may_have_lost()` tells. `cpu_wait_s()`: how
+    long we have waited for a CPU so far; within limits, that time does not count, since messages may have arrived that
+    we have not seen.
+    """
+
+    def __init__(
+        self,
+        next_wake: Callable[[float], NextWake],
+        cpu_wait_s: Callable[[], float],
+        for_s: float,
+        *,
+        lossless_s: float,
+        may_have_lost: Callable[[], bool],
+    ) -> None:
+        self._next_wake = next_wake
+        self._cpu_wait_s = cpu_wait_s
+        self._for_s = for_s
+        self._lossless_s = min(for_s, lossless_s)
+        self._may_have_lost = may_have_lost
+        self._read_at = 0.0
+        self._timeslices = -1
+        self._idle_since = self._waited_before_s = 0.0
+        self._idle = False
+
+    def is_idle_until(self, deadline: float) -> bool:
+        """Whether the process is idle and will stay so until `deadline` (seconds since the epoch). Must be polled."""
+        now = time.monotonic()
+        if now - self._read_at < IDLE_POLL_S:
+            return self._idle
+        self._read_at = now
+        wake = self._next_wake(deadline)
+        if wake.at <= deadline or wake.timeslices != self._timeslices:
+            self._timeslices = wake.timeslices
+            self._idle_since, self._waited_before_s = now, self._cpu_wait_s()
+            self._idle = False
+        else:
+            idle_s = now - self._idle_since
+            self._idle = idle_s >= self._extended(self._lossless_s) and (
+                idle_s >= self._extended(self._for_s) or not self._may_have_lost()
+            )
+        return self._idle
+
+    def _extended(self, for_s: float) -> float:
+        return for_s + min(self._cpu_wait_s() - self._waited_before_s, MAX_EXTENSION_FACTOR * for_s)

@@ -45,7 +45,7 @@ from tutor.grade.dask_cluster import (
 from tutor.grade.dask_worker import Versions
 from tutor.grade.unit import OnEvent, Outcome, Unit
 from tutor.judge.events import Progress
-from tutor.session.engine_child import CLEAN_UP_S
+from tutor.session.engine_process import CLEAN_UP_S
 from tutor.terminal_text import printable
 
 CarryOut = Callable[[Unit, str, Versions], Coroutine[None, None, Outcome]]

@@ -13,7 +13,7 @@ from statistics import mean
 from tutor.grade.results import Result
 
 CHECKS_PER_CORE = 2
-"""As many as take turns on a machine (see `tutor.engine.turns`): with more, slow nodes cannot be judged."""
+"""As many as take turns on a machine (see `tutor.engine.scheduling`): with more, slow nodes cannot be judged."""
 
 CHECK_MB = 800
 """Memory to keep free for one check. Our solutions' took 173 to 343 MB (PSS of all processes); others may take more."""

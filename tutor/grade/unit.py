@@ -13,7 +13,7 @@ from tutor.grade import private_paths
 from tutor.grade.packing import unpack_packed
 from tutor.judge.events import WAITING, CheckFinished, Event, Progress, ResourcesUsed
 from tutor.judge.result import Report
-from tutor.session.engine_child import EngineChild
+from tutor.session.engine_process import EngineChild
 
 DEFAULT_LIMIT_S = 300.0
 """The longest check of our test submissions took 167 s, on a machine with ten times as much to do as it could."""

@@ -35,7 +35,7 @@ _ELSEWHERE = "check on another machine, or as another user"
 
 
 @dataclass(frozen=True, slots=True)
-class Machine:
+class NamespaceSupport:
     """What decides whether a program may make namespaces on this machine.
 
     `apparmor`: AppArmor forbids user namespaces to programs without a profile that allows them. `profile`: that for
@@ -51,7 +51,7 @@ class Machine:
     container: bool = False
 
     @classmethod
-    def read(cls, top: Path = Path("/")) -> Machine:
+    def read(cls, top: Path = Path("/")) -> NamespaceSupport:
         """Read it from /proc/sys and other files of the system below `top`."""
         sysctl = top / "proc" / "sys"
         return cls(
@@ -64,27 +64,27 @@ class Machine:
         )
 
 
-def why_not(said: str, machine: Machine, bwrap: str | None) -> EngineError:
+def why_not(said: str, support: NamespaceSupport, bwrap: str | None) -> EngineError:
     """Return why a machine cannot isolate submissions, with what to do, from what bubblewrap `said` when it failed."""
     if bwrap is None:
         return EngineError("isolation needs bubblewrap, which is not installed", _INSTALL)
     denied = _DENIED.search(said) is not None
-    if not machine.user_namespaces and (denied or _EXHAUSTED.search(said)):
+    if not support.user_namespaces and (denied or _EXHAUSTED.search(said)):
         return EngineError(
             "user namespaces, which isolation needs, are disabled (user.max_user_namespaces is 0)",
             f"allow them: sudo sysctl user.max_user_namespaces=10000; or {_ELSEWHERE}",
         )
-    if denied and machine.container:
+    if denied and support.container:
         return EngineError(f"this container may not isolate anything itself ({said})", _IN_CONTAINER)
-    if denied and not machine.root and not machine.for_all:
+    if denied and not support.root and not support.for_all:
         return EngineError(
             "user namespaces, which isolation needs, are disabled (kernel.unprivileged_userns_clone is 0)",
             f"allow them: sudo sysctl kernel.unprivileged_userns_clone=1; or {_ELSEWHERE}",
         )
-    if denied and not machine.root and machine.apparmor:
+    if denied and not support.root and support.apparmor:
         return EngineError(
             "AppArmor forbids bubblewrap to isolate anything (kernel.apparmor_restrict_unprivileged_userns is 1)",
-            _apparmor_hint(machine, bwrap),
+            _apparmor_hint(support, bwrap),
         )
     return EngineError(f"bubblewrap cannot isolate anything here ({said})", _ELSEWHERE)
 
@@ -105,10 +105,10 @@ def told(problem: EngineError) -> str:
     return json.dumps({"what": str(problem), "hint": problem.hint})
 
 
-def _apparmor_hint(machine: Machine, bwrap: str) -> str:
+def _apparmor_hint(support: NamespaceSupport, bwrap: str) -> str:
     if bwrap != BWRAP:
         return f"its profile is for {BWRAP}, and this is {bwrap}: sudo apt install bubblewrap, and put /usr/bin first"
-    return f"load its profile: {_LOAD}" if machine.profile else _ALLOW_BWRAP
+    return f"load its profile: {_LOAD}" if support.profile else _ALLOW_BWRAP
 
 
 def _number(file: Path, otherwise: int) -> int:

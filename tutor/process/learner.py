@@ -17,10 +17,10 @@ from typing import Self
 from tutor.errors import EndError, StartError
 from tutor.judge.trace import Exit, OutputLine
 from tutor.process import memory, orphans
-from tutor.process.fork_link import ForkServerLink
 from tutor.process.link import SupervisorLink
 from tutor.process.output import Output
 from tutor.process.pipe import PipeReader
+from tutor.process.spawner import DIRECTLY, Spawner
 from tutor.process.stdin import Stdin
 from tutor.process.supervisor import pack_request
 from tutor.process.wake_time import NextWake
@@ -42,7 +42,7 @@ class LearnerProcess:
     An async context manager that calls `end` on exit.
     """
 
-    def __init__(self, on_change: Callable[[], None] | None, terminal: bool) -> None:
+    def __init__(self, spawner: Spawner, on_change: Callable[[], None] | None, terminal: bool) -> None:
         """Internal: use `start`."""
         self._loop = asyncio.get_running_loop()
         self._on_change = on_change
@@ -62,7 +62,7 @@ class LearnerProcess:
             stderr = PipeReader(self._feed_stderr)
             made.pop_all()
         self._stdout, self._stderr = stdout, stderr
-        self._link = SupervisorLink(self._run, frozenset((stdout.inode, stderr.inode)), self._set_exit)
+        self._link = SupervisorLink(self._run, frozenset((stdout.inode, stderr.inode)), self._set_exit, spawner)
         self._link.gone.add_done_callback(lambda _: self._finish())
 
     @classmethod
@@ -73,8 +73,7 @@ class LearnerProcess:
         env: Mapping[str, str],
         cwd: Path,
         terminal: bool = False,
-        wrapper: Sequence[str] = (),
-        fork_server: ForkServerLink | None = None,
+        spawner: Spawner = DIRECTLY,
         on_change: Callable[[], None] | None = None,
     ) -> Self:
         """Start `argv` in the folder `cwd` with exactly the environment `env`, plus our marker variable.
@@ -82,16 +81,15 @@ class LearnerProcess:
         The program gets its own session and process group, default signal handlers, empty stdin, and pipes for output.
         `terminal`: give it an idle terminal as stdin. `ros2 launch` checks whether stdin is a terminal, where Ctrl+C
         reaches the nodes by itself; otherwise it forwards the signal, and each node would get it twice.
-        `wrapper`: a command prefix to run it in; `fork_server`: where to fork it (see `SupervisorLink.start`).
-        `on_change` is called on the event loop after new output and after the exit.
+        `spawner`: may fork it, or isolate it. `on_change` is called on the event loop after new output and the exit.
         Raises StartError if the program cannot be started; nothing of the attempt is left then.
         """
         try:
-            learner = cls(on_change, terminal)
+            learner = cls(spawner, on_change, terminal)
         except OSError as error:
             raise StartError(f"The program cannot be started: {error}.") from error
         try:
-            await learner._launch(argv, env, cwd, wrapper, fork_server)
+            await learner._launch(argv, env, cwd)
         except BaseException:
             await learner.end()
             raise
@@ -198,14 +196,7 @@ class LearnerProcess:
         if gone.result():
             raise EndError(gone.result())
 
-    async def _launch(
-        self,
-        argv: Sequence[str],
-        env: Mapping[str, str],
-        cwd: Path,
-        wrapper: Sequence[str],
-        fork_server: ForkServerLink | None,
-    ) -> None:
+    async def _launch(self, argv: Sequence[str], env: Mapping[str, str], cwd: Path) -> None:
         environment = {**env, orphans.MARK: self._run}
         if not argv or any("\0" in text for text in (*argv, *environment.values(), str(cwd))):
             raise StartError("The program cannot be started: its command is empty or holds a NUL character.")
@@ -218,7 +209,7 @@ class LearnerProcess:
         )
         try:
             streams = self._stdin.reader, self._stdout.writer, self._stderr.writer
-            await self._link.start(request, streams, wrapper, fork_server)
+            await self._link.start(request, streams)
         except OSError as error:
             raise StartError(f"The program cannot be started: {error}.") from error
         finally:

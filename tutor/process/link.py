@@ -6,20 +6,15 @@ import asyncio
 import contextlib
 import os
 import signal
-import socket
-import subprocess
-import sys
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable
 
 from tutor.judge.trace import Exit
 from tutor.process import orphans, prctl
 from tutor.process.cpu_wait import recent_processes
-from tutor.process.fork_link import ForkedSupervisor, ForkServerLink
+from tutor.process.spawner import DIRECTLY, Spawner, SupervisorProcess
 from tutor.process.supervisor import Process, descendants, descendants_in, kill, namespace_pid
 from tutor.process.wake_time import NextWake, next_wake
 
-_SUPERVISOR = Path(__file__).with_name("supervisor.py")
 # How long the supervisor may take to end everything before we take over, and how long we may then take.
 _SUPERVISOR_LIMIT_S = 3.0
 _ORPHANS_LIMIT_S = 5.0
@@ -34,7 +29,9 @@ class SupervisorLink(asyncio.Protocol):
     resolves to "" once the supervisor and all its processes are gone, or to a list of those that could not be ended.
     """
 
-    def __init__(self, run: str, pipes: frozenset[int], on_exit: Callable[[Exit], None]) -> None:
+    def __init__(
+        self, run: str, pipes: frozenset[int], on_exit: Callable[[Exit], None], spawner: Spawner = DIRECTLY
+    ) -> None:
         """`run` and `pipes` identify the processes of this run (see `orphans.RunMarks`)."""
         self.pid = 0
         self.started_at = 0.0
@@ -46,43 +43,28 @@ class SupervisorLink(asyncio.Protocol):
         self._loop = asyncio.get_running_loop()
         self.ready: asyncio.Future[str] = self._loop.create_future()
         self.gone: asyncio.Future[str] = self._loop.create_future()
+        self._spawner = spawner
         self._run = run
         self._pipes = pipes
         self._on_exit = on_exit
         self._exited = False
-        self._supervisor: subprocess.Popen[bytes] | ForkedSupervisor | None = None
+        self._supervisor: SupervisorProcess | None = None
         self._control: asyncio.Transport | None = None
         self._received = b""
         self._finished = False
         self._ours: set[int] = set()  # the supervisor, and any wrapper processes around it
-        self._wrapped = False
-        self._fork_server: ForkServerLink | None = None
         self._takeover_timer: asyncio.TimerHandle | None = None
 
-    async def start(
-        self,
-        request: bytes,
-        streams: tuple[int, int, int],
-        wrapper: Sequence[str] = (),
-        fork_server: ForkServerLink | None = None,
-    ) -> None:
+    async def start(self, request: bytes, streams: tuple[int, int, int]) -> None:
         """Start the supervisor and send it a request. It and its processes share these stdin, stdout and stderr.
-
-        `wrapper`: a command prefix that runs the supervisor in its own PID namespace, as a child of the namespace's
-        init process. The kernel kills the whole namespace when that one exits, and that one dies with us.
-        `fork_server`: where to fork it. One that has a wrapper, and so a PID namespace, of its own is preferred to
-        `wrapper`, too.
 
         Raises OSError if the supervisor cannot be started.
         """
         prctl.guard()
         prctl.adopt_orphans(True)
-        forked = await fork_server.fork(streams) if fork_server is not None else None
-        self._fork_server = fork_server if forked else None
-        self._supervisor, ours = forked or _start_supervisor(streams, wrapper)
+        self._supervisor, ours = await self._spawner.spawn(streams)
         orphans.supervisors.add(self._supervisor.pid)
         self._ours.add(self._supervisor.pid)
-        self._wrapped = bool(wrapper)
         try:
             self._control, _ = await self._loop.create_unix_connection(lambda: self, sock=ours)
         except BaseException:
@@ -146,15 +128,15 @@ class SupervisorLink(asyncio.Protocol):
         if self._finished:
             self._finish("")
         else:
-            if self._wrapped and self._fork_server is not None:
-                self._fork_server.kill()  # with its whole PID namespace
+            if self._supervisor is not None:
+                self._spawner.kill_namespace(self._supervisor)
             self._end_orphans(self._marks(), self._loop.time() + _ORPHANS_LIMIT_S, clean_scans=0)
 
     def _handle_report(self, word: str, rest: str) -> None:
         if word == "started":
             pid, epoch = rest.split()
             self.pid, self.started_at = int(pid), float(epoch)
-            if self._wrapped:
+            if self._spawner.wrapper:
                 self.pid = self._translate_pid(self.pid)
             self._set_ready("")
         elif word == "failed":
@@ -231,35 +213,3 @@ class SupervisorLink(asyncio.Protocol):
         if not self.gone.done():
             self.gone.set_result(left)
         self._set_ready("our helper process ended at once")
-
-
-def _start_supervisor(
-    streams: tuple[int, int, int], wrapper: Sequence[str]
-) -> tuple[subprocess.Popen[bytes], socket.socket]:
-    """Start a supervisor; return it, and our end of its socket."""
-    stdin, stdout, stderr = streams
-    ours, theirs = socket.socketpair()
-    owner = 1 if wrapper else os.getpid()
-    with theirs:
-        try:
-            supervisor = subprocess.Popen(
-                [*wrapper, sys.executable, "-I", "-S", str(_SUPERVISOR), str(theirs.fileno()), str(owner)],
-                stdin=stdin,
-                stdout=stdout,
-                stderr=stderr,
-                pass_fds=(theirs.fileno(),),
-                cwd="/",
-                # Otherwise the ROS wheels would make the interpreter start twice.
-                env={**_environment(wrapped=bool(wrapper)), "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},
-                start_new_session=True,
-            )
-        except OSError:
-            ours.close()
-            raise
-    return supervisor, ours
-
-
-def _environment(*, wrapped: bool) -> dict[str, str]:
-    """Return our environment variables; of a wrapper, which its processes can read, only those that it needs."""
-    names = ("LANG", "LD_LIBRARY_PATH", "PATH") if wrapped else os.environ
-    return {name: os.environ[name] for name in names if name in os.environ}

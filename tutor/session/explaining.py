@@ -21,7 +21,7 @@ def find_mistakes(ids: Iterable[str], course: Course, lesson: Lesson) -> list[Mi
     The first call loads the catalogue, which takes some tenths of a second. Raises EngineError if a course's catalogue
     cannot be loaded.
     """
-    from tutor.engine.modules import load_catalogues
+    from tutor.engine.loading import load_catalogues
     from tutor.mistakes import pages
 
     known = pages.every_mistake(load_catalogues(replace(course, lessons=(lesson,))))

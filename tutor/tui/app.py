@@ -5,8 +5,8 @@ from __future__ import annotations
 import asyncio
 import signal
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from textual.app import SystemCommand
@@ -22,6 +22,9 @@ from tutor.tui.typeahead import Typeahead
 
 if TYPE_CHECKING:
     from tutor.tui.screens.main import MainScreen
+
+SAVE_LIMIT_S = 5.0
+"""Timeout for saving: a save blocks while a conflict dialog is open, and by then both versions are on disk anyway."""
 
 
 class TutorApp(TextApp[int]):
@@ -131,11 +134,31 @@ class TutorApp(TextApp[int]):
         self._leaving = True
         if self.main.busy:
             self.notify("Ending your node and the check. Press q again to leave at once.", timeout=20)
-        shut_down: Callable[[], Any] = partial(self._shut_down, self.main)
+        shut_down: Callable[[], Any] = self._shut_down
         self.run_worker(shut_down, group="leave", exit_on_error=False)
 
-    async def _shut_down(self, main: MainScreen) -> None:
+    async def _shut_down(self) -> None:
         try:
-            await main.close_down()
+            await self.close_down()
         finally:
             self.exit(0)
+
+    async def close_down(self) -> None:
+        """Save, stop the check, the nodes and the terminals, and wait until they are all gone."""
+        if (main := self.main) is None:
+            return
+        main.checks.shut_down()
+        main.nodes.shut_down()
+        if (terminal := main.pages.terminal) is not None:
+            terminal.close_all()
+        with suppress(TimeoutError):
+            async with asyncio.timeout(SAVE_LIMIT_S):
+                await main.files.save_all()
+        await main.preferences.flush()
+        if (live := main.pages.live) is not None:
+            await live.close_down()
+        busy = [worker for worker in main.workers if worker.group in ("check", "node", "progress", "terminal")]
+        if busy:  # an empty list would mean all workers, and the file watcher never ends
+            await self.workers.wait_for_complete(busy)
+        main.files.close()
+        main.workers.cancel_node(main)  # workers that still read or watch a file would find no widget to show it in

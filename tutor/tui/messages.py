@@ -1,4 +1,4 @@
-"""Messages that workers post to the screens. Only the handlers of these messages touch widgets."""
+"""Messages that widgets and workers post to the screens, whose handlers then touch other widgets."""
 
 from __future__ import annotations
 
@@ -8,25 +8,9 @@ from pathlib import Path
 
 from textual.message import Message
 
-from tutor.judge.events import Event
 from tutor.judge.result import ExerciseResult
-from tutor.session.check_process import CheckEnded
 from tutor.session.node import NodeState
 from tutor.workspace import LastCheck, Progress
-
-
-@dataclass
-class CheckEvent(Message):
-    """The running check has emitted an event."""
-
-    event: Event
-
-
-@dataclass
-class CheckOver(Message):
-    """The check's process has ended."""
-
-    ended: CheckEnded
 
 
 @dataclass

@@ -98,7 +98,7 @@ class ChecklistController:
             self._host.say(f"Your checklist is in {name}")
             return
 
-        from tutor.tui.dialogs.confirm import ConfirmScreen
+        from tutor.tui.dialogs.simple import ConfirmScreen
 
         def answered(yes: bool | None) -> None:
             if yes:

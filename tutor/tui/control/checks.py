@@ -11,8 +11,7 @@ from tutor import invocation
 from tutor.content import Lesson
 from tutor.judge.events import Event, ExerciseJudged
 from tutor.judge.verdict import Status
-from tutor.session.check_process import CheckEnded, CheckProcess
-from tutor.session.engine_starter import EngineStarter
+from tutor.session.engine_process import CheckEnded, CheckProcess, EngineStarter
 from tutor.session.findings import Findings
 from tutor.tui import commands, messages
 from tutor.tui.control.files import Files
@@ -116,42 +115,33 @@ class Checks:
         model = self._host.model
         arguments = model.session.check_arguments(lesson, first=model.state.first_failure)
         start = partial(self._engines.start, arguments, model.session.workspace.root)
-        self.running = CheckProcess(lesson.id, start, self._post_event)
+        self.running = CheckProcess(lesson.id, start, partial(self._take, lesson.id))
         self._update(model.findings[lesson.id].with_check_started())
         self._host.refresh_bindings()
         self._host.start_worker(self._run, lesson, self.running, group="check")
-
-    def _post_event(self, event: Event | CheckEnded) -> None:
-        if isinstance(event, CheckEnded):
-            self._host.post_message(messages.CheckOver(event))
-        else:
-            self._host.post_message(messages.CheckEvent(event))
 
     async def _run(self, lesson: Lesson, checking: CheckProcess) -> None:
         await self._files.save_all()
         paths = {file.name: self._host.model.session.path(file) for file in lesson.files}
         self._judged[lesson.id] = await asyncio.to_thread(digests_of, paths)
         await self._files.read_again(lesson)  # what is judged is what the editor shows
-        await checking.run()
+        self._end(await checking.run())
 
     def _cancel_running(self, note: str) -> None:
         if self.running is not None and not self.running.cancelled:
             self.running.cancel()
             self._update(self._host.model.findings[self.running.exercise].stopped(note))
 
-    def event(self, event: Event) -> None:
-        """Apply an event of the running check to the findings."""
-        if self.running is None or self.running.cancelled:
-            return
+    def _take(self, exercise: str, event: Event) -> None:
+        """Apply an event of a check to the findings. The worker calls this on the app's own loop."""
         if isinstance(event, ExerciseJudged) and event.result.digests:
             self._judged[event.result.id] = event.result.digests
-        self._update(self._host.model.findings[self.running.exercise].with_event(event))
+        self._update(self._host.model.findings[exercise].with_event(event))
         if isinstance(event, ExerciseJudged):
             self.compare_files()
             self._records.record_attempt(event.result)
 
-    def over(self, ended: CheckEnded) -> None:
-        """Handle the end of the check's process."""
+    def _end(self, ended: CheckEnded) -> None:
         self.running = None
         model = self._host.model
         found = model.findings[ended.exercise]

@@ -135,7 +135,7 @@ class Files:
 
         The lock must be held.
         """
-        from tutor.tui.dialogs.conflict import ConflictScreen
+        from tutor.tui.dialogs.simple import ConflictScreen
 
         ours = self._pane.text(path)
         try:

@@ -114,7 +114,7 @@ class HostScreen(Screen[None]):
 
     def ask(self, title: str, text: str, yes: str, do: Callable[[], object]) -> None:
         """Ask a yes-or-no question, and call `do` if the answer is yes."""
-        from tutor.tui.dialogs.confirm import ConfirmScreen
+        from tutor.tui.dialogs.simple import ConfirmScreen
 
         def answered(answer: bool | None) -> None:
             if answer:

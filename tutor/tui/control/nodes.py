@@ -1,4 +1,4 @@
-"""Runs, stops and restarts the learner's nodes, and our partner nodes, independently of each other."""
+"""Runs, stops and restarts the learner's nodes, and our partner nodes, independently of each other; their log."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from tutor.tui import commands, messages
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.preferences import Preferences
+from tutor.tui.widgets.log_pane import LogPane
 from tutor.workspace import RunOptions
 
 
@@ -248,3 +249,27 @@ class Nodes:
 def partner_key(partner: Partner) -> Path:
     """Return the key of a partner node in `Nodes.by_path`, where learners' nodes are keyed by file."""
     return partner.file or Path(*partner.run)
+
+
+class Logs:
+    """Acts on the log page while it is shown or focused; go_to_error works from any page."""
+
+    def __init__(self, host: HostScreen, pane: LogPane) -> None:
+        self._host, self._pane = host, pane
+
+        def usable() -> bool:
+            return pane.has_class("-filled") and (host.page == "log" or pane.has_focus_within)
+
+        host.register(commands.LEVEL, pane.next_level, usable)
+        host.register(commands.FILTER, pane.filter, usable)
+        host.register(commands.PAUSE, pane.pause, usable)
+        host.register(commands.CLEAR, pane.clear, usable)
+        host.register(commands.GO_TO_ERROR, self.go_to_error, lambda: pane.has_class("-filled"))
+
+    def go_to_error(self) -> None:
+        """Put the cursor on the line of the learner's code that the last traceback names."""
+        location = self._pane.error_location
+        if location is None:
+            self._host.say("No error in the log points into your code.")
+        else:
+            self._host.post_message(messages.GoToLine(*location))

@@ -1,8 +1,10 @@
-"""Switches pages, and arranges the panels."""
+"""Switches pages, arranges the panels for the size of the terminal, and runs a lesson's commands."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -11,8 +13,8 @@ from textual.widgets import ContentSwitcher, Tabs
 
 from tutor.tui import commands
 from tutor.tui.control.host import HostScreen
-from tutor.tui.control.layout import Criteria, Layout, layout_for
 from tutor.tui.control.preferences import Preferences
+from tutor.tui.lesson_commands import commands_in
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.tui.widgets.criteria import CriteriaPanel
 from tutor.tui.widgets.lesson_list import LessonList
@@ -25,6 +27,35 @@ if TYPE_CHECKING:
 
 SIDE_BY_SIDE_MIN_WIDTH = 112
 """Minimum screen width, in columns, for showing the log beside Live."""
+
+
+class Criteria(StrEnum):
+    """Where the criteria go: behind a tab, below the text, or beside it."""
+
+    FOLDED = "folded"
+    STACKED = "stacked"
+    BESIDE = "beside"
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """`lessons`: whether the lesson list has a column of its own; else it is a drawer over the text.
+
+    `columns`: a page of the criteria has their diagnosis beside the list, for lack of height.
+    """
+
+    lessons: bool
+    criteria: Criteria
+    columns: bool = False
+
+
+def layout_for(width: int, height: int) -> Layout:
+    """Return the layout for a terminal of `width` columns and `height` rows."""
+    if width >= 160:
+        return Layout(True, Criteria.BESIDE)
+    if width >= 90 and height >= 30:
+        return Layout(width >= 100, Criteria.STACKED)
+    return Layout(width >= 100, Criteria.FOLDED, columns=width >= 76 and height < 36)
 
 
 class Pages:
@@ -111,8 +142,8 @@ class Pages:
     def _open_live(self) -> LivePane:
         """Return the live page; the first call creates it and starts its watcher."""
         if not (pane := self.live):
-            from tutor.tui.live.launching import watcher_command
             from tutor.tui.live.pane import LivePane  # late: the start does not wait for it
+            from tutor.tui.live.watcher import watcher_command
 
             self.live = pane = LivePane(id="live-pane")
             self._host.query_one("#live", Container).mount(pane)
@@ -229,3 +260,30 @@ class Pages:
         self.arrange_side_by_side()
         if host.query_one(LessonList) in around:
             self._focus(self.current)
+
+
+class LessonCommands:
+    """Runs the commands of the current lesson's text, in a terminal."""
+
+    def __init__(self, host: HostScreen, pages: Pages) -> None:
+        self._host, self._pages = host, pages
+        host.register(commands.LESSON_COMMAND, self.choose, lambda: bool(self._commands))
+
+    @property
+    def _commands(self) -> tuple[str, ...]:
+        return commands_in(self._host.model.lesson.body)
+
+    def choose(self) -> None:
+        """Let the learner choose one of the lesson's commands, and run it."""
+        from tutor.tui.dialogs.simple import ChooseCommandScreen
+
+        def chosen(command: str | None) -> None:
+            if command is not None:
+                self.run(command)
+
+        self._host.app.push_screen(ChooseCommandScreen(self._commands), chosen)
+
+    def run(self, command: str) -> None:
+        """Show the terminal page, and type a command there, with Enter."""
+        self._host.show_page("terminal")
+        self._pages.open_terminal().run_line(command)

@@ -12,7 +12,6 @@ from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status
 from tutor.tui import commands, messages
 from tutor.tui.control.host import HostScreen
-from tutor.tui.dialogs.hint import HintScreen
 from tutor.workspace import Progress
 
 
@@ -65,6 +64,8 @@ class Records:
         return next((each for each in model.lesson.criteria if each.id == wanted and each.hint), None)
 
     def _show_hints(self, count: int, failed: CriterionText | None) -> None:
+        from tutor.tui.dialogs.simple import HintScreen
+
         model = self._host.model
         lesson = model.lesson
         if count > model.progress.of(lesson.id).hints:
@@ -86,7 +87,7 @@ class Records:
 
     def attempts(self) -> None:
         """Show the attempts at the current exercise."""
-        from tutor.tui.dialogs.attempts import AttemptsScreen
+        from tutor.tui.dialogs.simple import AttemptsScreen
 
         model = self._host.model
         self._host.app.push_screen(AttemptsScreen(model.lesson, model.progress.of(model.lesson.id)))

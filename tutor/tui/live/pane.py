@@ -24,14 +24,13 @@ from tutor.tui.key_latency import reduce_key_latency
 from tutor.tui.live import wording
 from tutor.tui.live.automatic_topics import AutomaticTopics
 from tutor.tui.live.graph_panel import GraphPanel
-from tutor.tui.live.launching import WatcherCommand
 from tutor.tui.live.parameters_panel import ParametersPanel
 from tutor.tui.live.publish_dialog import PublishScreen
 from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.state import LiveState
 from tutor.tui.live.status import TABS, empty_text, near_miss_text, status_line, tab_labels
 from tutor.tui.live.topics_panel import TopicsPanel, WatcherRequested
-from tutor.tui.live.watcher import Watcher
+from tutor.tui.live.watcher import Watcher, WatcherCommand
 from tutor.tui.widgets.steady_static import SteadyStatic
 from tutor.tui.widgets.strip import TabStrip
 

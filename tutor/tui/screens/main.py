@@ -22,16 +22,13 @@ from tutor.session.node import Phase
 from tutor.tui import commands, messages
 from tutor.tui.control.checklist import ChecklistController
 from tutor.tui.control.checks import Checks
-from tutor.tui.control.closing import close_down
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
-from tutor.tui.control.logs import Logs
-from tutor.tui.control.nodes import Nodes
-from tutor.tui.control.pages import Pages
+from tutor.tui.control.nodes import Logs, Nodes
+from tutor.tui.control.pages import LessonCommands, Pages
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
 from tutor.tui.control.reports import Reports
-from tutor.tui.control.terminal import Terminal
 from tutor.tui.control.views import Views
 from tutor.tui.model import AppModel
 from tutor.tui.palette import Actions, LessonText
@@ -70,7 +67,7 @@ class MainScreen(HostScreen):
         self.checklist = ChecklistController(self, self.records)
         self.reports = Reports(self, self.pages, self.preferences)
         Logs(self, log)
-        self.terminal = Terminal(self, self.pages)
+        self.lesson_commands = LessonCommands(self, self.pages)
         self.register(commands.NEXT, partial(self._step, 1))
         self.register(commands.PREVIOUS, partial(self._step, -1))
         self.register(commands.THEME, self._switch_theme)
@@ -255,7 +252,7 @@ class MainScreen(HostScreen):
 
     @on(messages.RunCommand)
     def _run_command(self, message: messages.RunCommand) -> None:
-        self.terminal.run(message.command)
+        self.lesson_commands.run(message.command)
 
     @on(messages.FileTouched)
     def _file_touched(self, message: messages.FileTouched) -> None:
@@ -322,14 +319,6 @@ class MainScreen(HostScreen):
     def _node_chosen(self, message: messages.NodeChosen) -> None:
         self.nodes.choose(message.path)
 
-    @on(messages.CheckEvent)
-    def _check_event(self, message: messages.CheckEvent) -> None:
-        self.checks.event(message.event)
-
-    @on(messages.CheckOver)
-    def _check_over(self, message: messages.CheckOver) -> None:
-        self.checks.over(message.ended)
-
     @on(messages.ErrorOccurred)
     def _error_occurred(self, message: messages.ErrorOccurred) -> None:
         self.say(message.text, warn=True)
@@ -353,7 +342,3 @@ class MainScreen(HostScreen):
         terminal = self.pages.terminal
         terminal_busy = terminal is not None and terminal.busy
         return self.checks.running is not None or bool(self.nodes.running) or terminal_busy
-
-    async def close_down(self) -> None:
-        """Save, stop the check, the nodes and the terminals, and wait until they are all gone."""
-        await close_down(self, self.files, self.nodes, self.checks, self.preferences, self.pages)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 
 from tutor.content import Checklist, Course
-from tutor.engine.modules import load_catalogues
+from tutor.engine.loading import load_catalogues
 from tutor.grade.formats.html.markup import Html, element, inline, joined
 from tutor.grade.gradebook import Gradebook
 from tutor.mistakes.entry import Mistake

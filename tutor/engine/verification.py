@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from tutor.content.patches import patched
 from tutor.content.submissions import Case, Expected
 from tutor.engine.check import run_check
 from tutor.engine.leftovers import find_leftovers
-from tutor.engine.start_limiter import StartLimiter
+from tutor.engine.machine import Limits, prepare
 from tutor.errors import SubmissionError
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
@@ -91,21 +91,22 @@ async def prove(jobs: Sequence[Job], course: Course, on_proof: Callable[[Proof],
     `on_proof` gets each proof as soon as it is there, in any order. No process that was started is left when this
     returns, is cancelled or raises. Raises EngineError.
     """
-    slots, start_limiter = asyncio.Semaphore(MAX_CONCURRENT_CHECKS), StartLimiter()
-    busy = asyncio.Lock()
+    slots, busy = asyncio.Semaphore(MAX_CONCURRENT_CHECKS), asyncio.Lock()
+    async with prepare() as prepared:
+        machine = replace(prepared, limits=Limits(turn_s=None))
 
-    async def prove_one(job: Job) -> Proof:
-        expected = job.case.expected if job.case is not None else Expected("")
-        async with busy if expected.keeps_busy else nullcontext(), slots:
-            report = await run_check([job.submission], course, start_limiter=start_limiter)
-        proof = Proof(job, report.exercises[0], tuple(await find_leftovers(expected.gone)))
-        on_proof(proof)
-        return proof
+        async def prove_one(job: Job) -> Proof:
+            expected = job.case.expected if job.case is not None else Expected("")
+            async with busy if expected.keeps_busy else nullcontext(), slots:
+                report = await run_check([job.submission], course, machine=machine)
+            proof = Proof(job, report.exercises[0], tuple(await find_leftovers(expected.gone)))
+            on_proof(proof)
+            return proof
 
-    tasks = [asyncio.ensure_future(prove_one(job)) for job in jobs]
-    try:
-        return list(await asyncio.gather(*tasks))
-    finally:
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
+        tasks = [asyncio.ensure_future(prove_one(job)) for job in jobs]
+        try:
+            return list(await asyncio.gather(*tasks))
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
