@@ -107,7 +107,7 @@ async def learn(cast: Cast, session: Session) -> None:
         assert result is not None
         assert result.verdict is Status.PASSED
         await cast.show(pilot, 5.0)
-        await main.close_down()
+        await app.close_down()
 
 
 async def check(cast: Cast, pilot: Pilot[int]) -> None:
