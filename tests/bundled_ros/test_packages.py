@@ -12,6 +12,7 @@ import pytest
 
 from tutor.bundled_ros import packages
 from tutor.bundled_ros.ros2 import overlay, sources
+from tutor.ros.prefixes import PACKAGE_INDEX
 
 SETUP = """
 from setuptools import find_packages, setup
@@ -172,7 +173,7 @@ def test_installed_packages_take_precedence(
     use_overlay: UseOverlay, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     real = tmp_path / "real with spaces"
-    write_file(real / packages.INDEX / "demo_nodes_py")
+    write_file(real / PACKAGE_INDEX / "demo_nodes_py")
     program = write_file(real / "lib/demo_nodes_py/talker", "#!/bin/sh\necho real\nexit 3\n")
     program.chmod(0o755)
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(real))
@@ -237,7 +238,7 @@ def test_a_program_that_colcon_built_for_its_own_python_runs_with_the_bundled_ro
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
-    write_file(tmp_path / packages.INDEX / "built")
+    write_file(tmp_path / PACKAGE_INDEX / "built")
     lines = {
         "colcons": f"#!{tmp_path}/venv/bin/python3.12\n",
         "systems": "#!/usr/bin/python3\n",

@@ -12,7 +12,7 @@ from tutor.errors import CommandError
 
 
 def parse_message(type_name: str, text: str) -> Any:
-    from tutor.bundled_ros.ros2.interfaces import find_interface
+    from tutor.ros.interfaces import find_interface
 
     message = find_interface(type_name, "msg")()
     set_fields(message, yaml.safe_load(text))

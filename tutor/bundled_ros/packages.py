@@ -9,12 +9,11 @@ import difflib
 import importlib.util
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 
-from tutor.ros.prefixes import is_bundled
+from tutor.ros.prefixes import PACKAGE_INDEX, ament_prefixes, holds_package, indexed, is_bundled
 
-INDEX = Path("share") / "ament_index" / "resource_index" / "packages"
 _SIMILARITY_CUTOFF = 0.8
 _MAX_INTERPRETER_LENGTH = 110
 """Longest interpreter path for a `#!` line, in characters: older kernels read only the line's first 127."""
@@ -81,28 +80,26 @@ def executables_of(package: str) -> dict[str, Path]:
 
 def packages_with_executables() -> list[str]:
     """Return the sorted names of all packages that have executables."""
-    names = {
-        path.name
-        for prefix in _prefixes()
-        if (prefix / INDEX).is_dir()
-        for path in (prefix / INDEX).iterdir()
-        if (prefix / "lib" / path.name).is_dir()
-    }
-    return sorted(names)
+    return [name for name, prefix in _packages().items() if (prefix / "lib" / name).is_dir()]
+
+
+def all_packages() -> list[str]:
+    """Return the sorted names of all packages."""
+    return list(_packages())
 
 
 def has_package(package: str) -> bool:
     """Return whether a prefix on AMENT_PREFIX_PATH has this package."""
-    return _is_valid_name(package) and any((prefix / INDEX / package).is_file() for prefix in _prefixes())
+    return _is_valid_name(package) and any(holds_package(prefix, package) for prefix in ament_prefixes())
 
 
-def _prefixes() -> Iterator[Path]:
-    return (Path(entry) for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry)
+def _packages() -> dict[str, Path]:
+    return indexed(PACKAGE_INDEX, ament_prefixes())
 
 
 def _find_prefix(package: str) -> Path:
-    for prefix in _prefixes():
-        if _is_valid_name(package) and (prefix / INDEX / package).is_file():
+    for prefix in ament_prefixes():
+        if _is_valid_name(package) and holds_package(prefix, package):
             return prefix
     raise PackageNotFound(package)
 

@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 from tutor.errors import UnknownType
 from tutor.live.statistics import TopicStatistics
 from tutor.live.updates import TopicUpdate
-from tutor.ros.messages import interface_class, truncate
+from tutor.ros.interfaces import interface_class
+from tutor.ros.messages import truncate
 from tutor.ros.raw_subscription import Batch, RawSubscription, deserialize
 from tutor.ros.yaml_format import number_at, numeric_fields, to_yaml
 from tutor.ros_model import Graph, QoS, Topic, TopicEndpoint, echo_qos

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from tutor.ros.messages import interface_class
+from tutor.ros.interfaces import interface_class
 from tutor.ros.yaml_format import is_array
 from tutor.ros_model import Field
 from tutor.ros_model.values import format_value

@@ -10,7 +10,8 @@ from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 
-from tutor.ros.messages import RECEIVED_PER_KEPT_BYTE, interface_class, placeholder_message
+from tutor.ros.interfaces import interface_class
+from tutor.ros.messages import RECEIVED_PER_KEPT_BYTE, placeholder_message
 from tutor.ros.qos import subscription_profile
 from tutor.ros_model import QoS
 

@@ -10,7 +10,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 
 from tutor.ros.fields import fill_message
-from tutor.ros.messages import interface_class
+from tutor.ros.interfaces import interface_class
 from tutor.ros.participant import OUR_PREFIX, create_node
 
 NODE_NAME = "published_by_hand"

@@ -1,16 +1,10 @@
-"""Looks up message and service classes by type name, and converts messages to plain dicts."""
+"""Converts messages to plain dicts within limits, and sets their fields."""
 
 from __future__ import annotations
 
 import array
-import importlib
-import importlib.util
 from collections.abc import Mapping
-from functools import cache
-from pathlib import Path
 from typing import Any
-
-from tutor.errors import UnknownType
 
 MAX_CHARACTERS, MAX_ELEMENTS = 10_000, 100_000
 """Limits on what is kept: characters of each string, and array elements of a whole message."""
@@ -18,29 +12,6 @@ MAX_CHARACTERS, MAX_ELEMENTS = 10_000, 100_000
 _ELEMENT_BYTES = 16
 RECEIVED_PER_KEPT_BYTE = 8
 """Received bytes that are not kept count as one kept byte per this many."""
-
-
-@cache
-def interface_class(name: str) -> Any:
-    """Return the class of a message or service type, given a name such as `std_msgs/msg/Float64`.
-
-    Raises UnknownType if the package or the type is not installed.
-    """
-    try:
-        package, kind, type_name = name.split("/")
-        if not _has_interfaces(package):  # the name may come from a learner: do not import arbitrary modules
-            raise UnknownType(name)
-        found: Any = getattr(importlib.import_module(f"{package}.{kind}"), type_name)
-    except (ValueError, ImportError, AttributeError) as error:
-        raise UnknownType(name) from error
-    return found
-
-
-def _has_interfaces(package: str) -> bool:
-    """Return whether a top-level package has type support for messages and services."""
-    found = importlib.util.find_spec(package) if package.isidentifier() else None
-    places = (found.submodule_search_locations or ()) if found else ()
-    return any(any(Path(place).glob(f"{package}_s__rosidl_typesupport_c*.so")) for place in places)
 
 
 def to_plain(message: Any) -> dict[str, Any]:

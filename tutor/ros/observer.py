@@ -23,7 +23,8 @@ from rclpy.task import Future
 from tutor.judge.trace import LogRecord, Sample
 from tutor.ros import memory_guard
 from tutor.ros.intake import Intake
-from tutor.ros.messages import interface_class, kept_bytes, set_fields, to_plain, to_plain_and_size, truncate
+from tutor.ros.interfaces import interface_class
+from tutor.ros.messages import kept_bytes, set_fields, to_plain, to_plain_and_size, truncate
 from tutor.ros.participant import OUR_PREFIX, create_node, new_context
 from tutor.ros_model import QoS
 

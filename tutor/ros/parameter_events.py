@@ -9,7 +9,7 @@ from typing import Any
 
 from rclpy.qos import qos_profile_parameter_events
 
-from tutor.ros.messages import interface_class
+from tutor.ros.interfaces import interface_class
 from tutor.ros.observer import Observer
 
 

@@ -9,7 +9,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from tutor.judge.trace import SetAnswer
-from tutor.ros.messages import interface_class, text_bytes, truncate
+from tutor.ros.interfaces import interface_class
+from tutor.ros.messages import text_bytes, truncate
 from tutor.ros.observer import AnswerTooLarge, Observer
 from tutor.ros_model import PARAMETER_TYPES, Parameter
 

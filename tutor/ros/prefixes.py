@@ -11,7 +11,8 @@ from tutor.ros import bundled_interfaces
 
 SITE_PACKAGES = Path("lib") / "python3.12" / "site-packages"
 _INDEX = Path("share") / "ament_index" / "resource_index"
-PACKAGE_INDEX = _INDEX / "packages"
+PACKAGE_INDEX, INTERFACE_INDEX = _INDEX / "packages", _INDEX / "rosidl_interfaces"
+"""The folders of an ament prefix with a file for each of its packages, and for each of those that have types."""
 
 
 def entries(environ: Mapping[str, str], name: str) -> list[str]:
@@ -22,6 +23,20 @@ def entries(environ: Mapping[str, str], name: str) -> list[str]:
 def join_entries(parts: Iterable[str | Path]) -> str:
     """Join entries to the value of a PATH-like variable, without duplicates, in order."""
     return os.pathsep.join(dict.fromkeys(str(part) for part in parts))
+
+
+def ament_prefixes(environ: Mapping[str, str] = os.environ) -> list[Path]:
+    """Return the ament prefixes in use, the first of which wins."""
+    return [Path(entry) for entry in entries(environ, "AMENT_PREFIX_PATH")]
+
+
+def indexed(index: Path, prefixes: Iterable[Path]) -> dict[str, Path]:
+    """Map each package in an index to the first prefix that has it, sorted by name."""
+    found: dict[str, Path] = {}
+    for prefix in prefixes:
+        for package in os.listdir(prefix / index) if (prefix / index).is_dir() else ():
+            found.setdefault(package, prefix)
+    return dict(sorted(found.items()))
 
 
 def is_bundled(entry: str | Path) -> bool:

@@ -18,7 +18,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
-from tutor.ros.messages import interface_class
+from tutor.ros.interfaces import interface_class
 from tutor.ros.participant import OUR_PREFIX, create_node
 from tutor.ros.qos import subscription_profile
 from tutor.ros_model import QoS

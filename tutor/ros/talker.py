@@ -11,7 +11,8 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.publisher import Publisher
 
 from tutor.judge.trace import Sample
-from tutor.ros.messages import interface_class, set_fields
+from tutor.ros.interfaces import interface_class
+from tutor.ros.messages import set_fields
 from tutor.ros.participant import OUR_PREFIX, create_node, new_context
 from tutor.ros_model import TopicEndpoint
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 
 from tutor.bundled_ros.ros2.parsing import LazyParser
+from tutor.ros.interfaces import type_names
 
 _COMPLETE_VARIABLE = "_ARGCOMPLETE"
 """The variable that a shell sets when it wants completions rather than the command itself."""
@@ -23,6 +25,11 @@ def print_completions(parser: LazyParser) -> None:
     # argcomplete patches the arguments a parser already has and misses any that are added later.
     parser.fill_for(split_line(os.environ["COMP_LINE"], int(os.environ["COMP_POINT"]))[3][1:])
     argcomplete.autocomplete(parser, exclude=["-h", "--help"])
+
+
+def types(kind: str = "") -> Callable[..., list[str]]:
+    """Return a completer of all types, or of those of one kind (msg, srv or action)."""
+    return lambda **_: type_names(kind)
 
 
 def registration_code(shell: str) -> str:

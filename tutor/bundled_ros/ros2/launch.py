@@ -12,6 +12,7 @@ from tutor.bundled_ros.ros2 import use_overlay
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.pkg.names import all_packages
 from tutor.errors import CommandError
+from tutor.ros.prefixes import entries
 
 _LAUNCH_SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
 
@@ -115,7 +116,7 @@ def _find_in_package(package: str, name: str) -> Path:
     try:
         share = packages.find_share(package)
     except packages.PackageNotFound as error:
-        searched = [entry for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
+        searched = entries(os.environ, "AMENT_PREFIX_PATH")
         message = f"Package '{package}' not found: \"package '{package}' not found, searching: {searched}\""
         raise CommandError(f"{message}{error.hint}") from error
     files = list(_files_below(share))
@@ -143,9 +144,9 @@ def _complete_packages_and_files(prefix: str, **_: object) -> list[str]:
     """Complete packages, and the launch files and folders below the path typed so far."""
     parent, slash, _begun = prefix.rpartition("/")
     start = parent + slash
-    entries = [] if start and not Path(start).is_dir() else sorted(Path(start or ".").iterdir())
-    folders = [f"{start}{path.name}/" for path in entries if path.is_dir() and not path.name.startswith(".")]
-    files = [f"{start}{path.name}" for path in entries if path.name.endswith(_LAUNCH_SUFFIXES)]
+    paths = [] if start and not Path(start).is_dir() else sorted(Path(start or ".").iterdir())
+    folders = [f"{start}{path.name}/" for path in paths if path.is_dir() and not path.name.startswith(".")]
+    files = [f"{start}{path.name}" for path in paths if path.name.endswith(_LAUNCH_SUFFIXES)]
     return [*([] if slash else all_packages()), *files, *folders]
 
 

@@ -6,14 +6,14 @@ them there. Built packages take precedence: only what no prefix has is added, at
 
 from __future__ import annotations
 
-import os
+import shutil
 import sys
 from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path
 
-from tutor.bundled_ros.packages import INDEX
 from tutor.bundled_ros.ros2 import sources
 from tutor.bundled_ros.ros2.sources import SourcePackage
+from tutor.ros.prefixes import PACKAGE_INDEX, ament_prefixes, entries, holds_package, join_entries
 
 _DEMO = Path(__file__).resolve().parents[1] / "demo"
 _MODULES = Path("lib") / "python3" / "site-packages"
@@ -68,10 +68,10 @@ def make_overlay(
     beside the launch file become part of `my_package`. `python` is the interpreter that runs the programs. If PATH has
     no `ros2`, the prefix gets ours.
     """
-    prefixes = [Path(entry) for entry in environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
+    prefixes = ament_prefixes(environ)
     added: set[str] = set()
     for package in _source_packages(near, environ):
-        if package.name in added or any((each / INDEX / package.name).is_file() for each in prefixes):
+        if package.name in added or any(holds_package(each, package.name) for each in prefixes):
             continue
         if package.name in _DEMO_PACKAGES and not package.programs:
             continue  # its C++ programs are not built; ours do the same
@@ -87,13 +87,13 @@ def make_overlay(
         elif (package.modules[0] / "__init__.py").is_file():
             _append(environ, "PYTHONPATH", package.modules[0].parent)
     for name in _DEMO_PACKAGES:
-        if name not in added and not any((each / INDEX / name).is_file() for each in prefixes):
+        if name not in added and not any(holds_package(each, name) for each in prefixes):
             for program in ("talker", "listener"):
                 script = _DEMO_SCRIPT.format(python=python, name=name, program=program, nodes=str(_DEMO / "nodes.py"))
                 _write_program(prefix / "lib" / name / program, script)
             share = _DEMO / "share" / name
             _add_package(prefix, name, {entry.name: entry for entry in share.iterdir()} if share.is_dir() else {})
-    if not _has_ros2(environ):
+    if shutil.which("ros2", path=environ.get("PATH", "")) is None:
         _write_program(prefix / "bin" / "ros2", _ROS2_SCRIPT.format(python=python))
         _append(environ, "PATH", prefix / "bin")
     _append(environ, "AMENT_PREFIX_PATH", prefix)
@@ -128,7 +128,7 @@ def _add_package(prefix: Path, name: str, share: Mapping[str, Path]) -> None:
     folder.mkdir(parents=True)
     for entry, target in share.items():
         (folder / entry).symlink_to(target)
-    marker = prefix / INDEX / name
+    marker = prefix / PACKAGE_INDEX / name
     marker.parent.mkdir(parents=True, exist_ok=True)
     marker.touch()
 
@@ -147,10 +147,4 @@ def _write_program(path: Path, text: str) -> None:
 
 
 def _append(environ: MutableMapping[str, str], name: str, entry: Path) -> None:
-    entries = [each for each in environ.get(name, "").split(os.pathsep) if each]
-    environ[name] = os.pathsep.join(dict.fromkeys([*entries, str(entry)]))
-
-
-def _has_ros2(environ: Mapping[str, str]) -> bool:
-    folders = (Path(entry) for entry in environ.get("PATH", "").split(os.pathsep) if entry)
-    return any(os.access(folder / "ros2", os.X_OK) for folder in folders)
+    environ[name] = join_entries([*entries(environ, name), entry])

@@ -10,6 +10,7 @@ from tutor import private_folders
 from tutor.bundled_ros.ros2 import overlay
 from tutor.errors import CommandError
 from tutor.ros.environment import UNBUFFERED, UNBUFFERED_BY_US
+from tutor.ros.prefixes import entries
 
 _OVERLAY_VARIABLE = "ROS_TUTOR_OVERLAY"
 
@@ -34,4 +35,4 @@ def overlay_workspace(near: Path) -> None:
         raise CommandError(f"the packages cannot be read: {error}") from error
     os.environ[_OVERLAY_VARIABLE] = str(folder / "prefix")
     # A launch file runs, and so imports modules, in this process.
-    sys.path += [entry for entry in os.environ.get("PYTHONPATH", "").split(os.pathsep) if entry not in sys.path]
+    sys.path += [entry for entry in entries(os.environ, "PYTHONPATH") if entry not in sys.path]

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Sequence
 
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.interfaces import types_by_package
+from tutor.ros.interfaces import type_names
 
 
 def actions(domain: Domain) -> list[tuple[str, Sequence[str]]]:
@@ -29,5 +29,4 @@ def action_types(parsed_args: argparse.Namespace, **_: object) -> list[str]:
         with join_domain(parsed_args) as domain:
             if types := domain.find(lambda: dict(actions(domain)).get(name)):
                 return list(types)
-    every = types_by_package().items()
-    return [f"{package}/{name}" for package, names in every for name in names if name.startswith("action/")]
+    return type_names("action")

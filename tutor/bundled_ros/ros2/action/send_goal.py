@@ -9,10 +9,10 @@ from typing import Any
 from tutor.bundled_ros.ros2.action.names import action_names, action_types
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
 from tutor.bundled_ros.ros2.message_values import message_from_yaml
 from tutor.bundled_ros.ros2.parsing import complete_with
-from tutor.errors import CommandError
+from tutor.errors import CommandError, UnknownType
+from tutor.ros.interfaces import find_interface
 from tutor.ros.yaml_format import to_yaml
 
 STATUS = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")
@@ -35,7 +35,7 @@ def main(arguments: argparse.Namespace) -> None:
 
     try:
         action_class = find_interface(arguments.action_type, "action")
-    except UnknownInterface as error:
+    except UnknownType as error:
         raise CommandError("The passed action type is invalid") from error
     text = sys.stdin.read() if arguments.stdin else arguments.goal
     goal = message_from_yaml(action_class.Goal, text, failed="Failed to populate message fields: {!r}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from tutor.bundled_ros.ros2.interfaces import types_by_package
+from tutor.ros.interfaces import types_by_package
 
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
@@ -25,11 +25,6 @@ def selected_kinds(arguments: argparse.Namespace) -> list[str]:
 def filter_by_kind(names: list[str], kind: str) -> list[str]:
     """Filter names such as `msg/String` by their kind."""
     return [name for name in names if name.startswith(f"{kind}/")]
-
-
-def type_names(**_: object) -> list[str]:
-    """Complete type names."""
-    return [f"{package}/{name}" for package, names in types_by_package().items() for name in names]
 
 
 def package_names(**_: object) -> list[str]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 
 from tutor.bundled_ros.ros2.interface.kinds import add_kind_arguments, filter_by_kind, package_names, selected_kinds
-from tutor.bundled_ros.ros2.interfaces import types_by_package
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.errors import CommandError
+from tutor.ros.interfaces import types_by_package
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from tutor.bundled_ros.ros2.interface.kinds import KINDS, add_kind_arguments, filter_by_kind, selected_kinds
-from tutor.bundled_ros.ros2.interfaces import types_by_package
+from tutor.ros.interfaces import types_by_package
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

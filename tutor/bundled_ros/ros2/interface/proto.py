@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from tutor.bundled_ros.ros2.interface.kinds import type_names
-from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
+from tutor.bundled_ros.ros2.completion import types
 from tutor.bundled_ros.ros2.parsing import complete_with
-from tutor.errors import CommandError
+from tutor.errors import CommandError, UnknownType
+from tutor.ros.interfaces import find_interface
 from tutor.ros.yaml_format import to_yaml
 
 _PART = {"msg": "", "srv": "Request", "action": "Goal"}
@@ -15,7 +15,7 @@ _PART = {"msg": "", "srv": "Request", "action": "Goal"}
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """[--no-quotes] TYPE."""
-    complete_with(parser.add_argument("type", help="the type, such as geometry_msgs/msg/Twist"), type_names)
+    complete_with(parser.add_argument("type", help="the type, such as geometry_msgs/msg/Twist"), types())
     parser.add_argument("--no-quotes", action="store_true", help="without the quotation marks around it")
 
 
@@ -26,7 +26,7 @@ def main(arguments: argparse.Namespace) -> None:
         raise CommandError(f"Invalid name '{arguments.type}'. Expected three parts separated by '/'")
     try:
         found = find_interface(arguments.type, parts[1])
-    except UnknownInterface as error:
+    except UnknownType as error:
         raise CommandError(f"Unknown type '{arguments.type}'") from error
     text = to_yaml((getattr(found, _PART[parts[1]]) if _PART[parts[1]] else found)())
     print(text if arguments.no_quotes else f'"{text}"')

@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from tutor.bundled_ros import packages
-from tutor.bundled_ros.ros2.interface.kinds import type_names
+from tutor.bundled_ros.ros2.completion import types
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.errors import CommandError
+from tutor.ros.prefixes import ament_prefixes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(
             "type", action=_TypeOrStdin, help="the type, such as std_msgs/msg/String; - reads it from standard input"
         ),
-        type_names,
+        types(),
     )
 
 
@@ -94,25 +95,14 @@ def _read_definition(name: str) -> str:
         share = packages.find_share(parts[0])
     except packages.PackageNotFound as error:
         raise CommandError(f"Unknown package '{parts[0]}'") from error
-    if not (share / parts[1] / f"{parts[2]}.{parts[1]}").is_file() and (found := _find_elsewhere(name)) is not None:
-        share = found
-    file = share / parts[1] / f"{parts[2]}.{parts[1]}"
+    path = Path(parts[1]) / f"{parts[2]}.{parts[1]}"
+    # The first prefix with this package may have only part of its types.
+    shares = [share, *(prefix / "share" / parts[0] for prefix in ament_prefixes())]
+    file = next((share / path for share in shares if (share / path).is_file()), share / path)
     try:
         return file.read_text(encoding="utf-8")
     except OSError as error:
         raise CommandError(f"Could not find the interface '{file.with_suffix('.idl')}'") from error
-
-
-def _find_elsewhere(name: str) -> Path | None:
-    """Find a definition in a later prefix, in case the first one with this package has only part of its types."""
-    import os
-
-    package, kind, last = name.split("/")
-    for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
-        share = Path(prefix) / "share" / package
-        if prefix and (share / kind / f"{last}.{kind}").is_file():
-            return share
-    return None
 
 
 class _TypeOrStdin(argparse.Action):

@@ -8,11 +8,11 @@ import time
 
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.interfaces import UnknownInterface, WrongInterfaceKind, find_interface
 from tutor.bundled_ros.ros2.message_values import message_from_yaml
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.service.names import service_names, service_types, services
-from tutor.errors import CommandError
+from tutor.errors import CommandError, UnknownType
+from tutor.ros.interfaces import WrongKind, find_interface
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,9 +31,9 @@ def main(arguments: argparse.Namespace) -> None:
         raise CommandError("rate must be greater than zero")
     try:
         service_class = find_interface(arguments.service_type, "srv")
-    except WrongInterfaceKind as error:
+    except WrongKind as error:
         raise CommandError("The passed type is not a service") from error
-    except UnknownInterface as error:
+    except UnknownType as error:
         raise CommandError("The passed service type is invalid") from error
     text = sys.stdin.read() if arguments.stdin else arguments.values
     request = message_from_yaml(service_class.Request, text, failed="Failed to populate field: {}")

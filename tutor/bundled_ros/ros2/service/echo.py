@@ -6,11 +6,11 @@ import argparse
 
 from tutor.bundled_ros.ros2.calling import SPIN_TIMEOUT_S, make_executor
 from tutor.bundled_ros.ros2.domain import join_domain
-from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
 from tutor.bundled_ros.ros2.message_format import MessageFormat, add_format_arguments
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.bundled_ros.ros2.service.names import service_names, service_types, services
-from tutor.errors import CommandError
+from tutor.errors import CommandError, UnknownType
+from tutor.ros.interfaces import find_interface
 
 EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
 """The names of service_msgs/msg/ServiceEventInfo's event types, by number."""
@@ -40,7 +40,7 @@ def main(arguments: argparse.Namespace) -> None:
             type_name = types[0]
         try:
             event_class = find_interface(type_name, "srv").Event
-        except UnknownInterface as error:
+        except UnknownType as error:
             raise CommandError(f"The service type '{type_name}' is invalid") from error
 
         def on_event(event: object) -> None:

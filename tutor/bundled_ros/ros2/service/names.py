@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Sequence
 
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.interfaces import types_by_package
+from tutor.ros.interfaces import type_names
 
 
 def services(domain: Domain, *, hidden: bool) -> list[tuple[str, Sequence[str]]]:
@@ -30,12 +30,7 @@ def service_types(parsed_args: argparse.Namespace, **_: object) -> list[str]:
         with join_domain(parsed_args) as domain:
             if types := domain.find(lambda: dict(services(domain, hidden=True)).get(name)):
                 return list(types)
-    return [
-        f"{package}/{name}"
-        for package, names in types_by_package().items()
-        for name in names
-        if name.startswith("srv/")
-    ]
+    return type_names("srv")
 
 
 def add_hidden_option(parser: argparse.ArgumentParser) -> None:

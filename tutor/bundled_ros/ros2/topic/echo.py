@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
+from tutor.bundled_ros.ros2 import completion
 from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_domain
-from tutor.bundled_ros.ros2.interfaces import message_names
 from tutor.bundled_ros.ros2.message_format import MessageFormat, add_format_arguments
 from tutor.bundled_ros.ros2.parsing import complete_with, positive_float
 from tutor.bundled_ros.ros2.qos import add_qos_arguments, overrides_qos, qos_from_arguments
@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     complete_with(parser.add_argument("topic_name", help="the topic, such as /chatter"), topic_names)
     kind = parser.add_argument("message_type", nargs="?", help="its type, such as std_msgs/msg/String (else found out)")
-    complete_with(kind, message_names)
+    complete_with(kind, completion.types("msg"))
     add_qos_arguments(parser, "sensor_data")
     add = parser.add_argument
     add("--csv", action="store_true", help="all values, separated by commas")

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.interfaces import UnknownInterface, find_interface
-from tutor.errors import CommandError
+from tutor.errors import CommandError, UnknownType
+from tutor.ros.interfaces import find_interface
 
 _GRAPH_POLL_S = 0.05
 
@@ -69,7 +69,7 @@ def _single_class(topic: str, types: Sequence[str]) -> Any:
         raise CommandError(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]")
     try:
         return find_interface(types[0], "msg")
-    except UnknownInterface:
+    except UnknownType:
         raise CommandError(f"The message type '{types[0]}' is invalid") from None
 
 
@@ -77,7 +77,7 @@ def class_of_type(name: str) -> Any:
     """Return the class of a message type that the user named. Raises CommandError."""
     try:
         return find_interface(name, "msg")
-    except UnknownInterface:
+    except UnknownType:
         raise CommandError("The passed message type is invalid") from None
 
 

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from tutor.bundled_ros.ros2.domain import Domain, add_direct_arguments, join_domain
-from tutor.bundled_ros.ros2.interfaces import find_interface, message_names
 from tutor.bundled_ros.ros2.message_values import set_fields
 from tutor.bundled_ros.ros2.parsing import complete_with, nonnegative_int, positive_float
 from tutor.bundled_ros.ros2.qos import add_qos_arguments, qos_from_arguments
 from tutor.bundled_ros.ros2.topic.names import class_of_type, full_name, topic_names, topics
 from tutor.errors import CommandError
+from tutor.ros.interfaces import find_interface, type_names
 from tutor.ros.yaml_format import to_yaml
 
 if TYPE_CHECKING:
@@ -151,7 +151,7 @@ def _complete_types(prefix: str, parsed_args: argparse.Namespace, **_: object) -
     """Complete the topic's type if the topic exists, else all message types."""
     with join_domain(parsed_args) as domain:
         found = domain.find(lambda: dict(topics(domain, hidden=True)).get(parsed_args.topic_name))
-    return list(found) if found else message_names()
+    return list(found) if found else type_names("msg")
 
 
 def _complete_values(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:

@@ -7,7 +7,7 @@ import sys
 
 CODE = """
 import sys
-from tutor.ros.messages import interface_class
+from tutor.ros.interfaces import interface_class
 from tutor.errors import UnknownType
 for name in ("this.msg/msg/X", "this/msg/X", "antigravity/msg/X", "os/path/join", "../msg/X", "std_msgs/msg/X"):
     try:
