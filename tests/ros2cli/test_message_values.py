@@ -7,13 +7,13 @@ from typing import Any
 import pytest
 import yaml
 
-from tutor.bundled_ros.ros2.message_values import message_from_yaml, set_fields
+from tutor.bundled_ros.ros2.yaml_input import message_from_yaml
 from tutor.errors import CommandError
+from tutor.ros.fields import set_fields
+from tutor.ros.interfaces import find_interface
 
 
 def parse_message(type_name: str, text: str) -> Any:
-    from tutor.ros.interfaces import find_interface
-
     message = find_interface(type_name, "msg")()
     set_fields(message, yaml.safe_load(text))
     return message

@@ -10,7 +10,8 @@ from tutor.errors import UnknownType
 from tutor.live.protocol import Call
 from tutor.live.topics import MAX_TEXT
 from tutor.live.updates import CallOutcome, RequestForm
-from tutor.ros.fields import fill_request, message_fields, request_fields
+from tutor.ros.fields import fill, leaf_fields
+from tutor.ros.interfaces import interface_class
 from tutor.ros.messages import truncate
 from tutor.ros.observer import Observer
 from tutor.ros.yaml_format import to_yaml
@@ -20,9 +21,9 @@ CANCELLED = "cancelled"
 
 def describe(type_name: str) -> RequestForm:
     """Return the form of a message type, or of a service type's request."""
-    fields = message_fields if "/msg/" in type_name else request_fields
     try:
-        return RequestForm(type_name, fields(type_name))
+        found = interface_class(type_name)
+        return RequestForm(type_name, tuple(leaf_fields(found() if "/msg/" in type_name else found.Request())))
     except UnknownType:
         return RequestForm(type_name, problem=f"This ROS does not have the type {type_name}.")
 
@@ -58,13 +59,12 @@ class ServiceCalls:
 
     async def _call(self, call: Call) -> tuple[str | None, str]:
         try:
-            request = fill_request(call.type, call.request)
+            request = fill(interface_class(call.type).Request(), call.request)
         except UnknownType:
             return None, f"This ROS does not have the type {call.type}."
         except ValueError as error:
             return None, str(error)
-        fields = {name: getattr(request, name) for name in request.get_fields_and_field_types()}
-        answer = await self._observer.call(call.service, call.type, fields, call.limit_s)
+        answer = await self._observer.call(call.service, call.type, request, call.limit_s)
         if answer is not None:
             return truncate(to_yaml(answer), MAX_TEXT), ""
         if not self._is_offered(call.service):

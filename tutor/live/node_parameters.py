@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import array
 import asyncio
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from tutor.live.protocol import SetParameter
 from tutor.live.updates import NodeParameters, SetOutcome
 from tutor.ros.graph import parameter_event_publishers
+from tutor.ros.messages import plain_value
 from tutor.ros.observer import Observer
 from tutor.ros.parameter_events import watch_changes
 from tutor.ros.parameters import get_parameters, set_parameters
@@ -94,17 +93,10 @@ class ParameterWatch:
             self._retry_at.pop(node, None)
             if found is None:
                 self._retry_at[node] = time.monotonic() + RETRY_S
-            parameters = tuple(replace(each, value=_to_json(each.value)) for each in found or ())
+            parameters = tuple(replace(each, value=plain_value(each.value)) for each in found or ())
             self._send(NodeParameters(node, found is not None, parameters))
         finally:
             del self._refreshing[node]
         if node in self._changed_meanwhile:
             self._changed_meanwhile.discard(node)
             self.refresh(node)
-
-
-def _to_json(value: Any) -> Any:
-    """Convert a parameter value to JSON types."""
-    if isinstance(value, (array.array, list, tuple)):
-        return [_to_json(item) for item in value]
-    return value[0] if isinstance(value, bytes) else value

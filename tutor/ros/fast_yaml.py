@@ -6,9 +6,10 @@ character; anything else is left to PyYAML.
 
 from __future__ import annotations
 
-import array
 import re
 from typing import Any
+
+from tutor.ros.messages import is_array, is_message
 
 # Text that YAML leaves unquoted wherever it occurs, and text that it puts in single quotes wherever it occurs.
 _PLAIN = re.compile(r"[A-Za-z](?:[A-Za-z0-9_/.-]| (?=[A-Za-z0-9_/.]))*\Z")
@@ -22,11 +23,6 @@ def dump_plain(message: Any, max_length: int | None) -> str | None:
     return "".join(lines) if _write(message, "", max_length, lines) else None
 
 
-def is_array(value: Any) -> bool:
-    """Return whether a field's value is an array or a sequence, in any form that rclpy uses."""
-    return isinstance(value, (list, tuple, array.array)) or (hasattr(value, "tolist") and hasattr(value, "__len__"))
-
-
 def _write(message: Any, indent: str, max_length: int | None, lines: list[str]) -> bool:
     names = message.get_fields_and_field_types()
     for name in names:
@@ -35,7 +31,7 @@ def _write(message: Any, indent: str, max_length: int | None, lines: list[str]) 
             return False
         if (written := _scalar(value, max_length)) is not None:
             lines.append(f"{indent}{name}: {written}\n")
-        elif hasattr(value, "get_fields_and_field_types"):
+        elif is_message(value):
             lines.append(f"{indent}{name}:\n")
             if not _write(value, f"{indent}  ", max_length, lines):
                 return False

@@ -12,7 +12,9 @@ from rclpy.action.client import ActionClient
 from rclpy.qos import QoSProfile
 
 from tutor.judge.trace import GoalAnswer, Sample
-from tutor.ros.messages import interface_class, set_fields, to_plain
+from tutor.ros.fields import assign
+from tutor.ros.interfaces import interface_class
+from tutor.ros.messages import to_plain
 from tutor.ros.observer import Observer
 
 MAX_FEEDBACK = 1000
@@ -52,7 +54,7 @@ class GoalSender(Observer):
         return self._seen
 
     def send(self, goal: Mapping[str, Any]) -> None:
-        filled = set_fields(self._type.Goal(), goal)
+        filled = assign(self._type.Goal(), goal)
         self._executor.create_task(self._send, filled)
 
     def cancel(self) -> None:

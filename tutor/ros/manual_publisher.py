@@ -9,7 +9,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
-from tutor.ros.fields import fill_message
+from tutor.ros.fields import fill
 from tutor.ros.interfaces import interface_class
 from tutor.ros.participant import OUR_PREFIX, create_node
 
@@ -30,7 +30,7 @@ class ManualPublisher:
 
         Raises UnknownType, or ValueError with a one-line message if a value or the topic name is invalid.
         """
-        message = fill_message(type_name, values)
+        message = fill(interface_class(type_name)(), values)
         self.remove(topic)
         if self._node is None:
             self._node = create_node(self._context, NODE_NAME)

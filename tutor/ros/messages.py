@@ -1,9 +1,8 @@
-"""Converts messages to plain dicts within limits, and sets their fields."""
+"""What a value in a message is, and messages as plain data, whole or within limits."""
 
 from __future__ import annotations
 
 import array
-from collections.abc import Mapping
 from typing import Any
 
 MAX_CHARACTERS, MAX_ELEMENTS = 10_000, 100_000
@@ -12,6 +11,25 @@ MAX_CHARACTERS, MAX_ELEMENTS = 10_000, 100_000
 _ELEMENT_BYTES = 16
 RECEIVED_PER_KEPT_BYTE = 8
 """Received bytes that are not kept count as one kept byte per this many."""
+
+
+def is_message(value: Any) -> bool:
+    """Return whether a value is a ROS message rather than one of Python's or numpy's."""
+    return hasattr(value, "get_fields_and_field_types")
+
+
+def is_array(value: Any) -> bool:
+    """Return whether a field's value is an array or a sequence, in any form that rclpy uses."""
+    return isinstance(value, (list, tuple, array.array)) or (hasattr(value, "tolist") and hasattr(value, "__len__"))
+
+
+def plain_value(value: Any) -> Any:
+    """Return a field's value, other than a message, in types that JSON has: an octet becomes a number."""
+    if isinstance(value, bytes):
+        return value[0] if len(value) == 1 else list(value)
+    if is_array(value):
+        return [plain_value(item) for item in value]
+    return value.item() if hasattr(value, "item") else value
 
 
 def to_plain(message: Any) -> dict[str, Any]:
@@ -44,19 +62,6 @@ def text_bytes(text: str) -> int:
     return len(text) * (1 if text.isascii() else 4)
 
 
-def set_fields(message: Any, values: Mapping[str, Any]) -> Any:
-    """Set the fields of `message`, those of nested messages too, and return it.
-
-    Raises AttributeError for an unknown field.
-    """
-    for name, value in values.items():
-        if isinstance(value, Mapping):
-            set_fields(getattr(message, name), value)
-        else:
-            setattr(message, name, value)
-    return message
-
-
 def placeholder_message(message_type: Any, text: str) -> Any:
     """Return a stand-in for a message that cannot be decoded: `text` in its string fields, defaults elsewhere."""
     message = message_type()
@@ -77,16 +82,16 @@ class _Converter:
         return {name: self._plain(getattr(message, name)) for name in message.get_fields_and_field_types()}
 
     def _plain(self, value: Any) -> Any:
-        if hasattr(value, "get_fields_and_field_types"):
+        if is_message(value):
             return self.convert(value)
         if isinstance(value, str):
             kept = truncate(value)
             self.bytes += kept_bytes(value, kept)
             return kept
-        if isinstance(value, (bytes, list, tuple, array.array)) or hasattr(value, "tolist"):
+        if isinstance(value, bytes) or is_array(value):
             kept = value[: self._elements]
             self._elements -= len(kept)
             self.bytes += _ELEMENT_BYTES * len(kept) + len(value) // RECEIVED_PER_KEPT_BYTE
             return [self._plain(item) for item in kept]
         self.bytes += _ELEMENT_BYTES
-        return value
+        return plain_value(value)

@@ -22,9 +22,10 @@ from rclpy.task import Future
 
 from tutor.judge.trace import LogRecord, Sample
 from tutor.ros import memory_guard
+from tutor.ros.fields import assign
 from tutor.ros.intake import Intake
 from tutor.ros.interfaces import interface_class
-from tutor.ros.messages import kept_bytes, set_fields, to_plain, to_plain_and_size, truncate
+from tutor.ros.messages import is_message, kept_bytes, to_plain, to_plain_and_size, truncate
 from tutor.ros.participant import OUR_PREFIX, create_node, new_context
 from tutor.ros_model import QoS
 
@@ -122,7 +123,7 @@ class Observer:
             plain_request = to_plain(request)
             values = handler(plain_request)
             self._call_on_loop(on_served, plain_request, values)
-            return set_fields(response, values)
+            return assign(response, values)
 
         # rclpy warns on stderr about a client that ended before its response; that is not our fault.
         warnings.filterwarnings("ignore", "failed to send response", RuntimeWarning)
@@ -134,7 +135,7 @@ class Observer:
         self,
         service: str,
         type_name: str,
-        request: Mapping[str, Any],
+        request: Any,
         limit_s: float,
         *,
         large: bool = False,
@@ -142,6 +143,7 @@ class Observer:
     ) -> Any | None:
         """Call a service once its server is matched. Return None if no response arrives within `limit_s` seconds.
 
+        `request`: a message, or a mapping of its fields.
         `large`: the response may be of any size. `resend_s`: send the request again whenever this many seconds pass
         without a response, for requests without side effects. The middleware drops the response to a client that the
         server has not fully discovered within 0.1 s, which happens on a busy machine. Raises AnswerTooLarge.
@@ -150,7 +152,7 @@ class Observer:
         if not await self.wait_for_server(service, type_name, limit_s):
             return None
         client = self._client(service, type_name)
-        filled = set_fields(interface_class(type_name).Request(), request)
+        filled = request if is_message(request) else assign(interface_class(type_name).Request(), request)
         answer: asyncio.Future[Any] = self._loop.create_future()
         pending: list[Future] = []
         self._pending_answers.add(answer)

@@ -11,8 +11,8 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.publisher import Publisher
 
 from tutor.judge.trace import Sample
+from tutor.ros.fields import assign
 from tutor.ros.interfaces import interface_class
-from tutor.ros.messages import set_fields
 from tutor.ros.participant import OUR_PREFIX, create_node, new_context
 from tutor.ros_model import TopicEndpoint
 
@@ -50,7 +50,7 @@ class Talker:
             return int(self._matched.take_event().total_count)
 
     def publish(self, message: Mapping[str, Any]) -> Sample:
-        filled = set_fields(self._type(), message)
+        filled = assign(self._type(), message)
         now = time.time()
         self._publisher.publish(filled)
         return Sample(self._endpoint.topic, dict(message), now, now)

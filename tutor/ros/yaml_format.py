@@ -11,9 +11,8 @@ from typing import Any
 
 import yaml
 
-from tutor.ros.fast_yaml import dump_plain, is_array
-
-__all__ = ["DEFAULT_MAX_LENGTH", "is_array", "number_at", "numeric_fields", "to_csv", "to_yaml"]
+from tutor.ros.fast_yaml import dump_plain
+from tutor.ros.messages import is_array, is_message
 
 DEFAULT_MAX_LENGTH = 128
 """Arrays and strings are cut at this length, as `ros2 topic echo` does."""
@@ -101,7 +100,7 @@ _Dumper.add_representer(dict, _Dumper.represent_message)
 
 
 def _plain(value: Any, options: _Options) -> Any:
-    if hasattr(value, "get_fields_and_field_types"):
+    if is_message(value):
         return {name: _plain_field(getattr(value, name), slot, options) for name, slot in _slots(value)}
     if isinstance(value, bytes):
         text = "".join(map(chr, value))
@@ -133,7 +132,7 @@ def _cell(value: Any, slot: Any, options: _Options) -> str:
             return _abbreviate(value, slot)
         more = ["..."] if options.max_length is not None and len(value) > options.max_length else []
         return _join_cells([*(_cell(item, None, options) for item in value[: options.max_length]), *more])
-    if hasattr(value, "get_fields_and_field_types"):
+    if is_message(value):
         return _row(value, options)
     if isinstance(value, bytes) and options.max_length is not None and len(value) > options.max_length:
         return str(value[: options.max_length] + b"...")
@@ -167,7 +166,7 @@ def _abbreviate(value: Any, slot: Any) -> str:
 
 
 def _number_paths(value: Any, path: str) -> Iterator[str]:
-    if hasattr(value, "get_fields_and_field_types"):
+    if is_message(value):
         for name in value.get_fields_and_field_types():
             yield from _number_paths(getattr(value, name), f"{path}.{name}" if path else name)
     elif is_array(value):

@@ -9,8 +9,8 @@ from typing import Any
 from tutor.bundled_ros.ros2.action.names import action_names, action_types
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.message_values import message_from_yaml
 from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.bundled_ros.ros2.yaml_input import message_from_yaml
 from tutor.errors import CommandError, UnknownType
 from tutor.ros.interfaces import find_interface
 from tutor.ros.yaml_format import to_yaml

@@ -6,7 +6,7 @@ import argparse
 from typing import Any
 
 from tutor.bundled_ros.ros2.param.client import add_node_arguments, add_timeout, parameter_client, print_results
-from tutor.bundled_ros.ros2.yaml_errors import yaml_problem
+from tutor.bundled_ros.ros2.yaml_input import yaml_problem
 from tutor.errors import CommandError
 
 

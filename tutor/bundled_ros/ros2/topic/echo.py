@@ -25,6 +25,7 @@ from tutor.bundled_ros.ros2.topic.names import (
     warn_not_published,
 )
 from tutor.errors import CommandError
+from tutor.ros.messages import is_message
 from tutor.ros_model import echo_qos
 
 if TYPE_CHECKING:
@@ -110,7 +111,7 @@ def _make_formatter(arguments: argparse.Namespace) -> Callable[[Received], str |
         if matches is not None and not matches(message):
             return None
         with_info = arguments.include_message_info
-        if not hasattr(message, "get_fields_and_field_types"):
+        if not is_message(message):
             head = f"---Got new message, message info:---\n{info}\n---Message data:---\n" if with_info else ""
             return f"{head}{message}\n---\n"
         if arguments.csv:

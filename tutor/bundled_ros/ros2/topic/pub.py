@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from tutor.bundled_ros.ros2.domain import Domain, add_direct_arguments, join_domain
-from tutor.bundled_ros.ros2.message_values import set_fields
 from tutor.bundled_ros.ros2.parsing import complete_with, nonnegative_int, positive_float
 from tutor.bundled_ros.ros2.qos import add_qos_arguments, qos_from_arguments
 from tutor.bundled_ros.ros2.topic.names import class_of_type, full_name, topic_names, topics
 from tutor.errors import CommandError
+from tutor.ros.fields import SetStamp, set_fields
 from tutor.ros.interfaces import find_interface, type_names
 from tutor.ros.yaml_format import to_yaml
 
@@ -83,8 +83,9 @@ def main(arguments: argparse.Namespace) -> None:
         publisher = domain.node.create_publisher(message_type, arguments.topic_name, qos_from_arguments(arguments))
         _wait_for_subscriptions(domain, publisher, required, arguments.max_wait_time_secs)
         message = message_type()
+        stamps: list[SetStamp] = []
         try:
-            stamps = set_fields(message, values, stamps=True)
+            set_fields(message, values, stamps)
         except Exception as error:  # whatever the field's type raises for the user's value
             raise CommandError(f"Failed to populate field: {error}") from error
         print("publisher: beginning loop")
