@@ -8,25 +8,13 @@ import time
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from rclpy.parameter import Parameter as ParameterMessage
+
 from tutor.judge.trace import SetAnswer
 from tutor.ros.interfaces import interface_class
-from tutor.ros.messages import text_bytes, truncate
+from tutor.ros.messages import is_array, text_bytes, truncate
 from tutor.ros.observer import AnswerTooLarge, Observer
 from tutor.ros_model import PARAMETER_TYPES, Parameter
-
-_VALUE_FIELDS = (
-    None,
-    "bool_value",
-    "integer_value",
-    "double_value",
-    "string_value",
-    "byte_array_value",
-    "bool_array_value",
-    "integer_array_value",
-    "double_array_value",
-    "string_array_value",
-)
-
 
 MAX_PARAMETERS, MAX_ELEMENTS = 500, 1000
 """Limits on the parameters read from a node, and on the elements kept of an array. Strings are cut, too."""
@@ -191,41 +179,32 @@ def _parameter(node: str, name: str, found: tuple[int, Any] | None, descriptor: 
     )
 
 
+def _content(value: Any) -> Any:
+    """Return the field of a ParameterValue that its type names; None if it is not set."""
+    type_name = PARAMETER_TYPES[value.type].replace("boolean", "bool").replace(" ", "_")
+    return getattr(value, f"{type_name}_value", None)
+
+
 def _read_value(value: Any) -> tuple[int, Any]:
     """Return the type number and the value, cut to the limits."""
-    field = _VALUE_FIELDS[value.type]
-    content = getattr(value, field) if field else None
+    content = _content(value)
     if isinstance(content, str):
         return value.type, truncate(content)
-    return value.type, content[:MAX_ELEMENTS] if content is not None and hasattr(content, "__len__") else content
+    return value.type, content[:MAX_ELEMENTS] if is_array(content) else content
 
 
 def _value_bytes(value: Any) -> int:
     """Return about how many bytes the value took when it was received."""
-    field = _VALUE_FIELDS[value.type]
-    content: Any = getattr(value, field) if field else None
+    content = _content(value)
     if isinstance(content, str):
         return text_bytes(content)
-    if field == "string_array_value":
-        return sum(_ELEMENT_BYTES + text_bytes(text) for text in content)
-    return _ELEMENT_BYTES * len(content) if hasattr(content, "__len__") else _ELEMENT_BYTES
+    if not is_array(content):
+        return _ELEMENT_BYTES
+    return _ELEMENT_BYTES * len(content) + sum(text_bytes(item) for item in content if isinstance(item, str))
 
 
-def _parameter_message(name: str, value: Any, type_name: str | None = None) -> Any:
-    message = interface_class("rcl_interfaces/msg/ParameterValue")()
-    message.type = _type_number(value) if type_name is None else PARAMETER_TYPES.index(type_name)
+def _parameter_message(name: str, value: Any, type_name: str | None) -> Any:
     if type_name == "byte array":
         value = [bytes([item]) for item in value]
-    setattr(message, str(_VALUE_FIELDS[message.type]), value)
-    parameter = interface_class("rcl_interfaces/msg/Parameter")()
-    parameter.name = name
-    parameter.value = message
-    return parameter
-
-
-def _type_number(value: Any) -> int:
-    # bool before int: a bool is an int in Python, but not in ROS.
-    for kind, python_type in ((1, bool), (2, int), (3, float), (4, str)):
-        if isinstance(value, python_type):
-            return kind
-    raise TypeError(f"no parameter type for {value!r}")
+    kind = None if type_name is None else ParameterMessage.Type(PARAMETER_TYPES.index(type_name))
+    return ParameterMessage(name, kind, value).to_parameter_msg()

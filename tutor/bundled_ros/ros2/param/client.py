@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -105,12 +105,3 @@ def print_results(results: Sequence[tuple[str, Any]]) -> None:
         print(
             (success if result.successful else failure) + reason, file=sys.stdout if result.successful else sys.stderr
         )
-
-
-def plain_value(value: Any) -> Any:
-    """Convert a ParameterValue to a Python value; None if it is not set."""
-    from rclpy.parameter import parameter_value_to_python
-
-    converted = parameter_value_to_python(value)
-    to_list: Callable[[], Any] | None = getattr(converted, "tolist", None)
-    return to_list() if to_list is not None else converted

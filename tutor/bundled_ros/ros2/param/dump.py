@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from tutor.bundled_ros.ros2.param.client import add_node_arguments, add_timeout, parameter_client, plain_value
+from tutor.bundled_ros.ros2.param.client import add_node_arguments, add_timeout, parameter_client
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -17,10 +17,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: argparse.Namespace) -> None:
     """Print the node's parameters as a parameter file."""
     import yaml
+    from rclpy.parameter import parameter_value_to_python
 
     with parameter_client(arguments) as node:
         names = node.names()
-        values = [plain_value(value) for value in node.values(names)]
+        values = [parameter_value_to_python(value) for value in node.values(names)]
     tree: dict[str, Any] = {}
     for name, value in zip(names, values, strict=False):
         _insert(tree, name.split("."), value)

@@ -9,7 +9,6 @@ from tutor.bundled_ros.ros2.param.client import (
     add_timeout,
     parameter_client,
     parameter_names,
-    plain_value,
 )
 from tutor.bundled_ros.ros2.parsing import complete_with
 from tutor.errors import CommandError
@@ -26,11 +25,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: argparse.Namespace) -> None:
     """Print the value. Raises CommandError if there is no such node or parameter."""
+    from rclpy.parameter import parameter_value_to_python
+
     with parameter_client(arguments) as node:
         values = node.values([arguments.parameter_name])
     if not values:
         raise CommandError("Parameter not set")
-    value, kind = plain_value(values[0]), PARAMETER_TYPES[values[0].type]
+    value, kind = parameter_value_to_python(values[0]), PARAMETER_TYPES[values[0].type]
     if arguments.hide_type:
         print(value)
     elif value is None:
