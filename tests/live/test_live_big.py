@@ -69,8 +69,8 @@ class FakeSubscription:
 
 @pytest.mark.parametrize("size", [8, 100_000, 1_000_000, 100_000_000])
 def test_a_batch_of_big_messages_is_small(size: int) -> None:
-    from tutor.bundled_ros.ros2 import receiving
+    from tutor.ros import batches
 
-    messages, total = receiving._take_all(FakeSubscription(size), True, lambda *_: None)  # type: ignore[arg-type]
+    messages, total = batches.take_all(FakeSubscription(size), raw=True)  # type: ignore[arg-type]
     assert total == size
-    assert len(messages) == min(5000, max(1, receiving.MAX_BYTES // size))
+    assert len(messages) == min(5000, max(1, batches.MAX_BYTES // size))

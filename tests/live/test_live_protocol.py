@@ -17,8 +17,8 @@ from tutor.live.protocol import (
     encode_request,
     encode_update,
 )
-from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, Timing, TopicUpdate
-from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, TopicEndpoint
+from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, RequestForm, SetOutcome, TopicUpdate
+from tutor.ros_model import Field, Graph, Parameter, QoS, ServiceEndpoint, Timing, TopicEndpoint
 
 ENDPOINT = TopicEndpoint("/t", "std_msgs/msg/String", "/n", QoS("best_effort", deadline_s=0.5))
 

@@ -9,8 +9,8 @@ import pytest
 from textual.widgets import DataTable
 
 from tutor.live.protocol import Ready
-from tutor.live.updates import Timing, TopicUpdate
-from tutor.ros_model import Graph, QoS, TopicEndpoint
+from tutor.live.updates import TopicUpdate
+from tutor.ros_model import Graph, QoS, Timing, TopicEndpoint
 from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.pane import LivePane
 from tutor.tui.live.plot_view import PlotView

@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tutor.live.updates import Timing
+from tutor.ros_model import Timing
 
 WINDOW_S = 5.0
 """Rate and jitter are measured over a window this long..."""

@@ -10,9 +10,10 @@ from dataclasses import dataclass, field
 from tutor.errors import UnknownType
 from tutor.live.statistics import TopicStatistics
 from tutor.live.updates import TopicUpdate
+from tutor.ros.batches import Received
 from tutor.ros.interfaces import interface_class
 from tutor.ros.messages import truncate
-from tutor.ros.raw_subscription import Batch, RawSubscription, deserialize
+from tutor.ros.raw_subscription import RawSubscription, deserialize
 from tutor.ros.yaml_format import number_at, numeric_fields, to_yaml
 from tutor.ros_model import Graph, QoS, Topic, TopicEndpoint, echo_qos
 
@@ -55,14 +56,17 @@ class _Followed:
     stale: bool = True
     lock: threading.Lock = field(default_factory=threading.Lock)
 
-    def add(self, batch: Batch) -> None:
+    def add(self, batch: list[Received]) -> None:
         """Add messages. Called in the subscription's thread."""
+        stamps = [info["source_timestamp"] * 1e-9 for _, info in batch]
+        numbers = [info["publication_sequence_number"] for _, info in batch]
+        newest = batch[-1][0]
         with self.lock:
-            self.statistics.add(batch.stamps, batch.numbers)
-            self.newest = batch.newest
-            if len(batch.newest) > BIG_BYTES:
+            self.statistics.add(stamps, numbers)
+            self.newest = newest
+            if len(newest) > BIG_BYTES:
                 self.samples.clear()
-            self.samples.append((batch.stamps[-1], batch.newest))
+            self.samples.append((stamps[-1], newest))
             self.last_at = time.monotonic()
             self.stale = True
 

@@ -6,23 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from tutor.ros_model import Field, Parameter, QoS
-
-
-@dataclass(frozen=True, slots=True)
-class Timing:
-    """Statistics of the periods between recent messages, by source timestamp."""
-
-    periods: int
-    mean_s: float
-    deviation_s: float
-    shortest_s: float
-    longest_s: float
-
-    @property
-    def rate_hz(self) -> float:
-        """Messages per second; 0 if all came at the same instant."""
-        return 1 / self.mean_s if self.mean_s > 0 else 0.0
+from tutor.ros_model import Field, Parameter, QoS, Timing
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,6 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 from rclpy.context import Context
@@ -18,28 +17,16 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
+from tutor.ros.batches import DEPTH, Received, never_called, take_all
 from tutor.ros.interfaces import interface_class
 from tutor.ros.participant import OUR_PREFIX, create_node
 from tutor.ros.qos import subscription_profile
 from tutor.ros_model import QoS
 
-DEPTH = 10_000
-"""Queue depth: one second of a 10 kHz topic."""
-
 GATHER_S = 0.01
 """How long messages gather between two wake-ups."""
 
-_MAX_BATCH_SIZE = 5_000
 _WAIT_NS = 1_000_000_000
-
-
-@dataclass(frozen=True, slots=True)
-class Batch:
-    """Messages of a topic in order of arrival: source timestamps (s), sequence numbers, and the bytes of the last."""
-
-    stamps: list[float]
-    numbers: list[int | None]
-    newest: bytes
 
 
 class RawSubscription:
@@ -49,21 +36,21 @@ class RawSubscription:
         self._context = context
         # Not added to any executor: only our thread takes its messages.
         self._node = create_node(context, f"{OUR_PREFIX}_raw_subscription")
-        self._subscriptions: dict[str, tuple[Subscription, Callable[[Batch], None]]] = {}
+        self._subscriptions: dict[str, tuple[Subscription, Callable[[list[Received]], None]]] = {}
         self._requests: deque[Callable[[], None]] = deque()
         self._wake_condition = _rclpy.GuardCondition(context.handle)
         self._closing = False
         self._thread = threading.Thread(target=self._run, name="raw_subscription", daemon=True)
         self._thread.start()
 
-    def subscribe(self, topic: str, type_name: str, qos: QoS, on_batch: Callable[[Batch], None]) -> None:
+    def subscribe(self, topic: str, type_name: str, qos: QoS, on_batch: Callable[[list[Received]], None]) -> None:
         """Subscribe to a topic; `on_batch` is called in the dedicated thread. Raises UnknownType."""
         message_type = interface_class(type_name)
         profile = subscription_profile(qos, DEPTH)
 
         def resubscribe() -> None:
             self._destroy(topic)
-            subscription = self._node.create_subscription(message_type, topic, _unused_callback, profile, raw=True)
+            subscription = self._node.create_subscription(message_type, topic, never_called, profile, raw=True)
             self._subscriptions[topic] = (subscription, on_batch)
 
         self._request(resubscribe)
@@ -94,7 +81,7 @@ class RawSubscription:
                 if not self._wait():
                     continue
                 for subscription, on_batch in list(self._subscriptions.values()):
-                    if (batch := _take_all(subscription)) is not None:
+                    if batch := take_all(subscription, raw=True)[0]:
                         on_batch(batch)
                 time.sleep(GATHER_S)  # lets a batch gather; not a wait for any condition
         finally:
@@ -118,20 +105,3 @@ class RawSubscription:
 def deserialize(type_name: str, message: bytes) -> Any:
     """Deserialize a message. Raises UnknownType."""
     return deserialize_message(message, interface_class(type_name))
-
-
-def _take_all(subscription: Subscription) -> Batch | None:
-    stamps: list[float] = []
-    numbers: list[int | None] = []
-    newest = b""
-    take, message_type = subscription.handle.take_message, subscription.msg_type
-    with subscription.handle:
-        while len(stamps) < _MAX_BATCH_SIZE and (taken := take(message_type, True)) is not None:
-            newest, info = taken
-            stamps.append(info["source_timestamp"] * 1e-9)
-            numbers.append(info["publication_sequence_number"])
-    return Batch(stamps, numbers, newest) if stamps else None
-
-
-def _unused_callback(message: Any) -> None:
-    raise AssertionError("no executor takes these messages")

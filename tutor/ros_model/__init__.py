@@ -1,4 +1,4 @@
-"""ROS 2 as plain data: the graph, QoS, and parameters. Pure, so that any layer can import it."""
+"""ROS 2 as plain data: the graph, QoS, parameters and timing. Pure, so that any layer can import it."""
 
 from tutor.ros_model.field import Field
 from tutor.ros_model.graph import (
@@ -14,6 +14,7 @@ from tutor.ros_model.graph import (
 )
 from tutor.ros_model.parameter import PARAMETER_TYPES, Parameter
 from tutor.ros_model.qos import QoS, QoSMismatch, echo_qos, incompatible_policies
+from tutor.ros_model.timing import Timing
 
 __all__ = [
     "PARAMETER_TYPES",
@@ -26,6 +27,7 @@ __all__ = [
     "QoSMismatch",
     "Service",
     "ServiceEndpoint",
+    "Timing",
     "Topic",
     "TopicEndpoint",
     "connections",

@@ -1,4 +1,4 @@
-"""Take a topic's messages in batches: at 10 kHz that is a hundred wake-ups a second, not ten thousand."""
+"""The messages of a topic, in batches, for the verbs that show or measure them until Ctrl+C."""
 
 from __future__ import annotations
 
@@ -8,26 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 from tutor.bundled_ros.ros2.calling import make_executor
 from tutor.bundled_ros.ros2.domain import Domain
+from tutor.ros.batches import DEPTH, MAX_BYTES, Received, never_called, take_all
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rclpy.subscription import Subscription
 
-DEPTH = 10_000
-"""Queue depth in messages: one second of a 10 kHz topic."""
-
 LARGE_MESSAGE_BYTES = 10_000
 """Messages larger than this, in bytes, get a shorter queue, so that it holds at most MAX_BYTES."""
 
-MAX_BYTES = 30_000_000
-"""Bound on the memory of one batch and of a queue of large messages, in bytes."""
-
 _WAIT_NS = 50_000_000  # Ctrl+C takes effect between two waits
 _EVENTS_PERIOD_S = 0.1
-_MAX_BATCH = 5_000
-
-Received = tuple[Any, dict[str, Any]]
-"""A message (bytes if raw) and its rmw message info: timestamps in ns and sequence numbers."""
 
 
 def receive(
@@ -46,7 +37,6 @@ def receive(
     """
     from rclpy.event_handler import SubscriptionEventCallbacks
     from rclpy.impl.implementation_singleton import rclpy_implementation as implementation
-    from rclpy.serialization import deserialize_message
 
     node = domain.node
     group = _events_only_group()
@@ -54,7 +44,7 @@ def receive(
     def subscribe() -> Subscription:
         events = SubscriptionEventCallbacks(message_lost=on_lost)
         return node.create_subscription(
-            message_type, topic, _never_called, qos, callback_group=group, event_callbacks=events, raw=raw
+            message_type, topic, never_called, qos, callback_group=group, event_callbacks=events, raw=raw
         )
 
     subscription = subscribe()
@@ -66,7 +56,7 @@ def receive(
         wait_set.clear_entities()
         wait_set.add_subscription(subscription.handle)
         wait_set.wait(_WAIT_NS)
-        taken, size = _take_all(subscription, raw, deserialize_message)
+        taken, size = take_all(subscription, raw=raw)
         if qos.depth == DEPTH and size > LARGE_MESSAGE_BYTES:
             qos.depth = max(1, MAX_BYTES // size)
             node.destroy_subscription(subscription)
@@ -76,23 +66,6 @@ def receive(
             next_events_at = now + _EVENTS_PERIOD_S
             executor.spin_once(timeout_sec=0)
         time.sleep(gather_s)
-
-
-def _take_all(
-    subscription: Subscription, raw: bool, deserialize: Callable[[bytes, Any], Any]
-) -> tuple[list[Received], int]:
-    """Take the queued messages (at most MAX_BYTES of them). Return them and the size of the first, in bytes."""
-    taken: list[Received] = []
-    take, message_type = subscription.handle.take_message, subscription.msg_type
-    with subscription.handle:
-        if (first := take(message_type, True)) is None:
-            return [], 0
-        size = len(first[0])
-        taken.append(first if raw else (deserialize(first[0], message_type), first[1]))
-        limit = min(_MAX_BATCH, max(1, MAX_BYTES // size))
-        while len(taken) < limit and (one := take(message_type, raw)) is not None:
-            taken.append(one)
-    return taken, size
 
 
 def _events_only_group() -> Any:
@@ -106,7 +79,3 @@ def _events_only_group() -> Any:
             return not isinstance(entity, Subscription) and bool(super().can_execute(entity))  # type: ignore[no-untyped-call]
 
     return OnlyEvents()  # type: ignore[no-untyped-call]
-
-
-def _never_called(_message: Any) -> None:
-    raise AssertionError("the executor takes no messages")

@@ -12,6 +12,7 @@ from tutor.bundled_ros.ros2.topic.measuring import add_topic, add_window, arriva
 from tutor.bundled_ros.ros2.topic.names import wait_for_class
 from tutor.bundled_ros.ros2.topic.statistics import spread
 from tutor.errors import CommandError
+from tutor.ros_model import Timing
 
 _PRINT_PERIOD_S = 1.0
 
@@ -49,4 +50,5 @@ def _stamp_ns(message: Any) -> int:
 
 
 def _format_delays(delays_ns: deque[int]) -> str:
-    return f"average delay: {sum(delays_ns) / len(delays_ns) * 1e-9:.3f}\n\t{spread(delays_ns)}"
+    timing = Timing.of(delays_ns, 1e-9)
+    return f"average delay: {timing.mean_s:.3f}\n\t{spread(timing)}"

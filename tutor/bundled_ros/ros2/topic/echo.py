@@ -15,7 +15,7 @@ from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_d
 from tutor.bundled_ros.ros2.message_format import MessageFormat, add_format_arguments
 from tutor.bundled_ros.ros2.parsing import complete_with, positive_float
 from tutor.bundled_ros.ros2.qos import add_qos_arguments, overrides_qos, qos_from_arguments
-from tutor.bundled_ros.ros2.receiving import DEPTH, Received, receive
+from tutor.bundled_ros.ros2.receiving import receive
 from tutor.bundled_ros.ros2.topic.expressions import compile_filter
 from tutor.bundled_ros.ros2.topic.names import (
     class_of_type,
@@ -25,6 +25,7 @@ from tutor.bundled_ros.ros2.topic.names import (
     warn_not_published,
 )
 from tutor.errors import CommandError
+from tutor.ros.batches import DEPTH, Received
 from tutor.ros.messages import is_message
 from tutor.ros_model import echo_qos
 

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from tutor.bundled_ros.ros2.domain import Domain
 from tutor.bundled_ros.ros2.parsing import complete_with, positive_int
-from tutor.bundled_ros.ros2.receiving import DEPTH, Received, receive
+from tutor.bundled_ros.ros2.receiving import receive
 from tutor.bundled_ros.ros2.topic.names import topic_names
+from tutor.ros.batches import DEPTH, Received
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections import deque
 from dataclasses import dataclass, field
+
+from tutor.ros_model import Timing
 
 _PRINT_PERIOD_NS = 1_000_000_000
 _FIRST_AFTER_NS = 250_000_000  # the first output comes early: nobody likes to watch an empty screen for a second
@@ -46,18 +47,15 @@ class Rate:
         return "time has reset, resetting counters" if had_samples else None
 
     def _format(self) -> str:
-        total = sum(self.between_ns)
-        rate = len(self.between_ns) / (total * _NS) if total else 0.0
-        return f"average rate: {rate:.3f}\n\t{spread(self.between_ns)}"
+        timing = Timing.of(self.between_ns, _NS)
+        return f"average rate: {timing.rate_hz:.3f}\n\t{spread(timing)}"
 
 
-def spread(values_ns: deque[int]) -> str:
+def spread(timing: Timing) -> str:
     """Format the minimum, maximum and standard deviation, in seconds, and the count."""
-    count, mean = len(values_ns), sum(values_ns) / len(values_ns)
-    deviation = math.sqrt(sum((value - mean) ** 2 for value in values_ns) / count)
     return (
-        f"min: {min(values_ns) * _NS:.3f}s max: {max(values_ns) * _NS:.3f}s "
-        f"std dev: {deviation * _NS:.5f}s window: {count}"
+        f"min: {timing.shortest_s:.3f}s max: {timing.longest_s:.3f}s "
+        f"std dev: {timing.deviation_s:.5f}s window: {timing.periods}"
     )
 
 
