@@ -71,11 +71,13 @@ def test_types_and_packages_are_listed(bench: Bench) -> None:
 
 
 def test_an_unsupported_doctor_option_is_refused_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    from tutor.bundled_ros.ros2.doctor import add_arguments, main
+    from tutor.bundled_ros.ros2.doctor import GRAMMAR
+    from tutor.bundled_ros.ros2.parsing import fill
 
     parser = argparse.ArgumentParser()
-    add_arguments(parser)
-    assert main(parser.parse_args(["--report-failed"])) == 2
+    fill(parser, GRAMMAR["doctor"])
+    arguments = parser.parse_args(["--report-failed"])
+    assert arguments.run(arguments) == 2
     captured = capsys.readouterr()
     assert (captured.out, captured.err.count("\n")) == ("", 1)
     assert "--report-failed is not supported" in captured.err

@@ -16,6 +16,7 @@ import pytest
 
 from tests.ros2cli.bench import Bench, Ran
 from tests.ros2cli.test_completion import complete
+from tutor.bundled_ros.ros2.parsing import fill
 from tutor.bundled_ros.ros2.pkg import create
 
 RECORDED = tomllib.loads(Path(__file__).with_name("pkg_create.toml").read_text())
@@ -84,8 +85,9 @@ def workspace(module_bench: Bench) -> Bench:
 
 def run(*words: str) -> None:
     parser = argparse.ArgumentParser()
-    create.add_arguments(parser)
-    create.main(parser.parse_args(words))
+    fill(parser, create.GRAMMAR["create"])
+    arguments = parser.parse_args(words)
+    arguments.run(arguments)
 
 
 @pytest.mark.parametrize("line", RECORDED)

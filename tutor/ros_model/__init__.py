@@ -10,6 +10,7 @@ from tutor.ros_model.graph import (
     Topic,
     TopicEndpoint,
     connections,
+    is_hidden,
     is_standard_topic,
 )
 from tutor.ros_model.parameter import PARAMETER_TYPES, Parameter
@@ -33,5 +34,6 @@ __all__ = [
     "connections",
     "echo_qos",
     "incompatible_policies",
+    "is_hidden",
     "is_standard_topic",
 ]

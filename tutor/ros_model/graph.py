@@ -32,6 +32,11 @@ def is_standard_topic(name: str) -> bool:
     return name in ("/rosout", "/parameter_events")
 
 
+def is_hidden(name: str) -> bool:
+    """Return whether a node, topic, service or action is hidden: a part of its name begins with `_`."""
+    return any(part.startswith("_") for part in name.split("/"))
+
+
 @dataclass(frozen=True, slots=True)
 class TopicEndpoint:
     """A publisher or a subscription of a node."""

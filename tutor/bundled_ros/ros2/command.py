@@ -10,26 +10,29 @@ from types import FrameType
 from typing import Any, NoReturn
 
 from tutor.bundled_ros.ros2 import completion
-from tutor.bundled_ros.ros2.parsing import PACKAGE, LazyParser, add_choices
+from tutor.bundled_ros.ros2.parsing import Group, LazyParser, Verbs, fill, flag
 from tutor.errors import CommandError
 from tutor.ros import shared_memory
 from tutor.terminal_text import guard_terminal
 
-COMMANDS = {
-    "action": "See actions, and send goals to them",
-    "daemon": "Ask about the daemon, which this ros2 does without",
-    "doctor": "Look for what is wrong with this machine",
-    "interface": "See message, service and action types",
-    "launch": "Start the nodes of a launch file",
-    "node": "See the nodes",
-    "param": "See and set the parameters of nodes",
-    "pkg": "See the packages",
-    "run": "Start a program of a package",
-    "service": "See and call services",
-    "topic": "See and publish messages on topics",
-    "wtf": "The same as doctor",
+_COMMANDS: Verbs = {
+    "action": ("See actions, and send goals to them", "action"),
+    "daemon": ("Ask about the daemon, which this ros2 does without", "daemon"),
+    "doctor": ("Look for what is wrong with this machine", "doctor"),
+    "interface": ("See message, service and action types", "interface"),
+    "launch": ("Start the nodes of a launch file", "launch"),
+    "node": ("See the nodes", "node"),
+    "param": ("See and set the parameters of nodes", "param"),
+    "pkg": ("See the packages", "pkg"),
+    "run": ("Start a program of a package", "run"),
+    "service": ("See and call services", "service"),
+    "topic": ("See and publish messages on topics", "topic"),
+    "wtf": ("The same as doctor", "doctor"),
 }
-"""Each command with its help text. A command is a module, or a package of verbs, of the same name in this package."""
+_GRAMMAR = Group(
+    _COMMANDS,
+    flag("--use-python-default-buffering", help="write to a pipe or a file in blocks, not line by line"),
+)
 
 _UNSUPPORTED_COMMANDS = frozenset(
     {"bag", "component", "control", "extension_points", "extensions", "lifecycle", "multicast", "security", "test"}
@@ -54,20 +57,14 @@ def main(argv: Sequence[str]) -> int:
 
 def build_parser() -> LazyParser:
     """Build the parser of the whole command line. Subparsers get their arguments only when they are used."""
-    parser = LazyParser(prog="ros2", description="The ros2 command, where no ROS 2 is installed.")
-    parser.add_argument(
-        "--use-python-default-buffering",
-        action="store_true",
-        help="write to a pipe or a file in blocks, not line by line",
-    )
-    add_choices(parser, COMMANDS, lambda command: f"{PACKAGE}.{command}")
-    return parser
+    description = "The ros2 command, where no ROS 2 is installed."
+    return LazyParser(prog="ros2", description=description, fill=lambda parser: fill(parser, _GRAMMAR))
 
 
 def _run(argv: Sequence[str]) -> int:
     if argv and argv[0] in _UNSUPPORTED_COMMANDS:
         return _print_error(
-            f"ros2: `ros2 {argv[0]}` needs an installed ROS 2; this ros2 knows: {', '.join(COMMANDS)}", 2
+            f"ros2: `ros2 {argv[0]}` needs an installed ROS 2; this ros2 knows: {', '.join(_COMMANDS)}", 2
         )
     parser = build_parser()
     if completion.is_requested():

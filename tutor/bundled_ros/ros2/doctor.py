@@ -10,18 +10,12 @@ from collections.abc import Callable, Iterator
 from importlib.metadata import PackageNotFoundError, version
 
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
+from tutor.bundled_ros.ros2.parsing import Verb, flag
 from tutor.errors import CommandError
 from tutor.ros_model import is_standard_topic
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[--report] [--include-warnings]; --report-failed is rejected."""
-    parser.add_argument("--report", "-r", action="store_true", help="what is here, without judging it")
-    parser.add_argument("--include-warnings", "-iw", action="store_true", help="warnings count as failures")
-    parser.add_argument("--report-failed", "-rf", action="store_true", help="not supported here")
-
-
-def main(arguments: argparse.Namespace) -> int:
+def _doctor(arguments: argparse.Namespace) -> int:
     """Print the problems and how many checks passed. Return 1 if one failed, 2 for an unsupported option."""
     if arguments.report_failed:
         print("ros2 doctor: --report-failed is not supported here; use --report", file=sys.stderr)
@@ -125,3 +119,11 @@ _CHECKS: dict[str, Callable[[], Iterator[str]]] = {
     "middleware": _check_middleware,
     "topic": _check_topics,
 }
+
+_VERB = Verb(
+    _doctor,
+    flag("--report", "-r", help="what is here, without judging it"),
+    flag("--include-warnings", "-iw", help="warnings count as failures"),
+    flag("--report-failed", "-rf", help="not supported here"),
+)
+GRAMMAR = {"doctor": _VERB, "wtf": _VERB}

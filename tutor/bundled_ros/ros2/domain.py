@@ -43,22 +43,6 @@ _HOST_BYTES = 4  # length of the part of a participant's id that identifies its 
 _DISCOVERY_TOPIC = "ros_discovery_info"  # the DDS topic on which each participant lists its nodes
 
 
-def add_direct_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options of every verb that joins the domain."""
-    parser.add_argument(
-        "--spin-time",
-        type=float,
-        help=f"the longest wait for others to be found, in seconds (default: {LIMIT_S:g}; it usually takes far less)",
-    )
-    parser.add_argument("-s", "--use-sim-time", action="store_true", help="use the time of a simulation (/clock)")
-
-
-def add_strategy_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options of every verb for which ros2cli would ask its daemon."""
-    add_direct_arguments(parser)
-    parser.add_argument("--no-daemon", action="store_true", help="always so here: there is no daemon")
-
-
 @contextmanager
 def join_domain(arguments: argparse.Namespace, *, name: str | None = None) -> Iterator[Domain]:
     """Create a node on the domain for the duration of the block.

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tutor.bundled_ros import packages
 from tutor.bundled_ros.ros2 import use_overlay
-from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.bundled_ros.ros2.parsing import OneOf, Verb, argument, flag
 from tutor.bundled_ros.ros2.pkg.names import all_packages
 from tutor.errors import CommandError
 from tutor.ros.prefixes import entries
@@ -17,40 +17,7 @@ from tutor.ros.prefixes import entries
 _LAUNCH_SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """PACKAGE FILE [NAME:=VALUE ...], or PATH [NAME:=VALUE ...]."""
-    parser.add_argument(
-        "-n", "--noninteractive", action="store_true", help="no terminal is there that passes Ctrl+C on to the nodes"
-    )
-    parser.add_argument("-d", "--debug", action="store_true", help="tell more of what launch does")
-    instead = parser.add_mutually_exclusive_group()
-    instead.add_argument(
-        "-p", "--print", "--print-description", action="store_true", help="show what the file describes, start nothing"
-    )
-    instead.add_argument(
-        "-s", "--show-args", "--show-arguments", action="store_true", help="show the arguments that the file takes"
-    )
-    parser.add_argument(
-        "-a",
-        "--show-all-subprocesses-output",
-        action="store_true",
-        help="show the output of all processes, and log it as well",
-    )
-    parser.add_argument("--launch-prefix", help="start every process with this command, in quotes")
-    parser.add_argument("--launch-prefix-filter", help="only those whose name this regular expression matches")
-    first = parser.add_argument("package", metavar="package_name", help="a package, or the path of a launch file")
-    complete_with(first, _complete_packages_and_files)
-    second = parser.add_argument(
-        "file", metavar="launch_file_name", nargs="?", help="the launch file's name in the package"
-    )
-    complete_with(second, _complete_files_of_package)
-    rest = parser.add_argument(
-        "arguments", metavar="launch_arguments", nargs="*", help="name:=value (of two of one name, the last counts)"
-    )
-    complete_with(rest, _complete_nothing)
-
-
-def main(arguments: argparse.Namespace) -> int:
+def _launch(arguments: argparse.Namespace) -> int:
     """Run the launch file and return launch's own exit code. Raises CommandError."""
     use_overlay.overlay_workspace(_search_start(arguments))
     given = list(arguments.arguments)
@@ -84,10 +51,10 @@ def main(arguments: argparse.Namespace) -> int:
 
 def check_arguments(given: Sequence[str]) -> None:
     """Raise CommandError if a word is not a launch argument."""
-    for argument in given:
-        name, sign, value = argument.partition(":=")
+    for word in given:
+        name, sign, value = word.partition(":=")
         if not (name and sign and value):
-            raise CommandError(f"malformed launch argument '{argument}', expected format '<name>:=<value>'")
+            raise CommandError(f"malformed launch argument '{word}', expected format '<name>:=<value>'")
 
 
 def _search_start(arguments: argparse.Namespace) -> Path:
@@ -163,3 +130,43 @@ def _complete_files_of_package(parsed_args: argparse.Namespace, **_: object) -> 
 def _complete_nothing(**_: object) -> list[str]:
     """Complete nothing: the shell must not offer file names where launch arguments belong."""
     return []
+
+
+GRAMMAR = {
+    "launch": Verb(
+        _launch,
+        flag("-n", "--noninteractive", help="no terminal is there that passes Ctrl+C on to the nodes"),
+        flag("-d", "--debug", help="tell more of what launch does"),
+        OneOf(
+            flag("-p", "--print", "--print-description", help="show what the file describes, start nothing"),
+            flag("-s", "--show-args", "--show-arguments", help="show the arguments that the file takes"),
+        ),
+        flag(
+            "-a",
+            "--show-all-subprocesses-output",
+            help="show the output of all processes, and log it as well",
+        ),
+        argument("--launch-prefix", help="start every process with this command, in quotes"),
+        argument("--launch-prefix-filter", help="only those whose name this regular expression matches"),
+        argument(
+            "package",
+            metavar="package_name",
+            complete=_complete_packages_and_files,
+            help="a package, or the path of a launch file",
+        ),
+        argument(
+            "file",
+            metavar="launch_file_name",
+            nargs="?",
+            complete=_complete_files_of_package,
+            help="the launch file's name in the package",
+        ),
+        argument(
+            "arguments",
+            metavar="launch_arguments",
+            nargs="*",
+            complete=_complete_nothing,
+            help="name:=value (of two of one name, the last counts)",
+        ),
+    )
+}

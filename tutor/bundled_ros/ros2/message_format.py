@@ -6,24 +6,22 @@ import argparse
 from dataclasses import dataclass
 from typing import Any
 
-from tutor.bundled_ros.ros2.parsing import unsigned_int
+from tutor.bundled_ros.ros2.parsing import argument, flag, unsigned_int
 from tutor.ros.yaml_format import DEFAULT_MAX_LENGTH, to_csv, to_yaml
 
-
-def add_format_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add --full-length, --truncate-length, --no-arr, --no-str and --flow-style."""
-    add = parser.add_argument
-    add("--full-length", "-f", action="store_true", help="long arrays and texts in full")
-    add(
+FORMAT = (
+    flag("--full-length", "-f", help="long arrays and texts in full"),
+    argument(
         "--truncate-length",
         "-l",
         type=unsigned_int,
         default=DEFAULT_MAX_LENGTH,
         help=f"after how many elements arrays and texts are cut (default: {DEFAULT_MAX_LENGTH})",
-    )
-    add("--no-arr", action="store_true", help="only type and length of arrays")
-    add("--no-str", action="store_true", help="only the length of texts")
-    add("--flow-style", action="store_true", help="lists in one line")
+    ),
+    flag("--no-arr", help="only type and length of arrays"),
+    flag("--no-str", help="only the length of texts"),
+    flag("--flow-style", help="lists in one line"),
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,24 +1,83 @@
-"""The grammar of `ros2`, as in ros2cli: commands, verbs and the value types of options."""
+"""The grammar of `ros2`, as in ros2cli: a table of commands, verbs and their arguments, and the values of options."""
 
 from __future__ import annotations
 
 import argparse
 import importlib
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-PACKAGE = __name__.rpartition(".")[0]
+_PACKAGE = __name__.rpartition(".")[0]
 
-Fill = Callable[[argparse.ArgumentParser], None]
+Completer = Callable[..., Sequence[str]]
+"""Called with `prefix` and `parsed_args`, for completion on Tab."""
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """An argument of a command or verb, as argparse takes it."""
+
+    names: tuple[str, ...]
+    options: Mapping[str, Any]
+    complete: Completer | None
+
+    def add_to(self, container: Any) -> None:
+        """Add the argument to a parser or a group of one."""
+        action = container.add_argument(*self.names, **self.options)
+        if self.complete is not None:
+            action.completer = self.complete  # the attribute that argcomplete looks for
+
+
+class OneOf:
+    """Arguments of which at most one may be given."""
+
+    def __init__(self, *arguments: Argument) -> None:
+        self._arguments = arguments
+
+    def add_to(self, parser: argparse.ArgumentParser) -> None:
+        """Add the arguments to a parser."""
+        group = parser.add_mutually_exclusive_group()
+        for item in self._arguments:
+            item.add_to(group)
+
+
+class Verb:
+    """What a verb, or a command without verbs, does: `run` returns its exit code, or None for 0."""
+
+    def __init__(self, run: Callable[[argparse.Namespace], int | None], *arguments: Argument | OneOf) -> None:
+        self.run = run
+        self.arguments = arguments
+
+
+Verbs = Mapping[str, tuple[str, Verb | str]]
+"""The help text of each verb, and the Verb itself or the module whose GRAMMAR has it."""
+
+
+class Group:
+    """A command with verbs."""
+
+    def __init__(self, verbs: Verbs, *arguments: Argument) -> None:
+        self.verbs = verbs
+        self.arguments = arguments
+
+
+def argument(*names: str, complete: Completer | None = None, **options: Any) -> Argument:
+    """Describe an argument; `options` are those of argparse."""
+    return Argument(names, options, complete)
+
+
+def flag(*names: str, **options: Any) -> Argument:
+    """Describe an option without a value."""
+    return Argument(names, {"action": "store_true", **options}, None)
 
 
 class LazyParser(argparse.ArgumentParser):
     """A parser that adds its arguments on first use, so that only the verb that was typed is imported."""
 
-    def __init__(self, *, fill: Fill | None = None, **options: Any) -> None:
-        options.setdefault("formatter_class", argparse.RawDescriptionHelpFormatter)
-        super().__init__(**options)
-        self._fill = fill
+    def __init__(self, *, fill: Callable[[argparse.ArgumentParser], None], **options: Any) -> None:
+        super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, **options)
+        self._fill: Callable[[argparse.ArgumentParser], None] | None = fill
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         self.fill()
@@ -40,37 +99,33 @@ class LazyParser(argparse.ArgumentParser):
                         return chosen.fill_for(words[position + 1 :])
 
 
-def add_choices(parser: argparse.ArgumentParser, helps: Mapping[str, str], module_of: Callable[[str], str]) -> None:
-    """Add a subparser for each name in `helps`; `module_of` returns the name of the module that fills it.
-
-    A module has `add_arguments(parser)` and `main(arguments)`; a command with verbs has `VERBS` instead of `main`.
-    """
+def fill(parser: argparse.ArgumentParser, grammar: Verb | Group) -> None:
+    """Add the arguments of a verb to its parser, or those of a group and its verbs."""
+    for item in grammar.arguments:
+        item.add_to(parser)
+    if isinstance(grammar, Verb):
+        parser.set_defaults(run=grammar.run)
+        return
+    helps = {name: text for name, (text, _) in sorted(grammar.verbs.items())}
     width = max(map(len, helps))
-    listed = "".join(f"{name.ljust(width)}  {text}\n" for name, text in sorted(helps.items()))
+    listed = "".join(f"{name.ljust(width)}  {text}\n" for name, text in helps.items())
     metavar = f"Call `{parser.prog} <command> -h` for more detailed usage."
     choices = parser.add_subparsers(title="Commands", description=listed, metavar=metavar, parser_class=LazyParser)
     # Not required: without a choice, the help is shown.
-    for name, text in sorted(helps.items()):
-        choices.add_parser(name, description=text, fill=_filler_for(module_of(name)), prog=f"{parser.prog} {name}")
+    for name, text in helps.items():
+        fill_choice = _filler(name, grammar.verbs[name][1])
+        choices.add_parser(name, description=text, fill=fill_choice, prog=f"{parser.prog} {name}")
     parser.set_defaults(run=lambda _: parser.print_help())
 
 
-def _filler_for(module_name: str) -> Fill:
-    def fill(parser: argparse.ArgumentParser) -> None:
-        module = importlib.import_module(module_name)
-        if hasattr(module, "add_arguments"):
-            module.add_arguments(parser)
-        if verbs := getattr(module, "VERBS", None):
-            add_choices(parser, verbs, lambda verb: f"{module_name}.{verb}")
+def _filler(name: str, grammar: Verb | str) -> Callable[[argparse.ArgumentParser], None]:
+    def fill_choice(parser: argparse.ArgumentParser) -> None:
+        if isinstance(grammar, Verb):
+            fill(parser, grammar)
         else:
-            parser.set_defaults(run=module.main)
+            fill(parser, importlib.import_module(f"{_PACKAGE}.{grammar}").GRAMMAR[name])
 
-    return fill
-
-
-def complete_with(action: argparse.Action, completer: Callable[..., Sequence[str]]) -> None:
-    """Complete an argument on Tab. `completer` is called with `prefix` and `parsed_args`."""
-    action.completer = completer  # type: ignore[attr-defined]  # the attribute that argcomplete looks for
+    return fill_choice
 
 
 def positive_int(text: str) -> int:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from tutor.bundled_ros.ros2.parsing import Argument, argument
+
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
@@ -34,16 +36,18 @@ _OVERRIDES = (
 )
 
 
-def add_qos_arguments(parser: argparse.ArgumentParser, profile: str) -> None:
-    """Add the `--qos-...` options; `profile` is the default preset."""
-    parser.add_argument("--qos-profile", choices=PROFILES, default=profile, help=f"the preset (default: {profile})")
-    parser.add_argument("--qos-depth", metavar="N", type=int, help="the length of the queue")
-    parser.add_argument("--qos-history", choices=_HISTORIES, help="what is kept in the queue")
-    parser.add_argument("--qos-reliability", choices=_RELIABILITIES, help="whether lost messages are sent again")
-    parser.add_argument("--qos-durability", choices=_DURABILITIES, help="whether late subscribers get old messages")
-    parser.add_argument("--qos-liveliness", choices=_LIVELINESSES, help="how a publisher shows that it lives")
-    parser.add_argument(
-        "--qos-liveliness-lease-duration-seconds", type=float, help="within which time a publisher has to show it"
+def qos_arguments(profile: str) -> tuple[Argument, ...]:
+    """Return the `--qos-...` options; `profile` is the default preset."""
+    return (
+        argument("--qos-profile", choices=PROFILES, default=profile, help=f"the preset (default: {profile})"),
+        argument("--qos-depth", metavar="N", type=int, help="the length of the queue"),
+        argument("--qos-history", choices=_HISTORIES, help="what is kept in the queue"),
+        argument("--qos-reliability", choices=_RELIABILITIES, help="whether lost messages are sent again"),
+        argument("--qos-durability", choices=_DURABILITIES, help="whether late subscribers get old messages"),
+        argument("--qos-liveliness", choices=_LIVELINESSES, help="how a publisher shows that it lives"),
+        argument(
+            "--qos-liveliness-lease-duration-seconds", type=float, help="within which time a publisher has to show it"
+        ),
     )
 
 

@@ -10,23 +10,13 @@ from pathlib import Path
 
 from tutor.bundled_ros import packages
 from tutor.bundled_ros.ros2 import use_overlay
-from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.bundled_ros.ros2.parsing import Verb, argument
 from tutor.errors import CommandError
 
 _LOG_PREFIX = "[ros2run]:"
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[--prefix COMMAND] PACKAGE EXECUTABLE [ARGUMENT ...]."""
-    parser.add_argument("--prefix", help="start the program with this command, in quotes")
-    complete_with(parser.add_argument("package", metavar="package_name", help="the package"), _complete_packages)
-    complete_with(
-        parser.add_argument("executable", metavar="executable_name", help="its program"), _complete_executables
-    )
-    parser.add_argument("rest", metavar="argv", nargs=argparse.REMAINDER, help="what to pass to the program")
-
-
-def main(arguments: argparse.Namespace) -> int:
+def _run(arguments: argparse.Namespace) -> int:
     """Run the program to its end and return its exit code (-N after signal N). Raises CommandError."""
     use_overlay.overlay_workspace(Path.cwd())
     use_overlay.restore_buffering()
@@ -73,3 +63,14 @@ def _complete_executables(parsed_args: argparse.Namespace, **_: object) -> list[
 
 def _restore_sigint() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+GRAMMAR = {
+    "run": Verb(
+        _run,
+        argument("--prefix", help="start the program with this command, in quotes"),
+        argument("package", metavar="package_name", complete=_complete_packages, help="the package"),
+        argument("executable", metavar="executable_name", complete=_complete_executables, help="its program"),
+        argument("rest", metavar="argv", nargs=argparse.REMAINDER, help="what to pass to the program"),
+    )
+}

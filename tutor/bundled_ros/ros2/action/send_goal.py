@@ -6,37 +6,23 @@ import argparse
 import sys
 from typing import Any
 
-from tutor.bundled_ros.ros2.action.names import action_names, action_types
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.bundled_ros.ros2.names import ACTIONS, class_of_type
+from tutor.bundled_ros.ros2.parsing import OneOf, Verb, argument, flag
 from tutor.bundled_ros.ros2.yaml_input import message_from_yaml
-from tutor.errors import CommandError, UnknownType
-from tutor.ros.interfaces import find_interface
+from tutor.errors import CommandError
 from tutor.ros.yaml_format import to_yaml
 
 STATUS = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")
 """The names of action_msgs/msg/GoalStatus, by number."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[--stdin] [-f] ACTION TYPE [GOAL]."""
-    complete_with(parser.add_argument("action_name", help="the action, such as /fibonacci"), action_names)
-    complete_with(parser.add_argument("action_type", help="its type"), action_types)
-    group = parser.add_mutually_exclusive_group()
-    group.add_argument("goal", nargs="?", default="{}", help="the goal as YAML, such as '{order: 10}'")
-    group.add_argument("--stdin", action="store_true", help="read the goal from standard input")
-    parser.add_argument("-f", "--feedback", action="store_true", help="print the feedback as well")
-
-
-def main(arguments: argparse.Namespace) -> None:
+def _send_goal(arguments: argparse.Namespace) -> None:
     """Send the goal and print its outcome; Ctrl+C cancels it. Raises CommandError."""
     from rclpy.action.client import ActionClient
 
-    try:
-        action_class = find_interface(arguments.action_type, "action")
-    except UnknownType as error:
-        raise CommandError("The passed action type is invalid") from error
+    action_class = class_of_type(arguments.action_type, "action", "The passed action type is invalid")
     text = sys.stdin.read() if arguments.stdin else arguments.goal
     goal = message_from_yaml(action_class.Goal, text, failed="Failed to populate message fields: {!r}")
     with join_domain(arguments) as domain:
@@ -72,3 +58,17 @@ def _cancel(domain: Domain, handle: Any) -> None:
 
 def _print_feedback(message: Any) -> None:
     print(f"Feedback:\n    {to_yaml(message.feedback)}")
+
+
+GRAMMAR = {
+    "send_goal": Verb(
+        _send_goal,
+        ACTIONS.argument(),
+        argument("action_type", complete=ACTIONS.complete_types, help="its type"),
+        OneOf(
+            argument("goal", nargs="?", default="{}", help="the goal as YAML, such as '{order: 10}'"),
+            flag("--stdin", help="read the goal from standard input"),
+        ),
+        flag("-f", "--feedback", help="print the feedback as well"),
+    )
+}

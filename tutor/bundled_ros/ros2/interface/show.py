@@ -11,25 +11,12 @@ from typing import Any
 
 from tutor.bundled_ros import packages
 from tutor.bundled_ros.ros2.completion import types
-from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.bundled_ros.ros2.parsing import OneOf, Verb, argument, flag
 from tutor.errors import CommandError
 from tutor.ros.prefixes import ament_prefixes
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[--all-comments | --no-comments] TYPE."""
-    group = parser.add_mutually_exclusive_group()
-    group.add_argument("--all-comments", action="store_true", help="the comments of nested types as well")
-    group.add_argument("--no-comments", action="store_true", help="neither comments nor empty lines")
-    complete_with(
-        parser.add_argument(
-            "type", action=_TypeOrStdin, help="the type, such as std_msgs/msg/String; - reads it from standard input"
-        ),
-        types(),
-    )
-
-
-def main(arguments: argparse.Namespace) -> None:
+def _show_type(arguments: argparse.Namespace) -> None:
     """Print the definition, with nested types indented below their field. Raises CommandError if there is none."""
     _show(arguments.type, comments=not arguments.no_comments, nested_comments=arguments.all_comments, depth=0)
 
@@ -116,3 +103,20 @@ class _TypeOrStdin(argparse.Action):
         if not values:
             parser.error("the passed value is empty")
         setattr(namespace, self.dest, values)
+
+
+GRAMMAR = {
+    "show": Verb(
+        _show_type,
+        OneOf(
+            flag("--all-comments", help="the comments of nested types as well"),
+            flag("--no-comments", help="neither comments nor empty lines"),
+        ),
+        argument(
+            "type",
+            action=_TypeOrStdin,
+            complete=types(),
+            help="the type, such as std_msgs/msg/String; - reads it from standard input",
+        ),
+    )
+}

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-VERBS = {
-    "delete": "Delete a parameter",
-    "describe": "Show what a node says about its parameters",
-    "dump": "Show all parameters of a node as a YAML file",
-    "get": "Show a parameter's value",
-    "list": "List the parameters",
-    "load": "Set the parameters of a node from a YAML file",
-    "set": "Set a parameter",
+from tutor.bundled_ros.ros2.parsing import Group, Verbs
+
+_VERBS: Verbs = {
+    "delete": ("Delete a parameter", "param.changing"),
+    "describe": ("Show what a node says about its parameters", "param.showing"),
+    "dump": ("Show all parameters of a node as a YAML file", "param.showing"),
+    "get": ("Show a parameter's value", "param.showing"),
+    "list": ("List the parameters", "param.showing"),
+    "load": ("Set the parameters of a node from a YAML file", "param.changing"),
+    "set": ("Set a parameter", "param.changing"),
 }
+GRAMMAR = {"param": Group(_VERBS)}

@@ -3,36 +3,34 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
+from tutor.bundled_ros.ros2.arguments import STRATEGY
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
-from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_domain
-from tutor.bundled_ros.ros2.node.names import node_names, nodes
-from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.bundled_ros.ros2.domain import Domain, join_domain
+from tutor.bundled_ros.ros2.names import complete_nodes, nodes
+from tutor.bundled_ros.ros2.parsing import argument, flag
 from tutor.errors import CommandError
 from tutor.ros_model import NodeName
 
 SERVICES_TIMEOUT_S = 5.0
 
 
-def add_node_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add NODE and the options that all verbs on a single node share."""
-    add_strategy_arguments(parser)
-    complete_with(parser.add_argument("node_name", help="the node, such as /talker"), node_names)
-    parser.add_argument("--include-hidden-nodes", action="store_true", help="hidden nodes as well")
+NODE = (
+    *STRATEGY,
+    argument("node_name", complete=complete_nodes, help="the node, such as /talker"),
+    flag("--include-hidden-nodes", help="hidden nodes as well"),
+)
+"""The first arguments of verbs on a single node."""
 
-
-def add_timeout(parser: argparse.ArgumentParser) -> None:
-    """Add --timeout, the wait for a node that does not exist yet."""
-    parser.add_argument(
-        "--timeout",
-        metavar="N",
-        type=int,
-        help="wait up to N seconds for a node that is not there yet (default: not at all, since all nodes are known)",
-    )
+TIMEOUT = argument(
+    "--timeout",
+    metavar="N",
+    type=int,
+    help="wait up to N seconds for a node that is not there yet (default: not at all, since all nodes are known)",
+)
 
 
 class ParameterClient:
@@ -86,22 +84,9 @@ def find_node(domain: Domain, name: str, *, hidden: bool, limit_s: float | None)
         raise CommandError("Node not found")
 
 
-def parameter_names(parsed_args: argparse.Namespace, **_: object) -> list[str]:
+def complete_parameters(parsed_args: argparse.Namespace, **_: object) -> list[str]:
     """Complete the parameters of the node that was typed."""
     with join_domain(parsed_args) as domain:
         name = NodeName.parse(parsed_args.node_name).full
         find_node(domain, name, hidden=True, limit_s=None)
         return ParameterClient(domain, name).names()
-
-
-def print_results(results: Sequence[tuple[str, Any]]) -> None:
-    """Print the outcome of each change: successes to stdout, rejections to stderr.
-
-    Each result comes with both texts, such as `"Set parameter successful|Setting parameter failed"`.
-    """
-    for texts, result in results:
-        success, _, failure = texts.partition("|")
-        reason = f": {result.reason}" if result.reason else ""
-        print(
-            (success if result.successful else failure) + reason, file=sys.stdout if result.successful else sys.stderr
-        )

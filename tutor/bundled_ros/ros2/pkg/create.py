@@ -9,48 +9,15 @@ import shutil
 import subprocess
 import sys
 
-from tutor.bundled_ros.ros2.parsing import complete_with
+from tutor.bundled_ros.ros2.parsing import Verb, argument
 from tutor.bundled_ros.ros2.pkg.creation import BUILD_TYPES, Folder, NewPackage, Note, contents, licenses
-from tutor.bundled_ros.ros2.pkg.names import package_names
+from tutor.bundled_ros.ros2.pkg.names import complete_packages
 from tutor.errors import CommandError
 
 _LIST_LICENSES = "?"
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[OPTION ...] PACKAGE."""
-    parser.add_argument("package_name", help="the name of the new package")
-    parser.add_argument(
-        "--package-format",
-        "--package_format",
-        type=int,
-        default=3,
-        choices=[2, 3],
-        help="the format of package.xml (default: 3)",
-    )
-    parser.add_argument("--description", default="TODO: Package description", help="what the package is for")
-    complete_with(
-        parser.add_argument(
-            "--license",
-            default="TODO: License declaration",
-            help=f"any text; for a known license, its LICENSE file is added ('{_LIST_LICENSES}' lists these)",
-        ),
-        _complete_licenses,
-    )
-    parser.add_argument("--destination-directory", default=os.curdir, help="where to put the package's folder")
-    parser.add_argument(
-        "--build-type", default="ament_cmake", choices=BUILD_TYPES, help="what builds it (default: ament_cmake)"
-    )
-    complete_with(
-        parser.add_argument("--dependencies", nargs="+", default=[], help="packages that it needs"), package_names
-    )
-    parser.add_argument("--maintainer-email", help="the maintainer's address (default: the one that git knows)")
-    parser.add_argument("--maintainer-name", default=_user_name(), help="the maintainer's name (default: yours)")
-    parser.add_argument("--node-name", help="add a program of this name, which only prints a line")
-    parser.add_argument("--library-name", help="add an empty library of this name")
-
-
-def main(arguments: argparse.Namespace) -> None:
+def _create(arguments: argparse.Namespace) -> None:
     """Create the package and print each step. Raises CommandError if it exists or cannot be written."""
     if arguments.license == _LIST_LICENSES:
         print("Supported licenses:", *licenses.NAMES, sep="\n")
@@ -156,3 +123,35 @@ def _user_name() -> str:
 
 def _complete_licenses(**_: object) -> list[str]:
     return list(licenses.NAMES)
+
+
+GRAMMAR = {
+    "create": Verb(
+        _create,
+        argument("package_name", help="the name of the new package"),
+        argument(
+            "--package-format",
+            "--package_format",
+            type=int,
+            default=3,
+            choices=[2, 3],
+            help="the format of package.xml (default: 3)",
+        ),
+        argument("--description", default="TODO: Package description", help="what the package is for"),
+        argument(
+            "--license",
+            default="TODO: License declaration",
+            complete=_complete_licenses,
+            help=f"any text; for a known license, its LICENSE file is added ('{_LIST_LICENSES}' lists these)",
+        ),
+        argument("--destination-directory", default=os.curdir, help="where to put the package's folder"),
+        argument(
+            "--build-type", default="ament_cmake", choices=BUILD_TYPES, help="what builds it (default: ament_cmake)"
+        ),
+        argument("--dependencies", nargs="+", default=[], complete=complete_packages, help="packages that it needs"),
+        argument("--maintainer-email", help="the maintainer's address (default: the one that git knows)"),
+        argument("--maintainer-name", default=_user_name(), help="the maintainer's name (default: yours)"),
+        argument("--node-name", help="add a program of this name, which only prints a line"),
+        argument("--library-name", help="add an empty library of this name"),
+    )
+}

@@ -14,6 +14,6 @@ def all_packages() -> list[str]:
     return packages.all_packages()
 
 
-def package_names(**_: object) -> list[str]:
+def complete_packages(**_: object) -> list[str]:
     """Complete package names."""
     return all_packages()

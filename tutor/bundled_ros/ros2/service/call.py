@@ -8,24 +8,14 @@ import time
 
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
-from tutor.bundled_ros.ros2.parsing import complete_with
-from tutor.bundled_ros.ros2.service.names import service_names, service_types, services
+from tutor.bundled_ros.ros2.names import SERVICES
+from tutor.bundled_ros.ros2.parsing import OneOf, Verb, argument, flag
 from tutor.bundled_ros.ros2.yaml_input import message_from_yaml
 from tutor.errors import CommandError, UnknownType
 from tutor.ros.interfaces import WrongKind, find_interface
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """[--stdin] [-r N] SERVICE TYPE [VALUES]."""
-    complete_with(parser.add_argument("service_name", help="the service, such as /add"), service_names)
-    complete_with(parser.add_argument("service_type", help="its type, such as std_srvs/srv/Trigger"), service_types)
-    group = parser.add_mutually_exclusive_group()
-    group.add_argument("values", nargs="?", default="{}", help="the request as YAML, such as '{a: 1, b: 2}'")
-    group.add_argument("--stdin", action="store_true", help="read the request from standard input")
-    parser.add_argument("-r", "--rate", metavar="N", type=float, help="call again and again, N times a second")
-
-
-def main(arguments: argparse.Namespace) -> None:
+def _call(arguments: argparse.Namespace) -> None:
     """Call the service and print the request and the response. Raises CommandError for a wrong type or value."""
     if arguments.rate is not None and arguments.rate <= 0:
         raise CommandError("rate must be greater than zero")
@@ -57,7 +47,22 @@ def _explain_unavailable(domain: Domain, arguments: argparse.Namespace) -> str:
     """Explain, from the graph, why the service is not available."""
     name = arguments.service_name if arguments.service_name.startswith("/") else f"/{arguments.service_name}"
     package, *_, last = arguments.service_type.split("/")
-    others = [other for other in dict(services(domain, hidden=True)).get(name, ()) if other != f"{package}/srv/{last}"]
+    types = dict(SERVICES.known(domain, hidden=True)).get(name, ())
+    others = [other for other in types if other != f"{package}/srv/{last}"]
     if others and domain.node.count_services(name):  # our own client alone already lists the service
         return f"{name} is there, but its type is {', '.join(others)}"
     return f"no node offers {name} yet; Ctrl+C ends the wait"
+
+
+GRAMMAR = {
+    "call": Verb(
+        _call,
+        SERVICES.argument(),
+        argument("service_type", complete=SERVICES.complete_types, help="its type, such as std_srvs/srv/Trigger"),
+        OneOf(
+            argument("values", nargs="?", default="{}", help="the request as YAML, such as '{a: 1, b: 2}'"),
+            flag("--stdin", help="read the request from standard input"),
+        ),
+        argument("-r", "--rate", metavar="N", type=float, help="call again and again, N times a second"),
+    )
+}

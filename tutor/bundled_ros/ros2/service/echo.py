@@ -4,27 +4,19 @@ from __future__ import annotations
 
 import argparse
 
+from tutor.bundled_ros.ros2.arguments import CSV
 from tutor.bundled_ros.ros2.calling import SPIN_TIMEOUT_S, make_executor
 from tutor.bundled_ros.ros2.domain import join_domain
-from tutor.bundled_ros.ros2.message_format import MessageFormat, add_format_arguments
-from tutor.bundled_ros.ros2.parsing import complete_with
-from tutor.bundled_ros.ros2.service.names import service_names, service_types, services
-from tutor.errors import CommandError, UnknownType
-from tutor.ros.interfaces import find_interface
+from tutor.bundled_ros.ros2.message_format import FORMAT, MessageFormat
+from tutor.bundled_ros.ros2.names import SERVICES, class_of_type
+from tutor.bundled_ros.ros2.parsing import Verb, argument
+from tutor.errors import CommandError
 
 EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
 """The names of service_msgs/msg/ServiceEventInfo's event types, by number."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """SERVICE [TYPE] and the format options."""
-    complete_with(parser.add_argument("service_name", help="the service, such as /add"), service_names)
-    complete_with(parser.add_argument("service_type", nargs="?", help="its type, if nobody offers it"), service_types)
-    parser.add_argument("--csv", action="store_true", help="all values, separated by commas")
-    add_format_arguments(parser)
-
-
-def main(arguments: argparse.Namespace) -> None:
+def _echo(arguments: argparse.Namespace) -> None:
     """Print each event of the service. Raises CommandError if its type is unknown."""
     from rclpy.qos import QoSPresetProfiles
 
@@ -32,16 +24,13 @@ def main(arguments: argparse.Namespace) -> None:
     with join_domain(arguments) as domain:
         type_name = arguments.service_type
         if type_name is None:
-            types = domain.find(lambda: dict(services(domain, hidden=True)).get(name))
+            types = SERVICES.types_of(domain, name)
             if not types:
                 raise CommandError(f"Cannot find type for '{name}'")
             if len(types) > 1:
                 raise CommandError(f"More than one type associated with service '{name}'")
             type_name = types[0]
-        try:
-            event_class = find_interface(type_name, "srv").Event
-        except UnknownType as error:
-            raise CommandError(f"The service type '{type_name}' is invalid") from error
+        event_class = class_of_type(type_name, "srv", f"The service type '{type_name}' is invalid").Event
 
         def on_event(event: object) -> None:
             if arguments.csv:
@@ -60,3 +49,14 @@ def main(arguments: argparse.Namespace) -> None:
         executor = make_executor(domain.node)
         while True:
             executor.spin_once(timeout_sec=SPIN_TIMEOUT_S)
+
+
+GRAMMAR = {
+    "echo": Verb(
+        _echo,
+        SERVICES.argument(),
+        argument("service_type", nargs="?", complete=SERVICES.complete_types, help="its type, if nobody offers it"),
+        CSV,
+        *FORMAT,
+    )
+}

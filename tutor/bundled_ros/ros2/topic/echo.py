@@ -11,19 +11,15 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from tutor.bundled_ros.ros2 import completion
-from tutor.bundled_ros.ros2.domain import Domain, add_strategy_arguments, join_domain
-from tutor.bundled_ros.ros2.message_format import MessageFormat, add_format_arguments
-from tutor.bundled_ros.ros2.parsing import complete_with, positive_float
-from tutor.bundled_ros.ros2.qos import add_qos_arguments, overrides_qos, qos_from_arguments
+from tutor.bundled_ros.ros2.arguments import CSV, STRATEGY
+from tutor.bundled_ros.ros2.domain import Domain, join_domain
+from tutor.bundled_ros.ros2.message_format import FORMAT, MessageFormat
+from tutor.bundled_ros.ros2.names import TOPICS, full_name
+from tutor.bundled_ros.ros2.parsing import Verb, argument, flag, positive_float
+from tutor.bundled_ros.ros2.qos import overrides_qos, qos_arguments, qos_from_arguments
 from tutor.bundled_ros.ros2.receiving import receive
 from tutor.bundled_ros.ros2.topic.expressions import compile_filter
-from tutor.bundled_ros.ros2.topic.names import (
-    class_of_type,
-    full_name,
-    message_class,
-    topic_names,
-    warn_not_published,
-)
+from tutor.bundled_ros.ros2.topic.types import message_class, named_class, warn_not_published
 from tutor.errors import CommandError
 from tutor.ros.batches import DEPTH, Received
 from tutor.ros.messages import is_message
@@ -35,33 +31,14 @@ if TYPE_CHECKING:
 _BATCH_PERIOD_S = 0.02
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """TOPIC [TYPE] and the format options."""
-    add_strategy_arguments(parser)
-    complete_with(parser.add_argument("topic_name", help="the topic, such as /chatter"), topic_names)
-    kind = parser.add_argument("message_type", nargs="?", help="its type, such as std_msgs/msg/String (else found out)")
-    complete_with(kind, completion.types("msg"))
-    add_qos_arguments(parser, "sensor_data")
-    add = parser.add_argument
-    add("--csv", action="store_true", help="all values, separated by commas")
-    add("--field", help="only this field, such as pose.position")
-    add_format_arguments(parser)
-    add("--no-lost-messages", action="store_true", help="do not report lost messages")
-    add("--raw", action="store_true", help="the bytes as they were sent")
-    add("--filter", dest="filter_expr", help="only messages m for which this Python expression is true")
-    add("--once", action="store_true", help="end after the first message")
-    add("--timeout", metavar="N", type=positive_float, help="end after this many seconds")
-    add("--include-message-info", "-i", action="store_true", help="also timestamps and number of each message")
-
-
-def main(arguments: argparse.Namespace) -> None:
+def _echo(arguments: argparse.Namespace) -> None:
     """Print the messages until Ctrl+C. Raises CommandError."""
     format_one = _make_formatter(arguments)
     with join_domain(arguments) as domain:
         if arguments.message_type is None:
             message_type = message_class(domain, arguments.topic_name)
         else:
-            message_type = class_of_type(arguments.message_type)
+            message_type = named_class(arguments.message_type)
         if message_type is None:
             warn_not_published(arguments.topic_name)
             raise CommandError("Could not determine the type for the passed topic")
@@ -158,3 +135,28 @@ def _print_lost(status: Any) -> None:
         f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n\ttotal count: {status.total_count}",
         end="---\n",
     )
+
+
+GRAMMAR = {
+    "echo": Verb(
+        _echo,
+        *STRATEGY,
+        TOPICS.argument(),
+        argument(
+            "message_type",
+            nargs="?",
+            complete=completion.types("msg"),
+            help="its type, such as std_msgs/msg/String (else found out)",
+        ),
+        *qos_arguments("sensor_data"),
+        CSV,
+        argument("--field", help="only this field, such as pose.position"),
+        *FORMAT,
+        flag("--no-lost-messages", help="do not report lost messages"),
+        flag("--raw", help="the bytes as they were sent"),
+        argument("--filter", dest="filter_expr", help="only messages m for which this Python expression is true"),
+        flag("--once", help="end after the first message"),
+        argument("--timeout", metavar="N", type=positive_float, help="end after this many seconds"),
+        flag("--include-message-info", "-i", help="also timestamps and number of each message"),
+    )
+}

@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from tutor.bundled_ros.ros2.domain import Domain, add_direct_arguments, join_domain
-from tutor.bundled_ros.ros2.parsing import complete_with, nonnegative_int, positive_float
-from tutor.bundled_ros.ros2.qos import add_qos_arguments, qos_from_arguments
-from tutor.bundled_ros.ros2.topic.names import class_of_type, full_name, topic_names, topics
+from tutor.bundled_ros.ros2.arguments import DIRECT
+from tutor.bundled_ros.ros2.domain import Domain, join_domain
+from tutor.bundled_ros.ros2.names import TOPICS, full_name
+from tutor.bundled_ros.ros2.parsing import OneOf, Verb, argument, flag, nonnegative_int, positive_float
+from tutor.bundled_ros.ros2.qos import qos_arguments, qos_from_arguments
+from tutor.bundled_ros.ros2.topic.types import named_class
 from tutor.errors import CommandError
 from tutor.ros.fields import SetStamp, set_fields
-from tutor.ros.interfaces import find_interface, type_names
+from tutor.ros.interfaces import find_interface
 from tutor.ros.yaml_format import to_yaml
 
 if TYPE_CHECKING:
@@ -29,48 +31,13 @@ _MATCHING_GRACE_S = 0.5
 _ACK_TIMEOUT_S = 1.0
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """TOPIC TYPE [VALUES] and how often to publish."""
-    complete_with(parser.add_argument("topic_name", help="the topic, such as /chatter"), topic_names)
-    complete_with(parser.add_argument("message_type", help="its type, such as std_msgs/msg/String"), _complete_types)
-    source = parser.add_mutually_exclusive_group()
-    values = source.add_argument(
-        "values", nargs="?", default="{}", help="the message in YAML, such as 'data: hello' (else its defaults)"
-    )
-    complete_with(values, _complete_values)
-    source.add_argument("--stdin", action="store_true", help="read the message from stdin")
-    add = parser.add_argument
-    add("-r", "--rate", metavar="N", type=positive_float, default=1.0, help="messages per second (default: 1)")
-    add("-p", "--print", metavar="N", type=int, default=1, help="print every N-th message only (default: 1)")
-    many = parser.add_mutually_exclusive_group()
-    many.add_argument("-1", "--once", action="store_true", help="publish one message")
-    many.add_argument("-t", "--times", type=nonnegative_int, default=0, help="publish this many messages")
-    add(
-        "-w",
-        "--wait-matching-subscriptions",
-        type=nonnegative_int,
-        help="wait for this many subscriptions (default: 1 with --once and --times, else 0)",
-    )
-    add("--max-wait-time-secs", type=positive_float, help="the longest such wait (default: forever)")
-    add(
-        "--keep-alive",
-        metavar="N",
-        type=positive_float,
-        default=0.1,
-        help="stay for N seconds after the last message (default: 0.1)",
-    )
-    add("-n", "--node-name", help="the publishing node's name")
-    add_qos_arguments(parser, "default")
-    add_direct_arguments(parser)
-
-
-def main(arguments: argparse.Namespace) -> None:
+def _pub(arguments: argparse.Namespace) -> None:
     """Publish the message. Raises CommandError."""
     times = 1 if arguments.once else arguments.times
     required = arguments.wait_matching_subscriptions
     required = int(times != 0) if required is None else required
     text = sys.stdin.read() if arguments.stdin else arguments.values
-    message_type = class_of_type(arguments.message_type)
+    message_type = named_class(arguments.message_type)
     values = _parse_values(text)
     if required == 0 and arguments.max_wait_time_secs is not None:
         raise CommandError(
@@ -148,13 +115,50 @@ def _wait_for_acknowledgement(publisher: Publisher) -> None:
     publisher.wait_for_all_acked(Duration(seconds=_ACK_TIMEOUT_S))
 
 
-def _complete_types(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """Complete the topic's type if the topic exists, else all message types."""
-    with join_domain(parsed_args) as domain:
-        found = domain.find(lambda: dict(topics(domain, hidden=True)).get(parsed_args.topic_name))
-    return list(found) if found else type_names("msg")
-
-
 def _complete_values(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
     """Complete the message with its default values."""
     return [to_yaml(find_interface(parsed_args.message_type, "msg")())]
+
+
+GRAMMAR = {
+    "pub": Verb(
+        _pub,
+        TOPICS.argument(),
+        argument("message_type", complete=TOPICS.complete_types, help="its type, such as std_msgs/msg/String"),
+        OneOf(
+            argument(
+                "values",
+                nargs="?",
+                default="{}",
+                complete=_complete_values,
+                help="the message in YAML, such as 'data: hello' (else its defaults)",
+            ),
+            flag("--stdin", help="read the message from stdin"),
+        ),
+        argument(
+            "-r", "--rate", metavar="N", type=positive_float, default=1.0, help="messages per second (default: 1)"
+        ),
+        argument("-p", "--print", metavar="N", type=int, default=1, help="print every N-th message only (default: 1)"),
+        OneOf(
+            flag("-1", "--once", help="publish one message"),
+            argument("-t", "--times", type=nonnegative_int, default=0, help="publish this many messages"),
+        ),
+        argument(
+            "-w",
+            "--wait-matching-subscriptions",
+            type=nonnegative_int,
+            help="wait for this many subscriptions (default: 1 with --once and --times, else 0)",
+        ),
+        argument("--max-wait-time-secs", type=positive_float, help="the longest such wait (default: forever)"),
+        argument(
+            "--keep-alive",
+            metavar="N",
+            type=positive_float,
+            default=0.1,
+            help="stay for N seconds after the last message (default: 0.1)",
+        ),
+        argument("-n", "--node-name", help="the publishing node's name"),
+        *qos_arguments("default"),
+        *DIRECT,
+    )
+}
