@@ -30,6 +30,8 @@ from tutor.errors import CheckError, EngineError, MissingType, TableError
 from tutor.judge.check import Check
 from tutor.ros import bundled_interfaces
 from tutor.ros.environment import detect
+from tutor.ros.interfaces import types_by_package
+from tutor.ros.prefixes import ament_prefixes
 
 if TYPE_CHECKING:
     from tutor.mistakes import Catalogue
@@ -134,7 +136,6 @@ def checks_folder(source: Path) -> Path:
 # --- types that a check names ---
 
 _TYPE = re.compile(r"([a-z][a-z0-9_]*)/(msg|srv|action)/([A-Z][A-Za-z0-9]*)")
-_INDEX = Path("share") / "ament_index" / "resource_index" / "rosidl_interfaces"
 
 
 def unknown_types(check: Path) -> Iterator[MissingType]:
@@ -143,15 +144,15 @@ def unknown_types(check: Path) -> Iterator[MissingType]:
     named = [(source, line, name) for source in sources for line, name in _named_types(source)]
     if not named:
         return
-    prefixes = _prefixes()
+    types = types_by_package(_prefixes())
     for source, line, name in named:
         package, kind, short = name.split("/")
-        known = _types_of(package, prefixes)
+        known = types.get(package, [])
         if f"{kind}/{short}" not in known:
             yield MissingType(source, name, line, _advice(package, f"{kind}/{short}", known))
 
 
-def _advice(package: str, wanted: str, known: set[str]) -> str:
+def _advice(package: str, wanted: str, known: list[str]) -> str:
     if not known:
         return f"correct the name of the package, or install it (apt install ros-jazzy-{package.replace('_', '-')})"
     near = get_close_matches(wanted, sorted(known), n=1, cutoff=0.5)
@@ -166,19 +167,8 @@ def _named_types(source: Path) -> Iterator[tuple[int, str]]:
 
 def _prefixes() -> list[Path]:
     """Return the ament prefixes of the ROS in use."""
-    entries = [Path(entry) for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
-    return entries if detect().kind == "system" else [*entries, bundled_interfaces.prefix(), Path(sys.prefix)]
-
-
-def _types_of(package: str, prefixes: list[Path]) -> set[str]:
-    """Return the types of a package, such as `msg/String`; empty if it is not there."""
-    for prefix in prefixes:
-        try:
-            lines = (prefix / _INDEX / package).read_text(encoding="utf-8").splitlines()
-        except OSError:
-            continue
-        return {line.rpartition(".")[0] for line in lines if line.endswith((".msg", ".srv", ".action", ".idl"))}
-    return set()
+    prefixes = ament_prefixes()
+    return prefixes if detect().kind == "system" else [*prefixes, bundled_interfaces.prefix(), Path(sys.prefix)]
 
 
 # --- modules that were changed ---
