@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,6 +11,8 @@ import pytest
 
 from tests.ros2cli import bench as bench_module
 from tests.ros2cli.bench import Bench
+from tutor.bundled_ros.ros2.command import build_parser
+from tutor.bundled_ros.ros2.parsing import LazyParser
 
 USAGE = """\
 usage: ros2 [-h] [--use-python-default-buffering]
@@ -53,6 +57,21 @@ def test_a_command_that_only_an_installed_ros2_has_says_so_in_one_line(bench: Be
     ran = bench.ros2(command, "--help")
     assert (ran.stdout, ran.code, ran.stderr.count("\n")) == ("", 2, 1)
     assert ran.stderr.startswith(f"ros2: `ros2 {command}` needs an installed ROS 2; ")
+
+
+def test_every_command_and_verb_has_a_help_text_without_importing_rclpy() -> None:
+    def programs(parser: LazyParser) -> Iterator[str]:
+        parser.fill()
+        assert parser.format_help().startswith(f"usage: {parser.prog} [-h]")
+        assert parser.description
+        yield parser.prog
+        for action in parser._actions:
+            for below in action.choices.values() if isinstance(action, argparse._SubParsersAction) else ():
+                yield from programs(below)
+
+    found = set(programs(build_parser()))
+    assert {"ros2 run", "ros2 topic", "ros2 topic hz", "ros2 param set", "ros2 pkg create", "ros2 wtf"} <= found
+    assert "rclpy" not in sys.modules
 
 
 def test_wtf_is_doctor(bench: Bench) -> None:
