@@ -6,7 +6,6 @@ import os
 from collections.abc import Callable
 
 from tutor.bundled_ros.ros2.parsing import LazyParser
-from tutor.ros.interfaces import type_names
 
 _COMPLETE_VARIABLE = "_ARGCOMPLETE"
 """The variable that a shell sets when it wants completions rather than the command itself."""
@@ -27,9 +26,15 @@ def print_completions(parser: LazyParser) -> None:
     argcomplete.autocomplete(parser, exclude=["-h", "--help"])
 
 
-def types(kind: str = "") -> Callable[..., list[str]]:
+def types_of_kind(kind: str = "") -> Callable[..., list[str]]:
     """Return a completer of all types, or of those of one kind (msg, srv or action)."""
-    return lambda **_: type_names(kind)
+
+    def complete(**_: object) -> list[str]:
+        from tutor.ros.interfaces import type_names  # late: every command imports this module
+
+        return type_names(kind)
+
+    return complete
 
 
 def registration_code(shell: str) -> str:

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from tutor.bundled_ros.ros2 import completion
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
 from tutor.bundled_ros.ros2.parsing import Argument, argument
 from tutor.errors import CommandError, UnknownType
-from tutor.ros.interfaces import find_interface, type_names
 from tutor.ros_model import NodeName, is_hidden
 
 NamesAndTypes = Iterable[tuple[str, Sequence[str]]]
@@ -61,7 +61,7 @@ class Names:
             with join_domain(parsed_args) as domain:
                 if types := self.types_of(domain, name):
                     return list(types)
-        return type_names(self.kind)
+        return completion.types_of_kind(self.kind)()
 
     def _with_hidden(self, arguments: argparse.Namespace) -> bool:
         return bool(getattr(arguments, "hidden", not self.some_are_hidden))
@@ -131,6 +131,8 @@ def full_name(domain: Domain, name: str) -> str:
 
 def class_of_type(name: str, kind: str, failed: str) -> Any:
     """Return the class of a type; `kind` is msg, srv or action. Raises CommandError with `failed` if there is none."""
+    from tutor.ros.interfaces import find_interface
+
     try:
         return find_interface(name, kind)
     except UnknownType:

@@ -93,7 +93,7 @@ _VERBS: Verbs = {
         "Show an example of a type's value, as YAML",
         Verb(
             _proto,
-            argument("type", complete=completion.types(), help="the type, such as geometry_msgs/msg/Twist"),
+            argument("type", complete=completion.types_of_kind(), help="the type, such as geometry_msgs/msg/Twist"),
             flag("--no-quotes", help="without the quotation marks around it"),
         ),
     ),

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from tutor.bundled_ros import packages
-from tutor.bundled_ros.ros2.completion import types
+from tutor.bundled_ros.ros2 import completion
 from tutor.bundled_ros.ros2.parsing import OneOf, Verb, argument, flag
 from tutor.errors import CommandError
 from tutor.ros.prefixes import ament_prefixes
@@ -115,7 +115,7 @@ GRAMMAR = {
         argument(
             "type",
             action=_TypeOrStdin,
-            complete=types(),
+            complete=completion.types_of_kind(),
             help="the type, such as std_msgs/msg/String; - reads it from standard input",
         ),
     )

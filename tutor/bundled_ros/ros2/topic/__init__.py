@@ -65,7 +65,9 @@ _VERBS: Verbs = {
         Verb(
             TOPICS.list_of_type,
             *STRATEGY,
-            argument("topic_type", complete=completion.types("msg"), help="the type, such as std_msgs/msg/String"),
+            argument(
+                "topic_type", complete=completion.types_of_kind("msg"), help="the type, such as std_msgs/msg/String"
+            ),
             count("topics"),
             hidden("topics"),
         ),

@@ -145,7 +145,7 @@ GRAMMAR = {
         argument(
             "message_type",
             nargs="?",
-            complete=completion.types("msg"),
+            complete=completion.types_of_kind("msg"),
             help="its type, such as std_msgs/msg/String (else found out)",
         ),
         *qos_arguments("sensor_data"),
