@@ -5,13 +5,15 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tutor.bundled_ros.ros2 import completion
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
 from tutor.bundled_ros.ros2.parsing import Argument, argument
 from tutor.errors import CommandError, UnknownType
-from tutor.ros_model import NodeName, is_hidden
+
+if TYPE_CHECKING:
+    from tutor.ros_model import NodeName
 
 NamesAndTypes = Iterable[tuple[str, Sequence[str]]]
 
@@ -39,6 +41,8 @@ class Names:
 
     def known(self, domain: Domain, *, hidden: bool) -> list[tuple[str, Sequence[str]]]:
         """Return all that are discovered, with their types; hidden ones only if `hidden`."""
+        from tutor.ros_model import is_hidden  # late: help and usage errors do not need it
+
         return [(name, types) for name, types in self.find_all(domain.node) if hidden or not is_hidden(name)]
 
     def discovered(self, arguments: argparse.Namespace) -> list[tuple[str, Sequence[str]]]:
@@ -104,6 +108,8 @@ ACTIONS = Names("action", "action", "/fibonacci", _find_actions, some_are_hidden
 
 def nodes(domain: Domain, *, hidden: bool) -> list[NodeName]:
     """Return all discovered nodes, duplicate names included; with `hidden`, also those whose name starts with `_`."""
+    from tutor.ros_model import NodeName, is_hidden
+
     found = [NodeName(name, namespace) for name, namespace in domain.node.get_node_names_and_namespaces()]
     return [node for node in found if hidden or (node.name and not is_hidden(node.name))]
 
