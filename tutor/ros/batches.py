@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from rclpy.context import Context
+    from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
     from rclpy.subscription import Subscription
 
 DEPTH = 10_000
@@ -17,6 +20,23 @@ MAX_BATCH = 5_000
 
 Received = tuple[Any, dict[str, Any]]
 """A message (bytes if raw) and its rmw message info: timestamps in ns and sequence numbers."""
+
+
+def wait_for_any(
+    context: Context, subscriptions: Iterable[Subscription], limit_s: float, wake: _rclpy.GuardCondition | None = None
+) -> None:
+    """Wait until one of the subscriptions has a message or `wake` is triggered, for at most `limit_s` seconds."""
+    from rclpy.impl.implementation_singleton import rclpy_implementation
+
+    handles = [subscription.handle for subscription in subscriptions]
+    # A new wait set each time, so that it holds no handle after the wait.
+    wait_set = rclpy_implementation.WaitSet(len(handles), int(wake is not None), 0, 0, 0, 0, context.handle)
+    wait_set.clear_entities()
+    for handle in handles:
+        wait_set.add_subscription(handle)
+    if wake is not None:
+        wait_set.add_guard_condition(wake)
+    wait_set.wait(int(limit_s * 1e9))
 
 
 def take_all(subscription: Subscription, *, raw: bool) -> tuple[list[Received], int]:

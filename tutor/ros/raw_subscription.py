@@ -17,7 +17,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
-from tutor.ros.batches import DEPTH, Received, never_called, take_all
+from tutor.ros.batches import DEPTH, Received, never_called, take_all, wait_for_any
 from tutor.ros.interfaces import interface_class
 from tutor.ros.participant import OUR_PREFIX, create_node
 from tutor.ros.qos import subscription_profile
@@ -26,7 +26,7 @@ from tutor.ros_model import QoS
 GATHER_S = 0.01
 """How long messages gather between two wake-ups."""
 
-_WAIT_NS = 1_000_000_000
+_WAIT_S = 1.0
 
 
 class RawSubscription:
@@ -78,7 +78,9 @@ class RawSubscription:
             while not self._closing and self._context.ok():
                 while self._requests:
                     self._requests.popleft()()
-                if not self._wait():
+                subscriptions = [subscription for subscription, _ in self._subscriptions.values()]
+                wait_for_any(self._context, subscriptions, _WAIT_S, self._wake_condition)
+                if not subscriptions:
                     continue
                 for subscription, on_batch in list(self._subscriptions.values()):
                     if batch := take_all(subscription, raw=True)[0]:
@@ -88,18 +90,6 @@ class RawSubscription:
             for topic in list(self._subscriptions):
                 self._destroy(topic)
             self._node.destroy_node()
-
-    def _wait(self) -> bool:
-        """Wait for a message or a request. Return whether there are subscriptions."""
-        handles = [subscription.handle for subscription, _ in self._subscriptions.values()]
-        # A new wait set each time, so that it holds no handle after the wait.
-        wait_set = _rclpy.WaitSet(len(handles), 1, 0, 0, 0, 0, self._context.handle)
-        wait_set.clear_entities()
-        for handle in handles:
-            wait_set.add_subscription(handle)
-        wait_set.add_guard_condition(self._wake_condition)
-        wait_set.wait(_WAIT_NS)
-        return bool(handles)
 
 
 def deserialize(type_name: str, message: bytes) -> Any:

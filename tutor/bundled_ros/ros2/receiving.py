@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from tutor.bundled_ros.ros2.calling import make_executor
 from tutor.bundled_ros.ros2.domain import Domain
-from tutor.ros.batches import DEPTH, MAX_BYTES, Received, never_called, take_all
+from tutor.ros.batches import DEPTH, MAX_BYTES, Received, never_called, take_all, wait_for_any
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 LARGE_MESSAGE_BYTES = 10_000
 """Messages larger than this, in bytes, get a shorter queue, so that it holds at most MAX_BYTES."""
 
-_WAIT_NS = 50_000_000  # Ctrl+C takes effect between two waits
+_WAIT_S = 0.05  # Ctrl+C takes effect between two waits
 _EVENTS_PERIOD_S = 0.1
 
 
@@ -36,7 +36,6 @@ def receive(
     Messages accumulate for `gather_s` seconds between two batches. `on_lost` is called when messages were lost.
     """
     from rclpy.event_handler import SubscriptionEventCallbacks
-    from rclpy.impl.implementation_singleton import rclpy_implementation as implementation
 
     node = domain.node
     group = _events_only_group()
@@ -50,12 +49,9 @@ def receive(
     subscription = subscribe()
     # The executor handles lost-message and incompatible-QoS events, and /clock with simulated time.
     executor = make_executor(node)
-    wait_set = implementation.WaitSet(1, 0, 0, 0, 0, 0, node.context.handle)
     next_events_at = 0.0
     while True:
-        wait_set.clear_entities()
-        wait_set.add_subscription(subscription.handle)
-        wait_set.wait(_WAIT_NS)
+        wait_for_any(node.context, [subscription], _WAIT_S)
         taken, size = take_all(subscription, raw=raw)
         if qos.depth == DEPTH and size > LARGE_MESSAGE_BYTES:
             qos.depth = max(1, MAX_BYTES // size)
