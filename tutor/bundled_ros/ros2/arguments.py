@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from tutor.bundled_ros.ros2.domain import LIMIT_S
-from tutor.bundled_ros.ros2.parsing import Argument, argument, flag
+from tutor.bundled_ros.ros2.parsing import Argument, Completer, OneOf, argument, flag
 
 DIRECT = (
     argument(
@@ -33,3 +33,10 @@ def hidden(things: str, *, of_verb: bool = True) -> Argument:
     """Return the option that includes what is hidden. A verb leaves the value of its command's own option alone."""
     default = argparse.SUPPRESS if of_verb else False
     return flag(f"--include-hidden-{things}", dest="hidden", default=default, help=f"hidden {things} as well")
+
+
+def yaml_or_stdin(name: str, help: str, *, stdin_help: str, complete: Completer | None = None) -> OneOf:
+    """Return the argument for a message as YAML, or --stdin in its place."""
+    return OneOf(
+        argument(name, nargs="?", default="{}", complete=complete, help=help), flag("--stdin", help=stdin_help)
+    )

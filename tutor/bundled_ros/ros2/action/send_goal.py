@@ -6,10 +6,11 @@ import argparse
 import sys
 from typing import Any
 
+from tutor.bundled_ros.ros2.arguments import yaml_or_stdin
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
 from tutor.bundled_ros.ros2.names import ACTIONS, class_of_type
-from tutor.bundled_ros.ros2.parsing import OneOf, Verb, argument, flag
+from tutor.bundled_ros.ros2.parsing import Verb, argument, flag
 from tutor.bundled_ros.ros2.yaml_input import message_from_yaml
 from tutor.errors import CommandError
 from tutor.ros.yaml_format import to_yaml
@@ -65,9 +66,8 @@ GRAMMAR = {
         _send_goal,
         ACTIONS.argument(),
         argument("action_type", complete=ACTIONS.complete_types, help="its type"),
-        OneOf(
-            argument("goal", nargs="?", default="{}", help="the goal as YAML, such as '{order: 10}'"),
-            flag("--stdin", help="read the goal from standard input"),
+        yaml_or_stdin(
+            "goal", "the goal as YAML, such as '{order: 10}'", stdin_help="read the goal from standard input"
         ),
         flag("-f", "--feedback", help="print the feedback as well"),
     )

@@ -6,10 +6,11 @@ import argparse
 import sys
 import time
 
+from tutor.bundled_ros.ros2.arguments import yaml_or_stdin
 from tutor.bundled_ros.ros2.calling import wait_for_answer, wait_until
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
 from tutor.bundled_ros.ros2.names import SERVICES
-from tutor.bundled_ros.ros2.parsing import OneOf, Verb, argument, flag
+from tutor.bundled_ros.ros2.parsing import Verb, argument
 from tutor.bundled_ros.ros2.yaml_input import message_from_yaml
 from tutor.errors import CommandError, UnknownType
 from tutor.ros.interfaces import WrongKind, find_interface
@@ -59,9 +60,8 @@ GRAMMAR = {
         _call,
         SERVICES.argument(),
         argument("service_type", complete=SERVICES.complete_types, help="its type, such as std_srvs/srv/Trigger"),
-        OneOf(
-            argument("values", nargs="?", default="{}", help="the request as YAML, such as '{a: 1, b: 2}'"),
-            flag("--stdin", help="read the request from standard input"),
+        yaml_or_stdin(
+            "values", "the request as YAML, such as '{a: 1, b: 2}'", stdin_help="read the request from standard input"
         ),
         argument("-r", "--rate", metavar="N", type=float, help="call again and again, N times a second"),
     )

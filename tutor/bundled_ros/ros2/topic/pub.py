@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from tutor.bundled_ros.ros2.arguments import DIRECT
+from tutor.bundled_ros.ros2.arguments import DIRECT, yaml_or_stdin
 from tutor.bundled_ros.ros2.domain import Domain, join_domain
 from tutor.bundled_ros.ros2.names import TOPICS, full_name
 from tutor.bundled_ros.ros2.parsing import OneOf, Verb, argument, flag, nonnegative_int, positive_float
@@ -125,15 +125,11 @@ GRAMMAR = {
         _pub,
         TOPICS.argument(),
         argument("message_type", complete=TOPICS.complete_types, help="its type, such as std_msgs/msg/String"),
-        OneOf(
-            argument(
-                "values",
-                nargs="?",
-                default="{}",
-                complete=_complete_values,
-                help="the message in YAML, such as 'data: hello' (else its defaults)",
-            ),
-            flag("--stdin", help="read the message from stdin"),
+        yaml_or_stdin(
+            "values",
+            "the message in YAML, such as 'data: hello' (else its defaults)",
+            stdin_help="read the message from stdin",
+            complete=_complete_values,
         ),
         argument(
             "-r", "--rate", metavar="N", type=positive_float, default=1.0, help="messages per second (default: 1)"
