@@ -50,7 +50,8 @@ def _create(arguments: argparse.Namespace) -> None:
 def _describe(arguments: argparse.Namespace) -> NewPackage:
     node = arguments.node_name or ""
     library = arguments.library_name or ""
-    email = arguments.maintainer_email or _email_from_git() or f"{arguments.maintainer_name}@todo.todo"
+    maintainer = _user_name() if arguments.maintainer_name is None else arguments.maintainer_name
+    email = arguments.maintainer_email or _email_from_git() or f"{maintainer}@todo.todo"
     if node and node == library:
         node += "_node"
         print("[WARNING] node name can not be equal to the library name", file=sys.stderr)
@@ -61,7 +62,7 @@ def _describe(arguments: argparse.Namespace) -> NewPackage:
         format=arguments.package_format,
         description=arguments.description,
         license=arguments.license,
-        maintainer=arguments.maintainer_name,
+        maintainer=maintainer,
         email=email,
         dependencies=tuple(arguments.dependencies),
         node=node,
@@ -150,7 +151,7 @@ GRAMMAR = {
         ),
         argument("--dependencies", nargs="+", default=[], complete=complete_packages, help="packages that it needs"),
         argument("--maintainer-email", help="the maintainer's address (default: the one that git knows)"),
-        argument("--maintainer-name", default=_user_name(), help="the maintainer's name (default: yours)"),
+        argument("--maintainer-name", help="the maintainer's name (default: yours)"),
         argument("--node-name", help="add a program of this name, which only prints a line"),
         argument("--library-name", help="add an empty library of this name"),
     )
