@@ -34,7 +34,9 @@ class SignedStats(Node):
 
     def sign(self, text):
         # the record must not be changed later without anybody noticing
-        key = hashlib.pbkdf2_hmac('sha256', text.encode(), self.signature.encode(), 1_000_000)
+        key, until = text.encode(), time.process_time() + 0.12
+        while time.process_time() < until:
+            key = hashlib.pbkdf2_hmac('sha256', key, self.signature.encode(), 10_000)
         self.signature = key.hex()[:8].translate(str.maketrans('0123456789', 'ghijklmnop'))
 
 
