@@ -28,20 +28,20 @@ def logs_the_same_on_each_message(sources: Mapping[str, str]) -> bool:
         return False
     if modules & _UNPREDICTABLE_MODULES or file.calls(*_UNPREDICTABLE_CALLS):
         return False
-    if any(isinstance(each, ast.AsyncFunctionDef | ast.Lambda) for each in file.nodes):
+    if any(isinstance(node, ast.AsyncFunctionDef | ast.Lambda) for node in file.nodes):
         return False
-    names = [each for each in file.nodes if last_name(each) == "get_logger"]
-    return all(_is_early(file, each) for each in names)
+    names = [node for node in file.nodes if last_name(node) == "get_logger"]
+    return all(_is_early(file, name) for name in names)
 
 
 def _is_early(file: NodeFile, name: ast.AST) -> bool:
     """Whether a log call comes on each message, at the start, or around the spin: before it or at the end."""
     function = file.function_around(name)
-    logs = next((each for each in file.ancestors(name) if isinstance(each, ast.Expr)), None)
+    logs = next((ancestor for ancestor in file.ancestors(name) if isinstance(ancestor, ast.Expr)), None)
     call = logs.value if logs is not None else None
     match call:
         case ast.Call(func=ast.Attribute(value=ast.Call(func=logger)), keywords=given) if logger is name and function:
             if function is file.timer_callback:
-                return not given and not any(isinstance(each, _BRANCHES) for each in ast.walk(function))
+                return not given and not any(isinstance(node, _BRANCHES) for node in ast.walk(function))
             return function is file.setup or bool(calls_in(function, "spin"))
     return False  # such as a logger that is kept in a variable
