@@ -127,8 +127,8 @@ def compared_types(case: Case) -> Iterator[Found]:
     for file in case.files:
         for node in file.nodes:
             if isinstance(node, ast.Compare) and isinstance(node.left, ast.Attribute):
-                constants = [ast.unparse(each) for each in node.comparators]
-                if node.left.attr in ("type_", "type") and any("PARAMETER_" in each for each in constants):
+                constants = [ast.unparse(value) for value in node.comparators]
+                if node.left.attr in ("type_", "type") and any("PARAMETER_" in constant for constant in constants):
                     yield found(file, node)
 
 

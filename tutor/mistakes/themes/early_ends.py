@@ -119,7 +119,7 @@ def caught_outside_spin(case: Case) -> Iterator[Found]:
 def _is_for_the_end(handler: ast.ExceptHandler) -> bool:
     """Whether a handler catches only what ends a spin in any case, such as Ctrl+C."""
     caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
-    return all(last_name(each) in (*SPIN_ENDINGS, "SystemExit") for each in caught)
+    return all(last_name(exception) in (*SPIN_ENDINGS, "SystemExit") for exception in caught)
 
 
 @mistake(

@@ -21,7 +21,7 @@ REMAP = re.compile(r"(?:-r|--remap) (?P<source>[^\s:=]+):=(?P<target>\S+)")
 def endpoints_of(case: Case) -> list[TopicEndpoint]:
     """The publishers and subscriptions, without those of ROS itself."""
     graph = case.trace.graph
-    return [each for each in (*graph.publishers, *graph.subscriptions) if not is_standard_topic(each.topic)]
+    return [endpoint for endpoint in (*graph.publishers, *graph.subscriptions) if not is_standard_topic(endpoint.topic)]
 
 
 def value_of(case: Case) -> str:
@@ -132,7 +132,7 @@ def argument_name(case: Case) -> Iterator[Found]:
     """
     argument, declared = case.about("argument"), case.trace.launch_arguments
     if argument is not None and argument not in declared and reaches_no_node(case):
-        calls = {each.argument(0, "name").strip("'"): each for each in launch_file(case).calls("DeclareLaunchArgument")}
+        calls = {call.argument(0, "name").strip("'"): call for call in launch_file(case).calls("DeclareLaunchArgument")}
         meant = next(iter(get_close_matches(argument, calls)), "")
         known = f"only {', '.join(declared)}" if declared else "no argument"
         yield at_call(case, calls.get(meant), argument=argument, declared=known)
@@ -195,10 +195,10 @@ def wrong_place(case: Case) -> Iterator[Found]:
     argument, file = str(case.about("argument", "")), launch_file(case)
     right, effect = "remappings", "renames no topic"
     wanted = str(case.about("wanted", ""))
-    arrived = any(each.topic == wanted for each in endpoints_of(case))
+    arrived = any(endpoint.topic == wanted for endpoint in endpoints_of(case))
     if case.about("moves") == "namespace":
         right, effect = "namespace", "puts it into no namespace"
-        arrived = any(each.node.startswith(f"/{wanted}/") for each in endpoints_of(case))
+        arrived = any(endpoint.node.startswith(f"/{wanted}/") for endpoint in endpoints_of(case))
     for node in () if arrived else nodes_of(file):
         for keyword in ("parameters", "arguments", "ros_arguments", "name", "namespace", "remappings"):
             given = node.named.get(keyword, "")
@@ -211,7 +211,7 @@ def wrong_place(case: Case) -> Iterator[Found]:
 
 def _is_fixed(code: str) -> bool:
     """Whether nothing in an argument's code is worked out when the file is executed."""
-    return bool(code) and not any(isinstance(each, ast.Name | ast.Call) for each in ast.walk(ast.parse(code)))
+    return bool(code) and not any(isinstance(node, ast.Name | ast.Call) for node in ast.walk(ast.parse(code)))
 
 
 def _short(code: str) -> str:

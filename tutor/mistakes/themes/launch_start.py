@@ -172,8 +172,9 @@ def no_default(case: Case) -> Iterator[Found]:
     See it: `ros2 launch FILE --show-args`.
     """
     if said := says_itself(_NO_DEFAULT, case):
-        calls = [c for c in launch_file(case).calls("DeclareLaunchArgument") if said["name"] in c.argument(0, "name")]
-        yield at_call(case, next(iter(calls), None), name=said["name"])
+        declarations = launch_file(case).calls("DeclareLaunchArgument")
+        named = [call for call in declarations if said["name"] in call.argument(0, "name")]
+        yield at_call(case, next(iter(named), None), name=said["name"])
 
 
 @mistake(

@@ -102,7 +102,7 @@ def _lines_with(case: Case, expression: _Expression, name: str) -> list[Frame]:
                 path = f"{case.trace.folder}/{file.name}"
                 yield reads, Frame(path, node.lineno, "", file.line(node.lineno))
 
-    return [frame for _, frame in sorted(find(), key=lambda each: (each[0], each[1].line))]
+    return [frame for _, frame in sorted(find(), key=lambda place: (place[0], place[1].line))]
 
 
 def _name(node: ast.AST) -> object:

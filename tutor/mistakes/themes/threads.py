@@ -173,7 +173,7 @@ def lock_held(case: Case) -> Iterator[Found]:
     for file in case.files if one_at_a_time(case) else ():
         for function in file.callbacks("create_service"):
             for block in ast.walk(function):
-                if isinstance(block, ast.With) and any(calls_in(each, *_WAITS) for each in block.body):
+                if isinstance(block, ast.With) and any(calls_in(statement, *_WAITS) for statement in block.body):
                     lock = ast.unparse(block.items[0].context_expr)
                     if re.search("lock|mutex|semaphore", lock, re.IGNORECASE):
                         yield found(file, block, lock=lock)

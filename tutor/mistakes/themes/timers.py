@@ -231,7 +231,7 @@ def self_cancelling(case: Case) -> Iterator[Found]:
             reached = list(file.reachable_from(callback)) if callback is not None and name else []
             if case.symptom is Symptom.STANDS_STILL and name:
                 served = file.callbacks("create_service")
-                reached += [each for each in served if not calls_in(each, "reset", "create_timer")]
+                reached += [function for function in served if not calls_in(function, "reset", "create_timer")]
             for call in file.calls("cancel", "destroy_timer"):
                 owner = [call.func.value] if isinstance(call.func, ast.Attribute) else []
                 function = file.function_around(call)
