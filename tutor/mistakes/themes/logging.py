@@ -13,7 +13,7 @@ from tutor.judge.trace import Level, OutputLine
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.source import SourceFile, calls_in
-from tutor.source.printing import find_print, find_python_logging
+from tutor.source.print_calls import find_print, find_python_logging
 
 _LOGS = (Symptom.NOT_LOGGED, Symptom.STANDS_STILL)
 _SHOWN = ("info", "warning", "warn", "error", "fatal")

@@ -13,7 +13,7 @@ from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.themes.callback_groups import in_worker, one_at_a_time, stops
 from tutor.source import NodeFile, argument, calls_in
-from tutor.source.callback_groups import MULTI_THREADED, group_of, is_reentrant, threads_of
+from tutor.source.concurrency import MULTI_THREADED, group_of, is_reentrant, threads_of
 
 _STILL = (Symptom.STANDS_STILL, Symptom.CALLS_WAIT)
 _ONE_THREADED = ("SingleThreadedExecutor", "EventsExecutor")

@@ -11,7 +11,7 @@ from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.source import NodeFile, argument, calls_in, values_of
-from tutor.source.callback_groups import are_of_one_node
+from tutor.source.concurrency import are_of_one_node
 
 _TOO_MANY = (Symptom.WRONG_RATE, Symptom.BAD_VALUE_ACCEPTED)
 _TOO_FEW = (Symptom.NO_MESSAGES, Symptom.WRONG_RATE, Symptom.STANDS_STILL, Symptom.CHANGE_IGNORED)
