@@ -10,7 +10,7 @@ from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Exit
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.process import EXITS, WHILE_A_NODE_RUNS, ended_by_itself, how_it_ended
+from tutor.mistakes.themes.ended_processes import EXITS, WHILE_A_NODE_RUNS, ended_by_itself, how_it_ended
 from tutor.mistakes.themes.spinning import SPINS, SPINS_ONCE
 from tutor.source import NodeFile, argument, called_name, last_name
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.launch_names import endpoints_of, last_part, reaches_no_node, remappings_of, value_of
+from tutor.mistakes.launch_case import endpoints_of, last_part, reaches_no_node, remappings_of, value_of
 from tutor.ros_model import Graph, TopicEndpoint
 
 _NAMES = (Symptom.WRONG_NAMES,)

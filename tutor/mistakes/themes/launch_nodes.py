@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.launch_names import nodes_of
-from tutor.mistakes.themes.launch_start import at_call, launch_file
+from tutor.mistakes.launch_case import at_call, launch_file, nodes_of
 from tutor.ros_model import Graph, TopicEndpoint
 
 _LATER = {

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.launch_names import REMAP, endpoints_of, last_part, remappings_of, value_of
+from tutor.mistakes.launch_case import REMAP, endpoints_of, last_part, remappings_of, value_of
 from tutor.ros_model import Graph, TopicEndpoint
 
 _NAMES = (Symptom.WRONG_NAMES,)

@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.launch_names import endpoints_of, remappings_of, value_of
-from tutor.mistakes.themes.launch_start import launch_file
+from tutor.mistakes.launch_case import endpoints_of, launch_file, remappings_of, value_of
 from tutor.ros_model import Graph, TopicEndpoint
 from tutor.source.file import SourceFile, called_name
 from tutor.source.launch_order import Action, Reach, actions_of, reach

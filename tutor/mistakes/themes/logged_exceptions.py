@@ -11,7 +11,7 @@ from tutor.judge.tracebacks import Frame, Traceback
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.exceptions import EXPLAINED_WHILE_RUNNING, recognise_any
-from tutor.mistakes.raised import RaisedException, exceptions_of
+from tutor.mistakes.raised_exceptions import RaisedException, exceptions_of
 from tutor.source import last_name
 
 type _Expression = type[ast.Attribute | ast.Name | ast.Constant]

@@ -1,4 +1,4 @@
-"""A timer's period: its unit, its decimals, and what keeps a timer from being called when it is due."""
+"""A timer's period: its unit, its decimals, and the number that it is made of."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from tutor.judge.tracebacks import Frame, Traceback
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.exceptions import found_in
-from tutor.mistakes.raised import RaisedException
+from tutor.mistakes.raised_exceptions import RaisedException
 from tutor.mistakes.themes.spinning import SPINS
 from tutor.source import NodeFile, calls_in
 

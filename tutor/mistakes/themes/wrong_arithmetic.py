@@ -9,7 +9,7 @@ from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import CallAnswer
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.python import late_binding
+from tutor.mistakes.themes.python_pitfalls import late_binding
 
 _BIG = 5 * 10**9
 

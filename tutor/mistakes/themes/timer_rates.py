@@ -1,4 +1,4 @@
-"""What keeps a timer from being called when it is due, or from following its parameter."""
+"""Why a timer's rate is not the one asked for: what keeps it from its ticks, or from following its parameter."""
 
 from __future__ import annotations
 
