@@ -48,7 +48,7 @@ def why(seen: Observation, catalogues: Sequence[Catalogue]) -> Diagnosis:
 
 def _asked(case: Case, catalogues: Sequence[Catalogue]) -> Iterator[Mistake]:
     entries = [entry for catalogue in catalogues for entry in catalogue.entries.values()]
-    yield from sorted((e for e in entries if case.symptom in e.explains), key=lambda entry: entry.evidence)
+    yield from sorted((entry for entry in entries if case.symptom in entry.explains), key=lambda entry: entry.evidence)
 
 
 def describe(entry: Mistake, occurrence: Found, case: Case) -> Diagnosis:

@@ -15,7 +15,7 @@ from typing import Any
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame, Traceback, last_traceback
-from tutor.mistakes.raised import RaisedException, exceptions_of
+from tutor.mistakes.raised_exceptions import RaisedException, exceptions_of
 from tutor.source import NodeFile, Program, SourceFile
 
 EVERY_SYMPTOM = tuple(Symptom)

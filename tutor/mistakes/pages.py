@@ -74,7 +74,9 @@ def nearest(id: str, mistakes: Mapping[str, Mistake]) -> list[str]:
 def text_of(entry: Mistake) -> str:
     """The page as plain text: its name in the first line, each paragraph on one line, code indented."""
     paragraphs = entry.page.partition("\n")[2].strip("\n").split("\n\n")
-    joined = (each if each.startswith("    ") else " ".join(each.splitlines()) for each in paragraphs)
+    joined = (
+        paragraph if paragraph.startswith("    ") else " ".join(paragraph.splitlines()) for paragraph in paragraphs
+    )
     return f"{entry.id}: {entry.summary}\n\n" + "\n\n".join(joined) + "\n"
 
 

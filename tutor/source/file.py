@@ -49,11 +49,11 @@ class SourceFile:
 
     def function_around(self, node: ast.AST) -> Function | None:
         """The innermost function that contains a syntax node."""
-        return next((each for each in self.ancestors(node) if isinstance(each, Function)), None)
+        return next((ancestor for ancestor in self.ancestors(node) if isinstance(ancestor, Function)), None)
 
     def class_of(self, function: ast.AST) -> ast.ClassDef | None:
         """The innermost class that contains a function; for a method, its class."""
-        return next((each for each in self.ancestors(function) if isinstance(each, ast.ClassDef)), None)
+        return next((ancestor for ancestor in self.ancestors(function) if isinstance(ancestor, ast.ClassDef)), None)
 
     def node_method(self, node: ast.AST) -> Function | None:
         """The method of a node class that contains a node of the syntax tree; None if none does."""
@@ -63,7 +63,7 @@ class SourceFile:
 
     def statement(self, node: ast.AST) -> ast.stmt:
         """The innermost statement that contains, or is, a syntax node."""
-        return next(each for each in (node, *self.ancestors(node)) if isinstance(each, ast.stmt))
+        return next(candidate for candidate in (node, *self.ancestors(node)) if isinstance(candidate, ast.stmt))
 
     def block_of(self, statement: ast.stmt) -> list[ast.stmt]:
         """The block of statements that contains this one; empty if it is not of this file."""
@@ -73,8 +73,8 @@ class SourceFile:
 
     def calls(self, *names: str) -> list[ast.Call]:
         """The calls of functions and methods with these names, in source order."""
-        found = [each for each in self.nodes if isinstance(each, ast.Call) and called_name(each) in names]
-        return sorted(found, key=lambda each: (each.lineno, each.col_offset))
+        found = [node for node in self.nodes if isinstance(node, ast.Call) and called_name(node) in names]
+        return sorted(found, key=lambda call: (call.lineno, call.col_offset))
 
     def assigned_to(self, call: ast.Call) -> str:
         """The target that a call's result is assigned to, such as "self.timer"; empty if it is not assigned."""
@@ -86,22 +86,22 @@ class SourceFile:
     @cached_property
     def functions(self) -> list[Function]:
         """All functions and methods, in source order."""
-        return sorted((each for each in self.nodes if isinstance(each, Function)), key=lambda each: each.lineno)
+        return sorted((node for node in self.nodes if isinstance(node, Function)), key=lambda function: function.lineno)
 
     def function_at(self, line: int) -> Function | None:
         """The innermost function that contains a line."""
-        found = [each for each in self.functions if each.lineno <= line <= (each.end_lineno or 0)]
-        return max(found, key=lambda each: each.lineno, default=None)
+        found = [function for function in self.functions if function.lineno <= line <= (function.end_lineno or 0)]
+        return max(found, key=lambda function: function.lineno, default=None)
 
     def statement_at(self, line: int) -> ast.stmt | None:
         """The innermost statement that contains a line; for the header of a compound statement, that statement."""
-        statements = [each for each in self.nodes if isinstance(each, ast.stmt)]
-        found = [each for each in statements if each.lineno <= line <= (each.end_lineno or 0)]
-        return max(found, key=lambda each: (each.lineno, -(each.end_lineno or 0)), default=None)
+        statements = [node for node in self.nodes if isinstance(node, ast.stmt)]
+        found = [statement for statement in statements if statement.lineno <= line <= (statement.end_lineno or 0)]
+        return max(found, key=lambda statement: (statement.lineno, -(statement.end_lineno or 0)), default=None)
 
     def functions_named(self, name: str) -> list[Function]:
         """The functions and methods with this name."""
-        return [each for each in self.functions if each.name == name]
+        return [function for function in self.functions if function.name == name]
 
     def function(self, callback: ast.expr | None, *, follow: bool = True) -> Function | None:
         """The function that a callback argument refers to, directly or within a lambda or partial().
@@ -111,8 +111,8 @@ class SourceFile:
         """
         match callback:
             case ast.Attribute(attr=name) | ast.Name(id=name):
-                found = [each for each in reversed(self.functions) if each.name == name]
-                named = next((each for each in found if not is_abstract(each)), next(iter(found), None))
+                found = [function for function in reversed(self.functions) if function.name == name]
+                named = next((function for function in found if not is_abstract(function)), next(iter(found), None))
                 if named is None and follow and isinstance(callback, ast.Name):
                     return self._passed_function(callback)
                 return named
@@ -124,55 +124,55 @@ class SourceFile:
 
     def _passed_function(self, parameter: ast.Name) -> Function | None:
         around = self.function_around(parameter)
-        taken = [each.arg for each in around.args.args] if around is not None else []
+        taken = [arg.arg for arg in around.args.args] if around is not None else []
         if around is None or parameter.id not in taken:
             return None
         position = taken.index(parameter.id) - (taken[0] in ("self", "cls"))
         passed: list[ast.expr | None] = []
         for call in self.calls(around.name):
-            by_name = [each.value for each in call.keywords if each.arg == parameter.id]
+            by_name = [keyword.value for keyword in call.keywords if keyword.arg == parameter.id]
             passed.append(next(iter([*by_name, *call.args[position : position + 1]]), None))
-        found = {self.function(each, follow=False) for each in passed}
+        found = {self.function(value, follow=False) for value in passed}
         return found.pop() if len(found) == 1 else None
 
     def reachable_from(self, function: Function) -> list[Function]:
         """The function itself and all functions of the file that it calls, directly or indirectly."""
         found, todo = [], [function]
         while todo:
-            each = todo.pop(0)
-            if each not in found:
-                found.append(each)
-                todo += [callee for call in calls_in(each) if (callee := self.function(call.func)) is not None]
+            reached = todo.pop(0)
+            if reached not in found:
+                found.append(reached)
+                todo += [callee for call in calls_in(reached) if (callee := self.function(call.func)) is not None]
         return found
 
     @cached_property
     def node_classes(self) -> list[str]:
         """The names of the file's node classes."""
         found: list[str] = []
-        for each in self.nodes:
-            if isinstance(each, ast.ClassDef) and any(
-                "Node" in (base := ast.unparse(one)) or base in found for one in each.bases
+        for node in self.nodes:
+            if isinstance(node, ast.ClassDef) and any(
+                "Node" in (base := ast.unparse(parent)) or base in found for parent in node.bases
             ):
-                found.append(each.name)
+                found.append(node.name)
         return found
 
     @cached_property
     def imports(self) -> list[tuple[ast.Import | ast.ImportFrom, ast.alias]]:
         """Each imported name, with its import statement."""
-        found = [each for each in self.nodes if isinstance(each, ast.Import | ast.ImportFrom)]
-        return [(each, alias) for each in found for alias in each.names]
+        found = [node for node in self.nodes if isinstance(node, ast.Import | ast.ImportFrom)]
+        return [(statement, alias) for statement in found for alias in statement.names]
 
 
 def calls_in(node: ast.AST | None, *names: str) -> list[ast.Call]:
     """The calls within a syntax tree: all, or only those of functions and methods with these names."""
-    found = [each for each in ast.walk(node) if isinstance(each, ast.Call)] if node is not None else []
-    return [each for each in found if not names or called_name(each) in names]
+    found = [part for part in ast.walk(node) if isinstance(part, ast.Call)] if node is not None else []
+    return [call for call in found if not names or called_name(call) in names]
 
 
 def values_of(target: str, node: ast.AST) -> list[ast.expr]:
     """The values assigned within a syntax tree to a variable or an attribute, such as "self.count"."""
-    assignments = [each for each in ast.walk(node) if isinstance(each, ast.Assign)]
-    return [each.value for each in assignments if any(ast.unparse(one) == target for one in each.targets)]
+    assignments = [part for part in ast.walk(node) if isinstance(part, ast.Assign)]
+    return [assignment.value for assignment in assignments if target in map(ast.unparse, assignment.targets)]
 
 
 def is_endless(loop: ast.While) -> bool:
@@ -189,8 +189,9 @@ def where(node: ast.stmt | ast.expr) -> str:
 def is_abstract(function: Function) -> bool:
     """Whether a function has nothing but a docstring, `pass`, `...`, or `raise`."""
     return all(
-        isinstance(each, ast.Pass | ast.Raise) or (isinstance(each, ast.Expr) and isinstance(each.value, ast.Constant))
-        for each in function.body
+        isinstance(statement, ast.Pass | ast.Raise)
+        or (isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant))
+        for statement in function.body
     )
 
 

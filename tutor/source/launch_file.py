@@ -57,12 +57,12 @@ class LaunchFile:
 
     def calls(self, *names: str) -> list[Call]:
         """The calls of functions or methods with these names, in file order."""
-        return [_call(each, self.file) for each in self.file.calls(*names)]
+        return [_call(call, self.file) for call in self.file.calls(*names)]
 
     def uses(self, name: str) -> int:
         """How often the variable with this name is read."""
-        names = [each for each in self.file.nodes if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load)]
-        return [each.id for each in names].count(name)
+        names = [node for node in self.file.nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)]
+        return [variable.id for variable in names].count(name)
 
 
 class _ResolvedFile(SourceFile):
@@ -100,7 +100,7 @@ class _AliasResolver(ast.NodeTransformer):
         return (
             path[0] in self._roots
             and last[:1].isupper()
-            and all(each.isidentifier() and each.islower() for each in path)
+            and all(part.isidentifier() and part.islower() for part in path)
         )
 
 
@@ -110,12 +110,12 @@ def _dicts(tree: ast.AST) -> dict[str, dict[str, ast.expr]]:
     for node in ast.walk(tree):
         match node:
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Call(func=ast.Name(id="dict"), keywords=given)):
-                found[name] = {each.arg: each.value for each in given if each.arg}
+                found[name] = {keyword.arg: keyword.value for keyword in given if keyword.arg}
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Dict(keys=keys, values=values)):
                 pairs = zip(keys, values, strict=True)
                 found[name] = {
-                    key.value: each
-                    for key, each in pairs
+                    key.value: value
+                    for key, value in pairs
                     if isinstance(key, ast.Constant) and isinstance(key.value, str)
                 }
     return found
@@ -123,11 +123,11 @@ def _dicts(tree: ast.AST) -> dict[str, dict[str, ast.expr]]:
 
 def _call(node: ast.Call, file: SourceFile) -> Call:
     named: dict[str, ast.expr] = {}
-    for each in node.keywords:
-        if each.arg:
-            named[each.arg] = each.value
-        elif isinstance(each.value, ast.Name):
-            named |= _dicts(file.tree).get(each.value.id, {})
+    for keyword in node.keywords:
+        if keyword.arg:
+            named[keyword.arg] = keyword.value
+        elif isinstance(keyword.value, ast.Name):
+            named |= _dicts(file.tree).get(keyword.value.id, {})
     function = file.function_around(node)
     return Call(
         name=called_name(node),

@@ -16,7 +16,7 @@ _MAX_DEPTH, _MAX_ACTIONS = 20, 500
 
 
 class Reach(Enum):
-    """Whether a setting holds for a node: yes, or why not."""
+    """That a setting holds for a node, or why it does not."""
 
     REACHED = "it holds for the node"
     TOO_LATE = "the node comes first"
@@ -37,21 +37,21 @@ def actions_of(file: SourceFile, *names: str) -> list[Action]:
     """The actions with these names that are part of the launch description, in order."""
     walked = islice(_Walk(file).actions(), _MAX_ACTIONS)
     found = [Action(call, around, place) for place, (call, around) in enumerate(walked)]
-    return [each for each in found if called_name(each.call) in names]
+    return [action for action in found if called_name(action.call) in names]
 
 
 def reach(setting: Action, node: Action) -> Reach:
-    """Whether what an action sets (a pushed namespace, a remapping) holds for a node.
+    """Why what an action sets (a pushed namespace, a remapping) does not hold for a node; `REACHED` if it does.
 
     The end of a group takes back what is set in it. What a handler starts comes when the groups around have ended.
     """
-    groups = tuple(each for each in setting.around if called_name(each) == "GroupAction")
+    groups = tuple(call for call in setting.around if called_name(call) == "GroupAction")
     shared = len(tuple(takewhile(lambda pair: pair[0] is pair[1], zip(setting.around, node.around, strict=False))))
-    if any(each not in node.around for each in groups):
+    if any(group not in node.around for group in groups):
         return Reach.GROUP_ENDED
-    if any(called_name(each) in _HANDLERS for each in setting.around[shared:]):
+    if any(called_name(call) in _HANDLERS for call in setting.around[shared:]):
         return Reach.TOO_LATE
-    deferred = any(called_name(each) in _HANDLERS for each in node.around[shared:])
+    deferred = any(called_name(call) in _HANDLERS for call in node.around[shared:])
     if deferred and groups:
         return Reach.HANDLER
     return Reach.TOO_LATE if node.place < setting.place and not deferred else Reach.REACHED
@@ -76,23 +76,25 @@ class _Walk:
         match part:
             case ast.Name(id=name):
                 own = self._file.functions_named(name)
-                inside = [*self._kept_in(name), *(value for each in own for value in _returned(each))]
+                inside = [*self._kept_in(name), *(value for function in own for value in _returned(function))]
             case ast.Call():
                 yield part, around
                 if called_name(part) in _HANDLERS or (called_name(part) == "GroupAction" and _is_scoped(part)):
                     around = (*around, part)
-                given = [each.value for each in part.keywords if each.arg not in ("target_action", "condition")]
+                given = [
+                    keyword.value for keyword in part.keywords if keyword.arg not in ("target_action", "condition")
+                ]
                 own = self._file.functions_named(called_name(part))
-                inside = [*part.args, *given, *(value for each in own for value in _returned(each))]
+                inside = [*part.args, *given, *(value for function in own for value in _returned(function))]
             case _:
-                inside = [each for each in ast.iter_child_nodes(part) if isinstance(each, ast.expr)]
-        for each in inside:
-            yield from self._within(each, around, depth + 1)
+                inside = [child for child in ast.iter_child_nodes(part) if isinstance(child, ast.expr)]
+        for expression in inside:
+            yield from self._within(expression, around, depth + 1)
 
     def _kept_in(self, name: str) -> list[ast.expr]:
         """What a variable is set to, and what is added to it later."""
         found: list[ast.expr] = []
-        for node in sorted(self._file.nodes, key=lambda each: getattr(each, "lineno", 0)):
+        for node in sorted(self._file.nodes, key=lambda node: getattr(node, "lineno", 0)):
             match node:
                 case ast.Assign(targets=[ast.Name(id=target)], value=value) if target == name:
                     found.append(value)
@@ -108,14 +110,14 @@ class _Walk:
 
 def _is_scoped(group: ast.Call) -> bool:
     return not any(
-        each.arg == "scoped" and isinstance(each.value, ast.Constant) and not each.value.value
-        for each in group.keywords
+        keyword.arg == "scoped" and isinstance(keyword.value, ast.Constant) and not keyword.value.value
+        for keyword in group.keywords
     )
 
 
 def _returned(function: ast.AST) -> list[ast.expr]:
-    return [each.value for each in ast.walk(function) if isinstance(each, ast.Return) and each.value is not None]
+    return [node.value for node in ast.walk(function) if isinstance(node, ast.Return) and node.value is not None]
 
 
 def _statements(tree: ast.Module) -> list[ast.expr]:
-    return [each.value for each in tree.body if isinstance(each, ast.Expr)]
+    return [statement.value for statement in tree.body if isinstance(statement, ast.Expr)]

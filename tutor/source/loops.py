@@ -13,10 +13,10 @@ _WAITS = ("sleep", "wait")
 
 def outermost_loop(file: SourceFile, line: int) -> Loop | None:
     """The outermost loop around a line, within the line's function."""
-    found = [each for each in file.nodes if isinstance(each, Loop) and each.lineno <= line <= (each.end_lineno or 0)]
+    found = [node for node in file.nodes if isinstance(node, Loop) and node.lineno <= line <= (node.end_lineno or 0)]
     return min(
-        (each for each in found if file.function_around(each) is file.function_at(line)),
-        key=lambda each: each.lineno,
+        (loop for loop in found if file.function_around(loop) is file.function_at(line)),
+        key=lambda loop: loop.lineno,
         default=None,
     )
 

@@ -25,7 +25,7 @@ def is_text(node: ast.expr | None, text: str) -> bool:
 def constants(nodes: Sequence[ast.AST]) -> Iterator[object]:
     """The values of all constants in these syntax trees."""
     for node in nodes:
-        yield from (each.value for each in ast.walk(node) if isinstance(each, ast.Constant))
+        yield from (part.value for part in ast.walk(node) if isinstance(part, ast.Constant))
 
 
 def reads(node: ast.AST, name: str) -> bool:
@@ -82,4 +82,4 @@ def may_refuse(file: NodeFile, function: Function | None) -> bool:
     """Whether a function, or one that it calls, makes a SetParametersResult that refuses."""
     if function is None:
         return False
-    return any("successful=False" in ast.unparse(each).replace(" ", "") for each in file.reachable_from(function))
+    return any("successful=False" in ast.unparse(reached).replace(" ", "") for reached in file.reachable_from(function))

@@ -58,7 +58,8 @@ def argument(call: ast.Call | None, name: str) -> ast.expr | None:
     names = SIGNATURES.get(called_name(call), ())
     position = names.index(name) if name in names else len(call.args)
     given = call.args[: position + 1]
-    return given[position] if position < len(given) and not any(isinstance(e, ast.Starred) for e in given) else None
+    has_rest = any(isinstance(expression, ast.Starred) for expression in given)
+    return given[position] if position < len(given) and not has_rest else None
 
 
 def match(pattern: str, node: ast.AST | None) -> Holes | None:
@@ -114,8 +115,8 @@ def _arguments_fit(wanted: ast.Call, given: ast.Call, holes: Holes) -> bool:
     def key(name: str | None) -> object:
         return names.index(name) if name in names else name
 
-    has_rest = any(isinstance(each, ast.Starred) for each in wanted.args)
-    positional = [each for each in wanted.args if not isinstance(each, ast.Starred)]
+    has_rest = any(isinstance(expression, ast.Starred) for expression in wanted.args)
+    positional = [expression for expression in wanted.args if not isinstance(expression, ast.Starred)]
     passed: dict[object, ast.expr] = dict(enumerate(given.args))
     passed |= {key(keyword.arg): keyword.value for keyword in given.keywords}
     needed: dict[object, ast.expr] = dict(enumerate(positional))

@@ -56,9 +56,13 @@ class Program:
 
     def callbacks(self, creator: str) -> list[Function]:
         """The functions passed to `creator`, such as "create_subscription", and all functions they reach, by name."""
-        arguments = [e for call in self.calls(creator) for e in (*call.args, *(k.value for k in call.keywords))]
-        inside = [call for each in arguments if isinstance(each, ast.Lambda) for call in calls_in(each)]
-        todo = [last_name(each) for each in arguments] + [called_name(call) for call in inside]
+        arguments = [
+            given
+            for call in self.calls(creator)
+            for given in (*call.args, *(keyword.value for keyword in call.keywords))
+        ]
+        inside = [call for given in arguments if isinstance(given, ast.Lambda) for call in calls_in(given)]
+        todo = [last_name(given) for given in arguments] + [called_name(call) for call in inside]
         found: dict[str, list[Function]] = {}
         while todo:
             name = todo.pop(0)

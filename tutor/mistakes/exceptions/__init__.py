@@ -12,7 +12,7 @@ from tutor.mistakes.entry import CATALOGUE, EVERY_SYMPTOM, Case, Catalogue, Evid
 from tutor.mistakes.exceptions.known import Example, KnownException
 from tutor.mistakes.exceptions.matching import recognise
 from tutor.mistakes.exceptions.table import load, parse
-from tutor.mistakes.raised import RaisedException
+from tutor.mistakes.raised_exceptions import RaisedException
 
 __all__ = [
     "EXPLAINED",

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from tutor.judge.tracebacks import Traceback, is_in_folder
 from tutor.mistakes.entry import Found
 from tutor.mistakes.exceptions.known import WORD, Way
-from tutor.mistakes.raised import RaisedException
+from tutor.mistakes.raised_exceptions import RaisedException
 
 _SIMILARITY = 0.75
 """Minimum difflib ratio at which two names count as similar."""

@@ -43,7 +43,9 @@ def parse(text: str, name: str = "exceptions.toml", *, validate: bool = True) ->
     entries = data.get("mistake", [])
     if not isinstance(entries, list) or not isinstance(words, dict):
         raise TableError(f"{name}: write [[mistake]] for each mistake, and [words.NAME] for a table of words")
-    return tuple(_mistake(entry, words, f"{name}, mistake {n}", validate) for n, entry in enumerate(entries, 1))
+    return tuple(
+        _mistake(entry, words, f"{name}, mistake {number}", validate) for number, entry in enumerate(entries, 1)
+    )
 
 
 def _mistake(data: Mapping[str, Any], words: Mapping[str, Any], where: str, validate: bool) -> KnownException:
@@ -112,7 +114,7 @@ def _validate(way: Way, where: str) -> None:
 def _replace(data: object, where: str) -> Replace | None:
     if data is None:
         return None
-    if not isinstance(data, list) or len(data) != 2 or not all(isinstance(each, str) for each in data):
+    if not isinstance(data, list) or len(data) != 2 or not all(isinstance(part, str) for part in data):
         raise TableError(f"{where}: replace must be ['pattern', 'text']")
     return Replace(*data)
 

@@ -54,7 +54,9 @@ def _blocked(case: Case) -> tuple[Frame, tuple[Frame, ...]] | None:
         if tracebacks.called_by_executor(thread, folder):
             own = next(i for i, frame in enumerate(thread) if tracebacks.is_in_folder(frame.path, folder))
             blocked.append((thread[own], thread[:own]))
-    return min(blocked, key=lambda each: not (in_blocking_call(each[1]) or _LOCK.search(each[0].code)), default=None)
+    return min(
+        blocked, key=lambda frames: not (in_blocking_call(frames[1]) or _LOCK.search(frames[0].code)), default=None
+    )
 
 
 @mistake(

@@ -12,7 +12,7 @@ from tutor.judge.tracebacks import Frame
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.source import NodeFile
-from tutor.source.callback_groups import (
+from tutor.source.concurrency import (
     GROUPS,
     group_of,
     is_exclusive,

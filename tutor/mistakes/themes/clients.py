@@ -82,8 +82,8 @@ def needs_arguments(case: Case) -> Iterator[Found]:
 
 
 def _ends(test: ast.If) -> bool:
-    last = [branch[-1] for branch in (test.body, test.orelse) if branch]
-    return any(isinstance(each, ast.Return | ast.Raise) or bool(calls_in(each, *_EXITS)) for each in last)
+    ends = [branch[-1] for branch in (test.body, test.orelse) if branch]
+    return any(isinstance(end, ast.Return | ast.Raise) or bool(calls_in(end, *_EXITS)) for end in ends)
 
 
 @mistake(
@@ -113,8 +113,8 @@ def service_not_offered(case: Case) -> Iterator[Found]:
     Lesson: i1.3, the client.
     """
     services, wanted = case.about("services", ()), case.about("type")
-    own = sorted((each for each in case.trace.graph.clients if not each.is_standard), key=lambda each: each.name)
-    for client in own if services and in_silence(case) else ():
+    own = [client for client in case.trace.graph.clients if not client.is_standard]
+    for client in sorted(own, key=lambda client: client.name) if services and in_silence(case) else ():
         given = client.name
         if given not in services:
             near = max(services, key=lambda name: difflib.SequenceMatcher(None, name, given).ratio())
@@ -292,7 +292,7 @@ def client_overwritten(case: Case) -> Iterator[Found]:
     for file in case.files:
         for loop in (node for node in file.nodes if isinstance(node, ast.For)):
             called = [function for call in calls_in(loop) if (function := file.function(call.func)) is not None]
-            if any(calls_in(each, "call_async", "call", "append") for each in (loop, *called)):
+            if any(calls_in(part, "call_async", "call", "append") for part in (loop, *called)):
                 continue
             for call in calls_in(loop, "create_client"):
                 name = file.assigned_to(call)

@@ -10,7 +10,7 @@ from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Exit
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.process import EXITS, WHILE_A_NODE_RUNS, ended_by_itself, how_it_ended
+from tutor.mistakes.themes.ended_processes import EXITS, WHILE_A_NODE_RUNS, ended_by_itself, how_it_ended
 from tutor.mistakes.themes.spinning import SPINS, SPINS_ONCE
 from tutor.source import NodeFile, argument, called_name, last_name
 
@@ -119,7 +119,7 @@ def caught_outside_spin(case: Case) -> Iterator[Found]:
 def _is_for_the_end(handler: ast.ExceptHandler) -> bool:
     """Whether a handler catches only what ends a spin in any case, such as Ctrl+C."""
     caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
-    return all(last_name(each) in (*SPIN_ENDINGS, "SystemExit") for each in caught)
+    return all(last_name(exception) in (*SPIN_ENDINGS, "SystemExit") for exception in caught)
 
 
 @mistake(

@@ -10,7 +10,7 @@ from tutor.mistakes.entry import Case, Found, found, mistake
 from tutor.mistakes.themes.spinning import EXECUTORS
 from tutor.source import NodeFile, called_name, calls_in, last_name, values_of
 
-_NODE_LISTS = tuple(f"self._{each}" for each in ("timers", "subscriptions", "services", "clients", "guards"))
+_NODE_LISTS = tuple(f"self._{kind}" for kind in ("timers", "subscriptions", "services", "clients", "guards"))
 _UNSERVED = (
     Symptom.NO_ANSWER,
     Symptom.NO_MESSAGES,
@@ -124,7 +124,7 @@ def _inner_node(case: Case) -> Iterator[Found]:
             outer, inner = file.class_of(call), file.assigned_to(call)
             if outer is None or outer.name not in nodes or not inner.startswith("self.") or inner[5:] in served:
                 continue
-            if any(_has_callbacks(each, call) for each in case.files):
+            if any(_has_callbacks(source, call) for source in case.files):
                 yield found(file, call, spun=outer.name, other=called_name(call))
 
 
@@ -135,7 +135,7 @@ def _meant(file: NodeFile, call: ast.Call) -> Iterator[str]:
         values = [*values_of(ast.unparse(given), file.tree), *(loop.iter for loop in loops)]
         values += [value for loop in loops for value in values_of(ast.unparse(loop.iter), file.tree)]
         for expression in (given, *values):
-            yield from (last_name(each) for each in ast.walk(expression))
+            yield from (last_name(node) for node in ast.walk(expression))
 
 
 def _has_callbacks(file: NodeFile, made: ast.Call) -> bool:

@@ -44,7 +44,7 @@ def thread_goes_on(case: Case) -> Iterator[Found]:
     """
     for file in case.files:
         for call in file.calls("Thread", "submit"):
-            named = [each.value for each in call.keywords if each.arg == "target"]
+            named = [keyword.value for keyword in call.keywords if keyword.arg == "target"]
             target = next(iter([*named, *(call.args[:1] if called_name(call) == "submit" else [])]), None)
             if _is_daemon(file, call, file.assigned_to(call)):
                 continue
@@ -57,25 +57,24 @@ def thread_goes_on(case: Case) -> Iterator[Found]:
                     call for call in calls_in(owner, "__init__") if "super" in ast.unparse(call.func)
                 ]
                 if not any(_is_daemon(file, call, "self") for call in made or [None]):
-                    run = next(
-                        (each for each in owner.body if isinstance(each, ast.FunctionDef) and each.name == "run"), None
-                    )
+                    methods = [statement for statement in owner.body if isinstance(statement, ast.FunctionDef)]
+                    run = next((method for method in methods if method.name == "run"), None)
                     yield from _endless_loops(file, run)
 
 
 def _is_daemon(file: NodeFile, made: ast.Call | None, name: str) -> bool:
     """Whether a thread is made a daemon, by this call, or as an attribute of what it is assigned to."""
-    given = [each.value for each in made.keywords if each.arg == "daemon"] if made is not None else []
+    given = [keyword.value for keyword in made.keywords if keyword.arg == "daemon"] if made is not None else []
     given += values_of(f"{name}.daemon", file.tree)
     return any(ast.unparse(value) != "False" for value in given)
 
 
 def _nap(call: ast.Call, target: ast.expr | None) -> float:
     """For how many seconds a thread sleeps whose target is sleep itself."""
-    given = [*call.args[1:], *(each.value for each in call.keywords if each.arg == "args")]
+    given = [*call.args[1:], *(keyword.value for keyword in call.keywords if keyword.arg == "args")]
     numbers = [node.value for value in given for node in ast.walk(value) if isinstance(node, ast.Constant)]
     return next(
-        (float(each) for each in numbers if last_name(target) == "sleep" and isinstance(each, int | float)), 0.0
+        (float(number) for number in numbers if last_name(target) == "sleep" and isinstance(number, int | float)), 0.0
     )
 
 
@@ -138,5 +137,5 @@ def _waits_for_spin(file: NodeFile, statement: ast.stmt) -> bool:
         case _:
             return False
     calls = [value for value in values_of(name, file.tree) if isinstance(value, ast.Call)]
-    passed = [given for call in calls for given in (*call.args, *(each.value for each in call.keywords))]
-    return any(isinstance(each, ast.Attribute) and each.attr in SPINS for each in passed)
+    passed = [given for call in calls for given in (*call.args, *(keyword.value for keyword in call.keywords))]
+    return any(isinstance(given, ast.Attribute) and given.attr in SPINS for given in passed)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.launch_names import endpoints_of, last_part, reaches_no_node, remappings_of, value_of
+from tutor.mistakes.launch_case import endpoints_of, last_part, reaches_no_node, remappings_of, value_of
 from tutor.ros_model import Graph, TopicEndpoint
 
 _NAMES = (Symptom.WRONG_NAMES,)
@@ -99,7 +99,7 @@ def own_namespace(case: Case) -> Iterator[Found]:
         if case.about("moves") == "topic":
             apart = relative == last_part(wanted) and endpoint.topic != wanted
         else:
-            others = {each.topic for each in endpoints if not each.node.startswith(f"{namespace}/")}
+            others = {other.topic for other in endpoints if not other.node.startswith(f"{namespace}/")}
             apart = case.symptom is Symptom.NOT_CONNECTED and f"/{relative}" in others
         if apart:
             yield Found({"node": endpoint.node, "namespace": namespace})
@@ -140,14 +140,16 @@ def one_node(case: Case) -> Iterator[Found]:
     """
     endpoints, wanted = endpoints_of(case), str(case.about("wanted", ""))
     if case.about("moves") == "topic":
-        inside = sorted({each.node for each in endpoints if each.topic == wanted})
-        outside = sorted({f"{each.node} uses {each.topic}" for each in endpoints if each.topic != wanted})
+        inside = sorted({endpoint.node for endpoint in endpoints if endpoint.topic == wanted})
+        outside = sorted(
+            {f"{endpoint.node} uses {endpoint.topic}" for endpoint in endpoints if endpoint.topic != wanted}
+        )
         where = wanted
     else:
         where = f"/{wanted}"
-        inside = sorted({each.node for each in endpoints if each.node.startswith(f"{where}/")})
-        outside = sorted({each.node for each in endpoints if not each.node.startswith(f"{where}/")})
-    alone = len({each.node for each in endpoints}) > 1 and len(inside) == 1
+        inside = sorted({endpoint.node for endpoint in endpoints if endpoint.node.startswith(f"{where}/")})
+        outside = sorted({endpoint.node for endpoint in endpoints if not endpoint.node.startswith(f"{where}/")})
+    alone = len({endpoint.node for endpoint in endpoints}) > 1 and len(inside) == 1
     if alone and outside:
         are = "uses" if case.about("moves") == "topic" else "is under"
         yield Found({"what": f"{', '.join(inside)} {are} {where}, and {', '.join(outside)}{_not(case)}"})
@@ -221,6 +223,6 @@ def no_effect(case: Case) -> Iterator[Found]:
     See it: `ros2 topic list`.
     """
     value = value_of(case)
-    used = any(value in name.split("/") for each in endpoints_of(case) for name in (each.node, each.topic))
+    used = any(value in name.split("/") for endpoint in endpoints_of(case) for name in (endpoint.node, endpoint.topic))
     if case.about("argument") is not None and not used and reaches_no_node(case):
         yield Found({"argument": case.about("argument"), "value": value})

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.launch_names import nodes_of
-from tutor.mistakes.themes.launch_start import at_call, launch_file
+from tutor.mistakes.launch_case import at_call, launch_file, nodes_of
 from tutor.ros_model import Graph, TopicEndpoint
 
 _LATER = {
@@ -84,8 +83,12 @@ def one_side(case: Case) -> Iterator[Found]:
     See it: `ros2 topic info -v TOPIC`.
     """
     graph = case.trace.graph
-    senders = sorted({each.node for each in graph.publishers if not each.topic.startswith(("/rosout", "/parameter"))})
-    receivers = sorted({each.node for each in graph.subscriptions if not each.topic.startswith("/parameter")})
+    senders = sorted(
+        {publisher.node for publisher in graph.publishers if not publisher.topic.startswith(("/rosout", "/parameter"))}
+    )
+    receivers = sorted(
+        {subscription.node for subscription in graph.subscriptions if not subscription.topic.startswith("/parameter")}
+    )
     if not graph.nodes:
         return
     if senders and not receivers:
@@ -132,12 +135,12 @@ def different_topics(case: Case) -> Iterator[Found]:
     """
     graph = case.trace.graph
     ours = ("/rosout", "/parameter_events")
-    senders = sorted({f"{each.node} publishes on {each.topic}" for each in graph.publishers if each.topic not in ours})
-    heard = sorted(
-        {f"{each.node} subscribes to {each.topic}" for each in graph.subscriptions if each.topic not in ours}
-    )
-    sent = {each.topic for each in graph.publishers}
-    if senders and heard and not any(each.topic in sent for each in graph.subscriptions if each.topic not in ours):
+    publishers = [publisher for publisher in graph.publishers if publisher.topic not in ours]
+    subscriptions = [subscription for subscription in graph.subscriptions if subscription.topic not in ours]
+    senders = sorted({f"{publisher.node} publishes on {publisher.topic}" for publisher in publishers})
+    heard = sorted({f"{subscription.node} subscribes to {subscription.topic}" for subscription in subscriptions})
+    sent = {publisher.topic for publisher in publishers}
+    if senders and heard and not any(subscription.topic in sent for subscription in subscriptions):
         yield Found({"what": f"{', '.join(senders)}; {', '.join(heard)}"})
 
 

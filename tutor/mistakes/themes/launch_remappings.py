@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.launch_names import REMAP, endpoints_of, last_part, remappings_of, value_of
+from tutor.mistakes.launch_case import REMAP, endpoints_of, last_part, remappings_of, value_of
 from tutor.ros_model import Graph, TopicEndpoint
 
 _NAMES = (Symptom.WRONG_NAMES,)
@@ -87,7 +87,7 @@ def without_effect(case: Case) -> Iterator[Found]:
                     {"what": f"{source} is remapped to {earlier} first, then to {target}: the first rule counts"}
                 )
     targets = {last_part(target) for _, target in remappings_of(case)}
-    names = sorted({each.topic for each in endpoints_of(case) if last_part(each.topic) not in targets})
+    names = sorted({endpoint.topic for endpoint in endpoints_of(case) if last_part(endpoint.topic) not in targets})
     for source, target in remappings_of(case) if names else ():
         if last_part(target) != value_of(case):
             continue

@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.launch_names import endpoints_of, remappings_of, value_of
-from tutor.mistakes.themes.launch_start import launch_file
+from tutor.mistakes.launch_case import endpoints_of, launch_file, remappings_of, value_of
 from tutor.ros_model import Graph, TopicEndpoint
 from tutor.source.file import SourceFile, called_name
 from tutor.source.launch_order import Action, Reach, actions_of, reach
@@ -34,7 +33,7 @@ def _missed(case: Case, *why: Reach) -> Iterator[tuple[Action, ast.Call, Reach]]
     settings, nodes = _settings(case, file), actions_of(file, "Node", "LifecycleNode")
     for setting in settings:
         for node in nodes:
-            reached = {reach(each, node) for each in settings}
+            reached = {reach(other, node) for other in settings}
             if Reach.REACHED not in reached and (missing := reach(setting, node)) in why:
                 yield setting, node.call, missing
 
@@ -43,7 +42,7 @@ def _settings(case: Case, file: SourceFile) -> list[Action]:
     names: tuple[str, ...] = ()
     if case.about("moves") == "namespace":
         under = f"/{case.about('wanted')}/"
-        names = _PUSHES if any(not each.node.startswith(under) for each in endpoints_of(case)) else ()
+        names = _PUSHES if any(not endpoint.node.startswith(under) for endpoint in endpoints_of(case)) else ()
     elif case.about("moves") == "topic" and not any(target == value_of(case) for _, target in remappings_of(case)):
         names = ("SetRemap",)
     return actions_of(file, *names)
@@ -92,7 +91,7 @@ def lost_with_group(case: Case) -> Iterator[Found]:
         for call in file.calls("SetLaunchConfiguration"):
             name = call.argument(0, "name")
             inside = call.code in group.code and "scoped" not in group.named
-            reads = [each for each in file.calls("LaunchConfiguration") if each.argument(0, "variable_name") == name]
+            reads = [read for read in file.calls("LaunchConfiguration") if read.argument(0, "variable_name") == name]
             if inside and any(read.code not in group.code for read in reads):
                 words = {"what": name.strip("'\""), "when": "", "do": "Set it outside the group."}
                 yield Found(dict(words), case.file.name, call.line, case.file.line(call.line))
@@ -157,9 +156,9 @@ def condition_not_met(case: Case) -> Iterator[Found]:
         return
     file = launch_file(case).file
     for setting in _settings(case, file) if actions_of(file, "Node", "LifecycleNode") else ():
-        for each in setting.call.keywords:
-            if each.arg == "condition":
-                yield found(case.file, setting.call, condition=_short(ast.unparse(each.value)))
+        for keyword in setting.call.keywords:
+            if keyword.arg == "condition":
+                yield found(case.file, setting.call, condition=_short(ast.unparse(keyword.value)))
 
 
 def _short(code: str) -> str:

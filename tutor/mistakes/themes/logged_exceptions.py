@@ -11,7 +11,7 @@ from tutor.judge.tracebacks import Frame, Traceback
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.exceptions import EXPLAINED_WHILE_RUNNING, recognise_any
-from tutor.mistakes.raised import RaisedException, exceptions_of
+from tutor.mistakes.raised_exceptions import RaisedException, exceptions_of
 from tutor.source import last_name
 
 type _Expression = type[ast.Attribute | ast.Name | ast.Constant]
@@ -102,7 +102,7 @@ def _lines_with(case: Case, expression: _Expression, name: str) -> list[Frame]:
                 path = f"{case.trace.folder}/{file.name}"
                 yield reads, Frame(path, node.lineno, "", file.line(node.lineno))
 
-    return [frame for _, frame in sorted(find(), key=lambda each: (each[0], each[1].line))]
+    return [frame for _, frame in sorted(find(), key=lambda place: (place[0], place[1].line))]
 
 
 def _name(node: ast.AST) -> object:

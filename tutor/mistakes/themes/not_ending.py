@@ -107,11 +107,11 @@ def interrupt_swallowed(case: Case) -> Iterator[Found]:
     for file in case.files:
         for node in file.nodes:
             if isinstance(node, ast.Try):
-                loop = next((each for each in file.ancestors(node) if isinstance(each, ast.While)), None)
+                loop = next((ancestor for ancestor in file.ancestors(node) if isinstance(ancestor, ast.While)), None)
                 goes_on = (
                     loop is not None and is_endless(loop) and file.function_around(loop) is file.function_around(node)
                 )
-                yield from (found(file, each) for each in node.handlers if goes_on and _swallows(node, each))
+                yield from (found(file, handler) for handler in node.handlers if goes_on and _swallows(node, handler))
 
 
 def _swallows(around: ast.Try, handler: ast.ExceptHandler) -> bool:
@@ -168,5 +168,5 @@ def _comes_after_ctrl_c(file: NodeFile, call: ast.Call) -> bool:
     if around:
         return any(node.type is None or any(name in ast.unparse(node.type) for name in SPIN_ENDINGS) for node in around)
     function = file.function_around(call)
-    spins = [each for each in calls_in(function, "spin") if file.function_around(each) is function]
-    return any(each.lineno < call.lineno for each in spins)
+    spins = [spin for spin in calls_in(function, "spin") if file.function_around(spin) is function]
+    return any(spin.lineno < call.lineno for spin in spins)

@@ -99,10 +99,10 @@ def _invalid(case: Case) -> Iterator[tuple[NodeFile, Function]]:
 
 def _returns(callback: Function) -> list[ast.Return]:
     inner = {
-        each
+        descendant
         for node in ast.walk(callback)
         if node is not callback and isinstance(node, Function | ast.Lambda)
-        for each in ast.walk(node)
+        for descendant in ast.walk(node)
     }
     return [node for node in ast.walk(callback) if isinstance(node, ast.Return) and node not in inner]
 
@@ -111,23 +111,23 @@ def _other_result(callback: Function) -> str | None:
     """What a callback surely returns in place of a result, in words; None if it is nothing, or we cannot tell."""
     if isinstance(callback, ast.AsyncFunctionDef):
         return f"{callback.name} (line {callback.lineno}) is an async def, which gives a coroutine that nobody awaits"
-    for each in _returns(callback):
-        match each.value:
+    for statement in _returns(callback):
+        match statement.value:
             case ast.Constant(value=value) if value is not None:
-                return f"line {each.lineno} returns {value!r}"
+                return f"line {statement.lineno} returns {value!r}"
             case ast.Compare() | ast.BoolOp() | ast.UnaryOp(op=ast.Not()):
-                return f"line {each.lineno} returns True or False"
+                return f"line {statement.lineno} returns True or False"
             case ast.Tuple() | ast.List() | ast.Dict() | ast.JoinedStr() | ast.ListComp():
-                return f"line {each.lineno} returns {ast.unparse(each.value)}"
+                return f"line {statement.lineno} returns {ast.unparse(statement.value)}"
     return None
 
 
 def _nothing_returned(callback: Function) -> str:
     """Where a callback returns nothing, in words that begin with its line and a closing parenthesis."""
     returns = _returns(callback)
-    for each in returns:
-        if each.value is None or (isinstance(each.value, ast.Constant) and each.value.value is None):
-            return f"line {callback.lineno}) returns None in line {each.lineno}"
+    for statement in returns:
+        if statement.value is None or (isinstance(statement.value, ast.Constant) and statement.value.value is None):
+            return f"line {callback.lineno}) returns None in line {statement.lineno}"
     if returns:
         return f"line {callback.lineno}) returns nothing where it ends without a return"
     return f"line {callback.lineno}) returns nothing"

@@ -153,14 +153,16 @@ def _is_parameter_callback(function: Function) -> bool:
     """Whether a function returns a SetParametersResult, or looks at the names and values of a list of parameters."""
     if "SetParametersResult(" in ast.unparse(function):
         return True
-    given = [each.arg for each in function.args.args if each.arg not in ("self", "cls")]
+    given = [parameter.arg for parameter in function.args.args if parameter.arg not in ("self", "cls")]
     for node in ast.walk(function):
         match node:
-            case ast.For(target=ast.Name(id=each), iter=ast.Name(id=many)) if given == [many]:
+            case ast.For(target=ast.Name(id=variable), iter=ast.Name(id=many)) if given == [many]:
                 asked = {
                     inner.attr
                     for inner in ast.walk(node)
-                    if isinstance(inner, ast.Attribute) and isinstance(inner.value, ast.Name) and inner.value.id == each
+                    if isinstance(inner, ast.Attribute)
+                    and isinstance(inner.value, ast.Name)
+                    and inner.value.id == variable
                 }
                 return {"name", "value"} <= asked
     return False
@@ -253,10 +255,10 @@ def old_value_used(case: Case) -> Iterator[Found]:
         if checker is not None:
             timers = [file.function(argument(timer, "callback")) for timer in file.timers]
             inside = [function for function in file.reachable_from(checker) if function not in timers]
-            used = {node.attr for each in inside for node in ast.walk(each) if isinstance(node, ast.Attribute)}
-            inside += [each for each in file.functions if each.name in used and _is_property(each)]
+            used = {node.attr for function in inside for node in ast.walk(function) if isinstance(node, ast.Attribute)}
+            inside += [function for function in file.functions if function.name in used and _is_property(function)]
             yield from (found(file, read) for read in readings(file, name) if file.function_around(read) in inside)
 
 
 def _is_property(function: Function) -> bool:
-    return any(last_name(each) in ("property", "cached_property") for each in function.decorator_list)
+    return any(last_name(decorator) in ("property", "cached_property") for decorator in function.decorator_list)

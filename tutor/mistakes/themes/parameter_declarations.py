@@ -90,7 +90,9 @@ def _integer_rates(file: NodeFile) -> Iterator[Found]:
     for call, name, value in declared:
         given = [value] if not isinstance(value, ast.Name) else values_of(value.id, file.tree)
         # True is an int as well, but no number.
-        is_integer = bool(given) and all(isinstance(each, ast.Constant) and type(each.value) is int for each in given)
+        is_integer = bool(given) and all(
+            isinstance(expression, ast.Constant) and type(expression.value) is int for expression in given
+        )
         if is_integer and isinstance(name, ast.Constant) and re.search(_RATE, str(name.value)):
             yield found(file, value if value is not None else call, name=name.value)
 
@@ -134,7 +136,7 @@ def wrong_parameter_type(case: Case) -> Iterator[Found]:
         yield _placed(case, name, given=given.type, wanted=wanted)
     answer = case.about("answer")
     if answer is not None and (refused := _WRONG_TYPE.search(answer.reason)):
-        declared, wanted = (_TYPES.get(each, each.lower()) for each in refused.group("declared", "set"))
+        declared, wanted = (_TYPES.get(kind, kind.lower()) for kind in refused.group("declared", "set"))
         yield _placed(case, name, given=declared, wanted=wanted)
 
 
@@ -244,7 +246,7 @@ def dropped_arguments(case: Case) -> Iterator[Found]:
     """
     for file in case.files:
         for call in file.calls("init", "__init__", "Node", "create_node", *file.node_classes):
-            given = next((each.value for each in call.keywords if each.arg == "use_global_arguments"), None)
+            given = next((keyword.value for keyword in call.keywords if keyword.arg == "use_global_arguments"), None)
             drops = called_name(call) == "init" and _has_no_ros_arguments(file, argument(call, "args"))
             if drops or (given is not None and ast.unparse(given) == "False"):
                 yield found(file, call)
@@ -259,7 +261,7 @@ def _has_no_ros_arguments(file: NodeFile, given: ast.expr | None) -> bool:
     if isinstance(given, ast.Name):
         assigned = values_of(given.id, function or file.tree)
         if function is not None and not assigned:
-            names = [each.arg for each in function.args.args]
+            names = [parameter.arg for parameter in function.args.args]
             defaults = dict(zip(reversed(names), reversed(function.args.defaults), strict=False))
             assigned = [defaults[given.id]] if given.id in defaults else []
     values = [given, *assigned]

@@ -138,8 +138,8 @@ def read_only(case: Case) -> Iterator[Found]:
                 case ast.Assign(targets=[ast.Attribute(attr="read_only")], value=ast.Constant(value=True)):
                     yield found(file, node, what=f"{name} (line {node.lineno})")
                 case ast.arguments(args=given, defaults=defaults) if defaults:
-                    for each, default in zip(given[-len(defaults) :], defaults, strict=True):
-                        if each.arg == "read_only" and isinstance(default, ast.Constant) and default.value is True:
+                    for parameter, default in zip(given[-len(defaults) :], defaults, strict=True):
+                        if parameter.arg == "read_only" and isinstance(default, ast.Constant) and default.value is True:
                             what = f"{name}, by the default of read_only in line {default.lineno},"
                             yield found(file, default, what=what)
     yield Found({"what": name})

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Found, found
-from tutor.mistakes.themes.symptoms import in_words, symptom
+from tutor.mistakes.symptom_entries import in_words, symptom
 from tutor.source.parameters import ON_SET, copied_once, registered_callback
 
 

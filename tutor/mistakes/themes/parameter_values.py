@@ -58,11 +58,11 @@ def overwritten(case: Case) -> Iterator[Found]:
 def _own_sets(file: NodeFile, name: str) -> Iterator[tuple[ast.Call, str]]:
     for call in file.calls("set_parameters", "set_parameters_atomically"):
         function = file.function_around(call)
-        if function is file.setup and any(isinstance(each, ast.If) for each in file.ancestors(call)):
+        if function is file.setup and any(isinstance(ancestor, ast.If) for ancestor in file.ancestors(call)):
             continue  # a fallback for a bad value
         code = ast.unparse(call) if "[" in ast.unparse(call) or function is None else ast.unparse(function)
-        made = [each.id for given in call.args for each in ast.walk(given) if isinstance(each, ast.Name)]
-        code = " ".join([code, *(ast.unparse(value) for each in made for value in values_of(each, file.tree))])
+        made = [node.id for given in call.args for node in ast.walk(given) if isinstance(node, ast.Name)]
+        code = " ".join([code, *(ast.unparse(value) for variable in made for value in values_of(variable, file.tree))])
         if name and name in code:
             yield call, "sets the parameter itself"
 
@@ -105,8 +105,9 @@ def _reassignment(file: NodeFile, name: str) -> ast.Assign | None:
         same = function is file.function_around(kept)
         later = node.lineno > kept.lineno if same else function is not None and function is not file.setup
         guarded = any(
-            isinstance(each, ast.ExceptHandler) or (isinstance(each, ast.If) and target in ast.unparse(each.test))
-            for each in file.ancestors(node)
+            isinstance(ancestor, ast.ExceptHandler)
+            or (isinstance(ancestor, ast.If) and target in ast.unparse(ancestor.test))
+            for ancestor in file.ancestors(node)
         )
         if ast.unparse(node.targets[0]) == target and later and not guarded:  # replacing a bad value is fine
             return node

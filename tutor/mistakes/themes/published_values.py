@@ -10,7 +10,7 @@ from tutor.judge.randomness import Pattern
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.messages import field_values, is_int, narrow_float, unknown_field
+from tutor.mistakes.themes.message_fields import field_values, is_int, narrow_float, unknown_field
 from tutor.source import NodeFile
 
 _DRAWING = ("uniform", "random", "randint", "randrange", "gauss", "normalvariate", "normal", "triangular", "choice")

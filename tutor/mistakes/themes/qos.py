@@ -15,9 +15,9 @@ def _mismatches(case: Case) -> Iterable[str]:
     ours = case.about("ours")
     topic = case.about("topic", ours.topic if ours else None)
     graph = case.trace.graph
-    publishers = [ours] if ours else [each for each in graph.publishers if each.topic == topic]
+    publishers = [ours] if ours else [publisher for publisher in graph.publishers if publisher.topic == topic]
     for publisher in publishers:
-        for subscription in (each for each in graph.subscriptions if each.topic == publisher.topic):
+        for subscription in (endpoint for endpoint in graph.subscriptions if endpoint.topic == publisher.topic):
             for mismatch in incompatible_policies(publisher.qos, subscription.qos):
                 yield f"on {publisher.topic}, {mismatch}"
 

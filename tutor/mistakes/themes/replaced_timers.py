@@ -74,9 +74,7 @@ def _uncancelled(file: NodeFile, *, each_branch: bool) -> Iterator[ast.Call]:
     for registration in file.calls(ON_SET, POST_SET):
         function = file.function(argument(registration, "callback"))
         inside = file.reachable_from(function) if function is not None else []
-        ends = [
-            each for each in file.calls("cancel", "destroy_timer", "destroy") if file.function_around(each) in inside
-        ]
+        ends = [end for end in file.calls("cancel", "destroy_timer", "destroy") if file.function_around(end) in inside]
         for call in file.timers:
             if file.function_around(call) in inside and all(each_branch and _excludes(file, end, call) for end in ends):
                 yield call

@@ -1,4 +1,4 @@
-"""Services: names, types and QoS, and what is wrong with an answer."""
+"""Services: names, types and QoS, and what destroys them."""
 
 from __future__ import annotations
 

@@ -171,7 +171,7 @@ def spin_in_constructor(case: Case) -> Iterator[Found]:
             for method in owner.body if owner.name in file.node_classes else ():
                 if isinstance(method, ast.FunctionDef) and method.name == "__init__":
                     body = method.body if owner.name in bases else method.body[:-1]
-                    yield from (found(file, each) for each in body if _spins_itself(file, each))
+                    yield from (found(file, statement) for statement in body if _spins_itself(file, statement))
 
 
 def _spins_itself(file: NodeFile, statement: ast.stmt) -> bool:
@@ -181,7 +181,7 @@ def _spins_itself(file: NodeFile, statement: ast.stmt) -> bool:
         for call in calls_in(statement)
         if (function := file.function(call.func)) is not None and statement not in function.body
     ]
-    spins = [call for each in (statement, *called) for call in calls_in(each, "spin")]
+    spins = [call for part in (statement, *called) for call in calls_in(part, "spin")]
     return any("self" in map(ast.unparse, call.args) for call in spins)
 
 

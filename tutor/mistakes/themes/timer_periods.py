@@ -1,4 +1,4 @@
-"""A timer's period: its unit, its decimals, and what keeps a timer from being called when it is due."""
+"""A timer's period: its unit, its decimals, and the number that it is made of."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def period_in_another_unit(case: Case) -> Iterator[Found]:
                     yield found(file, period, what=f"a period of {number:g} seconds")
         for node in file.nodes:
             if isinstance(node, ast.Assign) and "timer_period_ns" in map(last_name, node.targets):
-                numbers = [each.value for each in ast.walk(node.value) if isinstance(each, ast.Constant)]
+                numbers = [part.value for part in ast.walk(node.value) if isinstance(part, ast.Constant)]
                 large = [number for number in numbers if isinstance(number, int | float) and number >= 1000]
                 if len(large) == 1 and large[0] != 1e9:
                     yield found(file, node, what=f"nanoseconds, but computed with {large[0]:g} to the second")
@@ -183,7 +183,7 @@ def another_period(case: Case) -> Iterator[Found]:
         for timer in file.timers:
             given = argument(timer, "timer_period_sec")
             values = [given, *(values_of(ast.unparse(given), file.tree) if given is not None else [])]
-            numbers = [each.value for each in values if isinstance(each, ast.Constant)]
+            numbers = [expression.value for expression in values if isinstance(expression, ast.Constant)]
             for period in numbers:
                 if not isinstance(period, int | float) or period <= 0 or abs(period * wanted - 1) < _TOLERANCE:
                     continue

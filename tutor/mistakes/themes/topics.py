@@ -99,8 +99,9 @@ def wrong_topic(case: Case) -> Iterator[Found]:
     endpoints = _endpoints(case)
     if not topic or any(endpoint.topic == topic for endpoint in endpoints):
         return
-    near = [each for each in endpoints if difflib.get_close_matches(each.topic, [topic], cutoff=0.6)]
-    names = {endpoint.topic for endpoint in endpoints if endpoint.type == wanted_type} or {each.topic for each in near}
+    near = [endpoint for endpoint in endpoints if difflib.get_close_matches(endpoint.topic, [topic], cutoff=0.6)]
+    names = {endpoint.topic for endpoint in endpoints if endpoint.type == wanted_type}
+    names = names or {endpoint.topic for endpoint in near}
     if names:
         given = max(sorted(names), key=lambda name: difflib.SequenceMatcher(None, name, topic).ratio())
         at = _place(case, _creator(case), given.rpartition("/")[2])
@@ -150,7 +151,8 @@ def no_publisher(case: Case) -> Iterator[Found]:
     See it: `ros2 node info NODE` lists what it publishes.
     """
     topic = case.about("topic")
-    if topic and case.trace.graph.nodes and not any(each.topic == topic for each in case.trace.graph.publishers):
+    is_published = any(publisher.topic == topic for publisher in case.trace.graph.publishers)
+    if topic and case.trace.graph.nodes and not is_published:
         yield Found({"topic": topic})
 
 
@@ -180,7 +182,7 @@ def subscription_destroyed(case: Case) -> Iterator[Found]:
     See it: `ros2 topic info TOPIC` counts the subscriptions.
     """
     topic = case.about("topic")
-    if topic and not any(each.topic == topic for each in case.trace.graph.subscriptions):
+    if topic and not any(subscription.topic == topic for subscription in case.trace.graph.subscriptions):
         for file in case.files:
             yield from (found(file, call, topic=topic) for call in file.calls("destroy_subscription"))
 
@@ -212,7 +214,8 @@ def no_subscription(case: Case) -> Iterator[Found]:
     See it: `ros2 node info NODE` lists what it subscribes to.
     """
     topic = case.about("topic")
-    if topic and case.trace.graph.nodes and not any(each.topic == topic for each in case.trace.graph.subscriptions):
+    is_subscribed = any(subscription.topic == topic for subscription in case.trace.graph.subscriptions)
+    if topic and case.trace.graph.nodes and not is_subscribed:
         yield Found({"topic": topic})
 
 
@@ -256,8 +259,8 @@ def _publishes_again(file: NodeFile) -> bool:
     """Whether a call of publish() stands in a loop, or in a function that something uses."""
     for call in file.calls("publish"):
         around = file.function_around(call)
-        used = {each.id if isinstance(each, ast.Name) else getattr(each, "attr", "") for each in file.nodes}
-        if any(isinstance(each, ast.While | ast.For | ast.AsyncFor) for each in file.ancestors(call)):
+        used = {node.id if isinstance(node, ast.Name) else getattr(node, "attr", "") for node in file.nodes}
+        if any(isinstance(ancestor, ast.While | ast.For | ast.AsyncFor) for ancestor in file.ancestors(call)):
             return True
         if around is not None and around.name != "main" and around.name in used:
             return True

@@ -1,4 +1,4 @@
-"""The process as such: programs that end by themselves, are killed, or never make a node."""
+"""Programs that end by themselves, are killed, or never make a node."""
 
 from __future__ import annotations
 

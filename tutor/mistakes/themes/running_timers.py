@@ -11,7 +11,7 @@ from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.source import NodeFile, argument, calls_in, values_of
-from tutor.source.callback_groups import are_of_one_node
+from tutor.source.concurrency import are_of_one_node
 
 _TOO_MANY = (Symptom.WRONG_RATE, Symptom.BAD_VALUE_ACCEPTED)
 _TOO_FEW = (Symptom.NO_MESSAGES, Symptom.WRONG_RATE, Symptom.STANDS_STILL, Symptom.CHANGE_IGNORED)
@@ -231,7 +231,7 @@ def self_cancelling(case: Case) -> Iterator[Found]:
             reached = list(file.reachable_from(callback)) if callback is not None and name else []
             if case.symptom is Symptom.STANDS_STILL and name:
                 served = file.callbacks("create_service")
-                reached += [each for each in served if not calls_in(each, "reset", "create_timer")]
+                reached += [function for function in served if not calls_in(function, "reset", "create_timer")]
             for call in file.calls("cancel", "destroy_timer"):
                 owner = [call.func.value] if isinstance(call.func, ast.Attribute) else []
                 function = file.function_around(call)

@@ -1,4 +1,4 @@
-"""Launch arguments, namespaces and remappings: why a node or topic has another name than asked for."""
+"""Launch arguments: why the value of one does not become the name of a node or topic."""
 
 from __future__ import annotations
 
@@ -10,45 +10,11 @@ from difflib import get_close_matches
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.launch_start import at_call, launch_file
-from tutor.ros_model import Graph, TopicEndpoint, is_standard_topic
-from tutor.source.launch_file import Call, LaunchFile
+from tutor.mistakes.launch_case import at_call, endpoints_of, launch_file, nodes_of, reaches_no_node
+from tutor.ros_model import Graph, TopicEndpoint
+from tutor.source.launch_file import LaunchFile
 
 _NAMES = (Symptom.WRONG_NAMES,)
-REMAP = re.compile(r"(?:-r|--remap) (?P<source>[^\s:=]+):=(?P<target>\S+)")
-
-
-def endpoints_of(case: Case) -> list[TopicEndpoint]:
-    """The publishers and subscriptions, without those of ROS itself."""
-    graph = case.trace.graph
-    return [each for each in (*graph.publishers, *graph.subscriptions) if not is_standard_topic(each.topic)]
-
-
-def value_of(case: Case) -> str:
-    """The value that was given for the argument."""
-    return str(case.about("wanted", "")).rpartition("/")[2]
-
-
-def reaches_no_node(case: Case) -> bool:
-    """Whether the argument's value is on the command line of no node (launch itself always has it)."""
-    nodes = [command for command in case.about("command_lines", ()) if case.trace.file not in command]
-    return not any(value_of(case) in command for command in nodes)
-
-
-def remappings_of(case: Case) -> list[tuple[str, str]]:
-    """The remappings of topics on the nodes' command lines, as (source, target)."""
-    rules = [found for command in case.about("command_lines", ()) for found in REMAP.finditer(command)]
-    return [(found["source"], found["target"]) for found in rules if not found["source"].startswith("__")]
-
-
-def last_part(name: str) -> str:
-    """The name without its namespace."""
-    return name.rpartition("/")[2]
-
-
-def nodes_of(file: LaunchFile) -> list[Call]:
-    """The calls that describe a node."""
-    return file.calls("Node", "LifecycleNode")
 
 
 def _uses(argument: str) -> re.Pattern[str]:
@@ -132,7 +98,7 @@ def argument_name(case: Case) -> Iterator[Found]:
     """
     argument, declared = case.about("argument"), case.trace.launch_arguments
     if argument is not None and argument not in declared and reaches_no_node(case):
-        calls = {each.argument(0, "name").strip("'"): each for each in launch_file(case).calls("DeclareLaunchArgument")}
+        calls = {call.argument(0, "name").strip("'"): call for call in launch_file(case).calls("DeclareLaunchArgument")}
         meant = next(iter(get_close_matches(argument, calls)), "")
         known = f"only {', '.join(declared)}" if declared else "no argument"
         yield at_call(case, calls.get(meant), argument=argument, declared=known)
@@ -195,10 +161,10 @@ def wrong_place(case: Case) -> Iterator[Found]:
     argument, file = str(case.about("argument", "")), launch_file(case)
     right, effect = "remappings", "renames no topic"
     wanted = str(case.about("wanted", ""))
-    arrived = any(each.topic == wanted for each in endpoints_of(case))
+    arrived = any(endpoint.topic == wanted for endpoint in endpoints_of(case))
     if case.about("moves") == "namespace":
         right, effect = "namespace", "puts it into no namespace"
-        arrived = any(each.node.startswith(f"/{wanted}/") for each in endpoints_of(case))
+        arrived = any(endpoint.node.startswith(f"/{wanted}/") for endpoint in endpoints_of(case))
     for node in () if arrived else nodes_of(file):
         for keyword in ("parameters", "arguments", "ros_arguments", "name", "namespace", "remappings"):
             given = node.named.get(keyword, "")
@@ -211,7 +177,7 @@ def wrong_place(case: Case) -> Iterator[Found]:
 
 def _is_fixed(code: str) -> bool:
     """Whether nothing in an argument's code is worked out when the file is executed."""
-    return bool(code) and not any(isinstance(each, ast.Name | ast.Call) for each in ast.walk(ast.parse(code)))
+    return bool(code) and not any(isinstance(node, ast.Name | ast.Call) for node in ast.walk(ast.parse(code)))
 
 
 def _short(code: str) -> str:

@@ -10,7 +10,7 @@ from tutor.judge.tracebacks import is_in_folder
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.exceptions import EXPLAINED_WHILE_RUNNING, found_in, from_example, raised_in
 from tutor.mistakes.exceptions.known import Example
-from tutor.mistakes.raised import RaisedException
+from tutor.mistakes.raised_exceptions import RaisedException
 
 _STOPPED = "where Python could not go on"
 

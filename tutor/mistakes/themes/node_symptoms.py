@@ -6,17 +6,10 @@ The criterion's own words come first (`Observation.says` and `.do`); these are f
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 from tutor.judge.symptom import Symptom
-from tutor.mistakes.entry import Case, Evidence, Found, mistake
-
-symptom = partial(mistake, evidence=Evidence.SYMPTOM, says="{says}", do="{do}")
-
-
-def in_words(case: Case, says: str, do: str) -> Iterator[Found]:
-    """The criterion's own words, or else these."""
-    yield Found({"says": case.seen.says or says, "do": case.seen.do or do})
+from tutor.mistakes.entry import Case, Found
+from tutor.mistakes.symptom_entries import in_words, symptom
 
 
 @symptom("ended", explains=[Symptom.ENDED])
@@ -208,4 +201,30 @@ def not_logged(case: Case) -> Iterator[Found]:
         case,
         f"no log message contains {what}",
         "Log it with the node's own logger, at a level that is shown, when it happens.",
+    )
+
+
+@symptom("wrong-log", explains=[Symptom.WRONG_LOG])
+def wrong_log(case: Case) -> Iterator[Found]:
+    """The log says something that is not so.
+
+    What a node logs about its work is computed like anything else, and can be counted too often or too rarely, out of
+    date, or taken from the wrong variable.
+
+    Bad:
+
+        self.get_logger().info(f'{self.opened} doors opened')
+        self.opened += 1
+
+    Good:
+
+        self.opened += 1
+        self.get_logger().info(f'{self.opened} doors opened')
+
+    See it: the log in the app, beside what you know was sent.
+    """
+    return in_words(
+        case,
+        "what the log says is not what happened",
+        "Follow the number from where it changes to where it is logged.",
     )

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.messages import unknown_field
+from tutor.mistakes.themes.message_fields import unknown_field
 from tutor.source import NodeFile, argument
 from tutor.source.parameters import ON_SET, POST_SET, may_refuse, registered_callback
 

@@ -90,7 +90,7 @@ def field_not_set(case: Case) -> Iterator[Found]:
     answer, wanted = case.about("answer"), case.about("wanted")
     response = answer.response if answer is not None else None
     calls = [call.response for call in case.about("calls", ()) if call.service == case.about("service")]
-    empty = all(value == 0 for each in (response, *calls) for value in (each or {}).values())
+    empty = all(value == 0 for fields in (response, *calls) for value in (fields or {}).values())
     if response and wanted not in (None, 0) and empty and not _sets_a_field(case, tuple(response)):
         yield Found({"service": case.about("service", "the service"), "wanted": wanted})
 
@@ -99,7 +99,7 @@ def _sets_a_field(case: Case, fields: tuple[str, ...]) -> bool:
     """Whether the service's callback, as far as it can be found, puts something into one of these fields."""
     file, made = place_of(case, case.about("service", "")) or (case.file, None)
     callback = file.function(argument(made, "callback"))
-    nodes = [node for each in (file.reachable_from(callback) if callback else ()) for node in ast.walk(each)]
+    nodes = [node for function in (file.reachable_from(callback) if callback else ()) for node in ast.walk(function)]
     return any(
         (isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) and node.attr in fields)
         or (isinstance(node, ast.keyword) and node.arg in fields)

@@ -12,7 +12,7 @@ from tutor.judge.tracebacks import Frame, Traceback
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.exceptions import found_in
-from tutor.mistakes.raised import RaisedException
+from tutor.mistakes.raised_exceptions import RaisedException
 from tutor.mistakes.themes.spinning import SPINS
 from tutor.source import NodeFile, calls_in
 
@@ -87,7 +87,7 @@ def _bare_shutdowns(file: NodeFile) -> Iterator[ast.Call]:
             continue
         function = file.function_around(call)
         tries = [node for node in file.nodes if isinstance(node, ast.Try) and file.function_around(node) is function]
-        if any(_is_reached(each, call) for each in tries if calls_in(ast.Module(each.body, []), *SPINS)):
+        if any(_is_reached(block, call) for block in tries if calls_in(ast.Module(block.body, []), *SPINS)):
             yield call
 
 
@@ -96,7 +96,7 @@ def _is_guarded(file: NodeFile, call: ast.Call) -> bool:
     for node in file.ancestors(call):
         if isinstance(node, ast.If) and calls_in(node.test, "ok"):
             return True
-        if isinstance(node, ast.Try) and node.handlers and any(call in ast.walk(each) for each in node.body):
+        if isinstance(node, ast.Try) and node.handlers and any(call in ast.walk(statement) for statement in node.body):
             return True
         if isinstance(node, ast.With) and any(calls_in(item.context_expr, "suppress") for item in node.items):
             return True
@@ -105,12 +105,14 @@ def _is_guarded(file: NodeFile, call: ast.Call) -> bool:
 
 def _is_reached(spinning: ast.Try, call: ast.Call) -> bool:
     """Whether a call is reached after Ctrl+C has ended the spin in this block."""
-    if any(call in ast.walk(each) for each in spinning.finalbody):
+    if any(call in ast.walk(statement) for statement in spinning.finalbody):
         return True
-    catching = [each for each in spinning.handlers if each.type is None or SPIN_ENDINGS[0] in ast.unparse(each.type)]
-    if any(call in ast.walk(each) for each in catching):
+    catching = [
+        handler for handler in spinning.handlers if handler.type is None or SPIN_ENDINGS[0] in ast.unparse(handler.type)
+    ]
+    if any(call in ast.walk(handler) for handler in catching):
         return True
-    leaves = any(isinstance(node, ast.Raise | ast.Return) for each in catching for node in ast.walk(each))
+    leaves = any(isinstance(node, ast.Raise | ast.Return) for handler in catching for node in ast.walk(handler))
     return bool(catching) and not leaves and call.lineno > (spinning.end_lineno or 0)
 
 

@@ -29,19 +29,21 @@ def group_of(call: ast.Call) -> str:
 
 def names_of(file: NodeFile, group: str) -> set[str]:
     """All names of a group: `a = b = MutuallyExclusiveCallbackGroup()` makes one group with two names."""
-    assignments = [[ast.unparse(one) for one in each.targets] for each in file.nodes if isinstance(each, ast.Assign)]
+    assignments = [
+        [ast.unparse(target) for target in node.targets] for node in file.nodes if isinstance(node, ast.Assign)
+    ]
     return {group, *(name for targets in assignments if group in targets for name in targets)}
 
 
 def is_reentrant(file: NodeFile, group: str) -> bool:
     """Whether this is, or is assigned, a ReentrantCallbackGroup."""
-    made = [names_of(file, file.assigned_to(each)) for each in file.calls("ReentrantCallbackGroup")]
+    made = [names_of(file, file.assigned_to(call)) for call in file.calls("ReentrantCallbackGroup")]
     return "ReentrantCallbackGroup" in group or (bool(group) and any(group in names for names in made))
 
 
 def is_exclusive(file: NodeFile, group: str) -> bool:
     """Whether this is the node's default group, or is (assigned) a MutuallyExclusiveCallbackGroup."""
-    made = [names_of(file, file.assigned_to(each)) for each in file.calls("MutuallyExclusiveCallbackGroup")]
+    made = [names_of(file, file.assigned_to(call)) for call in file.calls("MutuallyExclusiveCallbackGroup")]
     return not group or "MutuallyExclusive" in group or any(group in names for names in made)
 
 
@@ -56,7 +58,7 @@ def timers_sharing_group(file: NodeFile, service: ast.Call) -> list[ast.Call]:
 
 def are_of_one_node(file: NodeFile, one: ast.AST, other: ast.AST) -> bool:
     """Whether two syntax nodes are in one class, or in a class and one that inherits from it, or in none."""
-    classes = [owner for each in (one, other) if (owner := file.class_of(each)) is not None]
+    classes = [owner for node in (one, other) if (owner := file.class_of(node)) is not None]
     names = {owner.name for owner in classes}
     return len(names) < 2 or any(ast.unparse(base) in names for owner in classes for base in owner.bases)
 
@@ -86,11 +88,11 @@ def is_set_after(file: NodeFile, group: ast.Call, creator: ast.AST) -> bool:
     init = file.function_around(group)
     if init is None or init.name != "__init__" or creator is init or not isinstance(creator, ast.FunctionDef):
         return False
-    calls = [each for each in ast.walk(init) if isinstance(each, ast.Call)]
-    supers = [each for each in calls if called_name(each) == "__init__" and each.lineno < group.lineno]
+    calls = [node for node in ast.walk(init) if isinstance(node, ast.Call)]
+    supers = [call for call in calls if called_name(call) == "__init__" and call.lineno < group.lineno]
     later = [
-        each
-        for each in file.calls(creator.name)
-        if (each.lineno > group.lineno and each in calls) or not ast.unparse(each.func).startswith("self.")
+        call
+        for call in file.calls(creator.name)
+        if (call.lineno > group.lineno and call in calls) or not ast.unparse(call.func).startswith("self.")
     ]
     return bool(supers) and not later

@@ -9,7 +9,7 @@ from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import CallAnswer
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.python import late_binding
+from tutor.mistakes.themes.python_pitfalls import late_binding
 
 _BIG = 5 * 10**9
 
@@ -39,7 +39,8 @@ def _operations(case: Case) -> dict[str, Operation]:
     operations: dict[str, Any] = case.about("operations", {})
     calls = [call for call in case.about("calls", ()) if call.response is not None]
     numbers = [[*call.request.values(), call.response.get(case.about("field"))] for call in calls]
-    return operations if all(len(each) == 3 and all(type(n) is int for n in each) for each in numbers) else {}
+    are_whole = all(len(values) == 3 and all(type(value) is int for value in values) for values in numbers)
+    return operations if are_whole else {}
 
 
 def _results(case: Case, service: str) -> list[Result]:
@@ -86,7 +87,7 @@ def another_operation(case: Case) -> Iterator[Found]:
     operations = _operations(case)
     alike = [name for name, other in operations.items() if _answers_like(_results(case, service), other)]
     everywhere = [
-        name for name in alike if all(_answers_like(_results(case, each), operations[name]) for each in operations)
+        name for name in alike if all(_answers_like(_results(case, other), operations[name]) for other in operations)
     ]
     if alike and not (everywhere and any(late_binding(case))):
         yield Found({"service": service, "other": alike[0]})

@@ -1,4 +1,4 @@
-"""What keeps a timer from being called when it is due, or from following its parameter."""
+"""Why a timer's rate is not the one asked for: what keeps it from its ticks, or from following its parameter."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def callback_sleeps(case: Case) -> Iterator[Found]:
     """
     wanted_hz = case.about("wanted_hz", 10.0)
     called = {file: file.reachable_from(file.timer_callback) if file.timer_callback else [] for file in case.files}
-    ticks = [each for file in case.files if file.timers for each in called[file]]
+    ticks = [function for file in case.files if file.timers for function in called[file]]
     names = {called_name(call) for function in ticks for call in calls_in(function)}
     for file in case.files:
         helpers = [function for name in names if not file.timers for function in file.functions_named(name)]
@@ -118,7 +118,8 @@ def ticks_dropped(case: Case) -> Iterator[Found]:
                     ) if calls_in(elapsed, *_CLOCKS):
                         yield found(file, node, which="that comes a little early")
                     case ast.If(test=test, body=[ast.Return()], orelse=[]) if case.symptom is Symptom.STANDS_STILL:
-                        if name := next((each for each in _set_by_services(file) if each in ast.unparse(test)), ""):
+                        asked = (attribute for attribute in _set_by_services(file) if attribute in ast.unparse(test))
+                        if name := next(asked, ""):
                             yield found(file, node, which=f"that comes while a call has set {name}")
 
 
@@ -253,7 +254,11 @@ def simulated_time(case: Case) -> Iterator[Found]:
         for name in file.nodes:
             if isinstance(name, ast.Constant) and name.value == "use_sim_time" and _is_set(file, name):
                 yield found(file, name, what=f"line {name.lineno} has")
-    yield from (Found({"what": f"{each.node} has"}) for each in graph.subscriptions if each.topic == "/clock")
+    yield from (
+        Found({"what": f"{subscription.node} has"})
+        for subscription in graph.subscriptions
+        if subscription.topic == "/clock"
+    )
 
 
 def _is_set(file: NodeFile, name: ast.Constant) -> bool:

@@ -13,7 +13,7 @@ from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.themes.callback_groups import in_worker, one_at_a_time, stops
 from tutor.source import NodeFile, argument, calls_in
-from tutor.source.callback_groups import MULTI_THREADED, group_of, is_reentrant, threads_of
+from tutor.source.concurrency import MULTI_THREADED, group_of, is_reentrant, threads_of
 
 _STILL = (Symptom.STANDS_STILL, Symptom.CALLS_WAIT)
 _ONE_THREADED = ("SingleThreadedExecutor", "EventsExecutor")
@@ -173,7 +173,7 @@ def lock_held(case: Case) -> Iterator[Found]:
     for file in case.files if one_at_a_time(case) else ():
         for function in file.callbacks("create_service"):
             for block in ast.walk(function):
-                if isinstance(block, ast.With) and any(calls_in(each, *_WAITS) for each in block.body):
+                if isinstance(block, ast.With) and any(calls_in(statement, *_WAITS) for statement in block.body):
                     lock = ast.unparse(block.items[0].context_expr)
                     if re.search("lock|mutex|semaphore", lock, re.IGNORECASE):
                         yield found(file, block, lock=lock)

@@ -219,7 +219,7 @@ def late_binding(case: Case) -> Iterator[Found]:
             if isinstance(loop, ast.For):
                 variables, inside = {*_assigned(loop)}, [node for part in loop.body for node in ast.walk(part)]
             elif isinstance(loop, ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp):
-                variables = {name for each in loop.generators for name in _assigned(each.target)}
+                variables = {name for generator in loop.generators for name in _assigned(generator.target)}
                 inside = list(ast.walk(loop))
             else:
                 continue

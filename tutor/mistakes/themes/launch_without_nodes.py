@@ -1,4 +1,4 @@
-"""Launch files that have no description, and programs of a launch that end."""
+"""Launches in which no node comes up: no description, nothing in it, or programs that end."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Exit
 from tutor.mistakes.entry import Case, Evidence, Found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.mistakes.themes.launch_start import ERROR, LAUNCH, at_call, launch_file, line_of, output_of, says_itself
+from tutor.mistakes.launch_case import ERROR, LAUNCH, at_call, launch_file, line_of, output_of, says_itself
 from tutor.ros_model import Graph
 
 _NO_FUNCTION = re.compile(r"required function '?generate_launch_description|no attribute '?generate_launch_description")

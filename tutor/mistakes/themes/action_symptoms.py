@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Found
-from tutor.mistakes.themes.symptoms import in_words, symptom
+from tutor.mistakes.symptom_entries import in_words, symptom
 
 
 @symptom("action-missing", explains=[Symptom.ACTION_MISSING])

@@ -1,21 +1,15 @@
-"""Launch files that cannot be loaded, or start nothing: what launch itself says about it."""
+"""What launch itself refuses: arguments, remappings, names, packages and executables."""
 
 from __future__ import annotations
 
 import ast
 import re
 from collections.abc import Iterator
-from typing import Any
 
-from tutor.judge.launch_output import written_by
 from tutor.judge.symptom import Symptom
-from tutor.judge.trace import Exit
 from tutor.mistakes.entry import Case, Evidence, Found, found, found_at, mistake
 from tutor.mistakes.examples import in_run
-from tutor.ros_model import Graph
-from tutor.source.launch_file import Call, LaunchFile
-
-LAUNCH = (Symptom.NOT_LAUNCHED, Symptom.WRONG_NAMES, Symptom.NOT_CONNECTED)
+from tutor.mistakes.launch_case import LAUNCH, at_call, launch_file, line_of, output_of, says_itself
 
 _NO_PACKAGE = re.compile(r"package '(?P<name>[^']*)' not found", re.IGNORECASE)
 _NO_PROGRAM = re.compile(r"executable '(?P<name>[^']*)' not found (?:in|on)[^\n]*")
@@ -28,40 +22,6 @@ _NOT_TEXT = re.compile(
     r"(?:LaunchConfiguration|Substitution)"
 )
 _UNRESOLVED = re.compile(r"<launch\S* object at 0x")
-ERROR = re.compile(r"^\[ERROR\] \[launch\]: |Caught exception in launch[^:]*: ")
-
-
-def launch_file(case: Case) -> LaunchFile:
-    """The launch file that was started."""
-    return LaunchFile(case.file.text)
-
-
-def at_call(case: Case, call: Call | None, **words: object) -> Found:
-    """A mistake at a call of the launch file; without a place if there is none."""
-    if call is None:
-        return Found(dict(words))
-    return Found(dict(words), case.file.name, call.line, case.file.line(call.line))
-
-
-def _own_text(case: Case) -> str:
-    return "\n".join(line.text for line in written_by(case.trace.output, None))
-
-
-def says_itself(pattern: re.Pattern[str], case: Case) -> re.Match[str] | None:
-    """What launch itself says, if the launch is broken."""
-    return pattern.search(_own_text(case)) if case.trace.exit is not None or not case.trace.graph.nodes else None
-
-
-def line_of(found: re.Match[str]) -> str:
-    """The line of launch's output in which this was found."""
-    text, at = found.string, found.start()
-    line = text[text.rfind("\n", 0, at) + 1 :].partition("\n")[0]
-    return ERROR.sub("", ERROR.sub("", line)).strip().removeprefix("- ")[:200]
-
-
-def output_of(*lines: str) -> dict[str, Any]:
-    """The launch of an example that wrote these lines and ended."""
-    return {"output": lines, "graph": Graph(), "exit": Exit(1, None, 0.5)}
 
 
 @mistake(
@@ -172,8 +132,9 @@ def no_default(case: Case) -> Iterator[Found]:
     See it: `ros2 launch FILE --show-args`.
     """
     if said := says_itself(_NO_DEFAULT, case):
-        calls = [c for c in launch_file(case).calls("DeclareLaunchArgument") if said["name"] in c.argument(0, "name")]
-        yield at_call(case, next(iter(calls), None), name=said["name"])
+        declarations = launch_file(case).calls("DeclareLaunchArgument")
+        named = [call for call in declarations if said["name"] in call.argument(0, "name")]
+        yield at_call(case, next(iter(named), None), name=said["name"])
 
 
 @mistake(

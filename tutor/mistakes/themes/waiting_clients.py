@@ -55,10 +55,10 @@ def no_spin_for_answer(case: Case) -> Iterator[Found]:
     Lesson: i1.3, the client.
     """
     for file in case.files if in_silence(case) else ():
-        spins = any(last_name(node) in _SPINS for each in {file, case.file} for node in each.nodes)
+        spins = any(last_name(node) in _SPINS for source in {file, case.file} for node in source.nodes)
         if not spins and requests(file):
             awaits = [node for node in file.nodes if isinstance(node, ast.Await)]
-            awaited = [each for each in awaits if any(call in ast.walk(each) for call in requests(file))]
+            awaited = [node for node in awaits if any(call in ast.walk(node) for call in requests(file))]
             waits = [*awaited, *file.calls("done"), *(call for call in requests(file) if called_name(call) == "call")]
             yield from (found(file, call) for call in waits)
 

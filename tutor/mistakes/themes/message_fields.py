@@ -151,7 +151,7 @@ def _narrow(value: ast.expr) -> str | None:
             return last_name(function)
         case ast.Call(keywords=keywords):
             given = [keyword.value for keyword in keywords if keyword.arg == "dtype"]
-            names = [str(each.value) if isinstance(each, ast.Constant) else last_name(each) for each in given]
+            names = [str(dtype.value) if isinstance(dtype, ast.Constant) else last_name(dtype) for dtype in given]
             return next((name for name in names if name in _NARROW), None)
         case ast.BinOp(left=left, right=right):
             return _narrow(left) or _narrow(right)

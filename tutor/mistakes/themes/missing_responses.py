@@ -68,15 +68,19 @@ def response_not_returned(case: Case) -> Iterator[Found]:
 def _candidates(file: NodeFile) -> list[Function]:
     """The callbacks of services, then what looks like one, then the functions inside decorators."""
     given = [file.function(argument(call, "callback")) for call in file.calls("create_service")]
-    alike = [each for each in file.functions if re.match(r"re?s", _response(each)) or ".Response" in ast.unparse(each)]
-    inner = [each for each in file.functions if file.function_around(each) is not None]
-    wrappers = [each for each in inner if each.args.vararg is not None]
-    return [each for each in dict.fromkeys([*given, *alike, *wrappers]) if each is not None]
+    alike = [
+        function
+        for function in file.functions
+        if re.match(r"re?s", _response(function)) or ".Response" in ast.unparse(function)
+    ]
+    inner = [function for function in file.functions if file.function_around(function) is not None]
+    wrappers = [function for function in inner if function.args.vararg is not None]
+    return [candidate for candidate in dict.fromkeys([*given, *alike, *wrappers]) if candidate is not None]
 
 
 def _response(function: Function) -> str:
     """The name of the response: the second parameter after self; empty if there is none."""
-    names = [each.arg for each in function.args.args if each.arg not in ("self", "cls")]
+    names = [parameter.arg for parameter in function.args.args if parameter.arg not in ("self", "cls")]
     return names[1] if len(names) > 1 else ""
 
 
@@ -86,7 +90,7 @@ def _without_response(file: NodeFile, function: Function) -> Iterator[Found]:
     name = response or "what the function that it wraps returned"
     end = f"End {function.name} with a return of {name}."
     returns = [node for node in ast.walk(function) if isinstance(node, ast.Return)]
-    for node in sorted(returns, key=lambda each: each.lineno):
+    for node in sorted(returns, key=lambda statement: statement.lineno):
         if file.function_around(node) is not function:
             continue
         step = f"Return {name} in line {node.lineno}."
@@ -132,7 +136,11 @@ def _always_ends(block: list[ast.stmt]) -> bool:
             return (bool(final) and _always_ends(final)) or all(_always_ends(path) for path in paths)
         case ast.Match(cases=cases):
             last = cases[-1].pattern
-            return isinstance(last, ast.MatchAs) and last.pattern is None and all(_always_ends(c.body) for c in cases)
+            return (
+                isinstance(last, ast.MatchAs)
+                and last.pattern is None
+                and all(_always_ends(branch.body) for branch in cases)
+            )
         case ast.While(test=ast.Constant(value=True)):
             return True
     return False

@@ -20,7 +20,7 @@ def find_print(program: Program, text: str) -> Call | None:
     """The call of print() or of a standard stream's write() that wrote this line; None if unknown."""
     calls = [(file, call) for file in program.files for call in file.calls("print", "write") if _is_print(call)]
     sized = [(size, call) for call in calls if (size := _matching_characters(call, text))]
-    return max(sized, key=lambda each: each[0])[1] if sized else None
+    return max(sized, key=lambda pair: pair[0])[1] if sized else None
 
 
 def _is_print(call: ast.Call) -> bool:
@@ -59,7 +59,7 @@ def _template(code: ast.expr, function: Function | None) -> str:
         case ast.Constant(value=str(text)):
             return _PLACEHOLDER.sub(_VALUE, text)
         case ast.JoinedStr(values=values):
-            return "".join(_template(each, function) for each in values)
+            return "".join(_template(value, function) for value in values)
         case ast.BinOp(left=left, op=ast.Add(), right=right):
             return _template(left, function) + _template(right, function)
         case ast.BinOp(left=left, op=ast.Mod()):

@@ -1,108 +1,19 @@
-"""Attributes that are set where nobody reads them, and comparisons that never hold."""
+"""Comparisons that never hold."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 
-from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Found, found, mistake
+from tutor.mistakes.themes.unread_attributes import DECISIONS
 
-_DECISIONS = (
-    Symptom.CHANGE_IGNORED,
-    Symptom.WRONG_RATE,
-    Symptom.BAD_VALUE_ACCEPTED,
-    Symptom.REFUSED,
-    Symptom.NOT_LOGGED,
-    Symptom.WRONG_VALUES,
-    Symptom.WRONG_LOG,
-    Symptom.WRONG_ANSWER,
-)
 _TRUTHS = {"true", "1", "on", "false", "0", "off"}
 
 
 @mistake(
-    "wrong-attribute-set",
-    explains=_DECISIONS,
-    says="{line}: setattr does not follow dots, so {attribute} stays as it is: {code}",
-    do="Give setattr the object that has the attribute, and the attribute's own name.",
-)
-def dotted_attribute(case: Case) -> Iterator[Found]:
-    """A name with a dot is given to setattr().
-
-    setattr(node, 'config.volume', 7) makes an attribute whose name contains a dot; it does not go into node.config.
-
-    Bad:
-
-        setattr(self, 'config.' + name, value)
-
-    Good:
-
-        setattr(self.config, name, value)
-
-    See it: log self.config afterwards.
-    """
-    for file in case.files:
-        for call in file.calls("setattr"):
-            match call.args:
-                case [_, ast.BinOp(left=ast.Constant(value=str() as path), op=ast.Add()), _] if path.endswith("."):
-                    pass
-                case [_, ast.Constant(value=str() as path), _]:
-                    pass
-                case [_, ast.JoinedStr(values=[ast.Constant(value=str() as path), ast.FormattedValue()]), _] if (
-                    path.endswith(".")
-                ):
-                    pass
-                case _:
-                    continue
-            if "." in path:
-                yield found(file, call, attribute=path.rpartition(".")[0])
-
-
-@mistake(
-    "class-attribute-set",
-    explains=_DECISIONS,
-    says="{line} sets an attribute of the class, but the node's own attribute of that name hides it: {code}",
-    do="Set the attribute of the node itself, self.",
-)
-def class_attribute(case: Case) -> Iterator[Found]:
-    """The class gets the new value, but the node keeps the old one.
-
-    An object's attribute hides that of its class. Once __init__ has set self.volume, a later Bell.volume = 7 changes
-    nothing that the object reads.
-
-    Bad:
-
-        class Bell(Node):
-            def __init__(self):
-                self.volume = 5
-
-            def follow(self, parameters):
-                Bell.volume = parameters[0].value
-
-    Good:
-
-        class Bell(Node):
-            def __init__(self):
-                self.volume = 5
-
-            def follow(self, parameters):
-                self.volume = parameters[0].value
-
-    See it: log self.volume afterwards.
-    """
-    for file in case.files:
-        stored = [node for node in file.nodes if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store)]
-        own = {ast.unparse(node) for node in stored}
-        for node in stored:
-            of_class = ast.unparse(node.value) in file.node_classes and file.node_method(node) is not None
-            if of_class and f"{file.node}.{node.attr}" in own:
-                yield found(file, node)
-
-
-@mistake(
     "types-never-equal",
-    explains=_DECISIONS,
+    explains=DECISIONS,
     says="{line} compares a Parameter.Type with a number from ParameterType, and the two are never equal: {code}",
     do="Compare it with the Parameter.Type of that name, or compare its .value.",
 )
@@ -127,14 +38,14 @@ def compared_types(case: Case) -> Iterator[Found]:
     for file in case.files:
         for node in file.nodes:
             if isinstance(node, ast.Compare) and isinstance(node.left, ast.Attribute):
-                constants = [ast.unparse(each) for each in node.comparators]
-                if node.left.attr in ("type_", "type") and any("PARAMETER_" in each for each in constants):
+                constants = [ast.unparse(value) for value in node.comparators]
+                if node.left.attr in ("type_", "type") and any("PARAMETER_" in constant for constant in constants):
                     yield found(file, node)
 
 
 @mistake(
     "compared-with-a-text",
-    explains=_DECISIONS,
+    explains=DECISIONS,
     says="{line} compares a boolean parameter with the text {text}, which it never equals: {code}",
     do="Use the value itself as the condition.",
 )
@@ -179,7 +90,7 @@ def _is_value(expression: ast.expr) -> bool:
 
 @mistake(
     "never-the-same-object",
-    explains=_DECISIONS,
+    explains=DECISIONS,
     slip=True,
     says="{line} asks with `is` whether two values are the same object, which equal values need not be: {code}",
     do="Compare them with == there (or != in place of `is not`).",

@@ -13,7 +13,7 @@ from tutor.judge.trace import Level, OutputLine
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.source import SourceFile, calls_in
-from tutor.source.printing import find_print, find_python_logging
+from tutor.source.print_calls import find_print, find_python_logging
 
 _LOGS = (Symptom.NOT_LOGGED, Symptom.STANDS_STILL)
 _SHOWN = ("info", "warning", "warn", "error", "fatal")
@@ -41,7 +41,7 @@ def _recognise(case: Case) -> Callable[[str], object] | None:
 
 def _printed(output: Sequence[OutputLine]) -> list[str]:
     """The lines that the learner's code printed, without log messages, exceptions, and what ROS or Python writes."""
-    raised = {each.raised for each in tracebacks.find_tracebacks(output)}
+    raised = {traceback.raised for traceback in tracebacks.find_tracebacks(output)}
     return [
         text
         for text in tracebacks.lines_without_tracebacks(output)
@@ -135,8 +135,8 @@ def _logged_elsewhere(case: Case) -> list[re.Match[str]]:
         return []
     seen = tuple(log.text for log in case.trace.logs)
     matches = [matched for line in case.trace.output if (matched := _LOG_LINE.match(line.text)) is not None]
-    own = [each for each in matches if is_it(each.string) and not _ROS_LOGGER.match(each["logger"])]
-    return [each for each in own if not each.string.endswith(seen)] if seen else own
+    own = [line for line in matches if is_it(line.string) and not _ROS_LOGGER.match(line["logger"])]
+    return [line for line in own if not line.string.endswith(seen)] if seen else own
 
 
 def _is_own(case: Case, logger: str) -> bool:
@@ -168,8 +168,8 @@ def rosout_off(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic echo /rosout` shows nothing from the node.
     """
-    for each in _logged_elsewhere(case):
-        if not case.trace.logs and _is_own(case, each["logger"]):
+    for line in _logged_elsewhere(case):
+        if not case.trace.logs and _is_own(case, line["logger"]):
             yield Found({"what": case.about("what", "it")})
 
 
@@ -200,9 +200,9 @@ def other_logger(case: Case) -> Iterator[Found]:
 
     See it: the message is in the terminal, but not in `ros2 topic echo /rosout`.
     """
-    for each in _logged_elsewhere(case) if case.trace.graph.nodes else ():
-        if case.trace.logs or not _is_own(case, each["logger"]):
-            yield Found({"what": case.about("what", "it"), "logger": each["logger"] or "the root logger"})
+    for line in _logged_elsewhere(case) if case.trace.graph.nodes else ():
+        if case.trace.logs or not _is_own(case, line["logger"]):
+            yield Found({"what": case.about("what", "it"), "logger": line["logger"] or "the root logger"})
 
 
 @mistake(
