@@ -144,6 +144,19 @@ def lint_submissions(root: Path, course: Course, expectations: Mapping[str, str]
     ]
 
 
+def test_a_mistake_that_has_no_page_is_a_problem(course: Course, tmp_path: Path) -> None:
+    wrong = tmp_path / "x1_1/wrong/moves"
+    wrong.mkdir(parents=True)
+    (wrong / "mover.py").touch()
+    (wrong / "expect.yaml").write_text("says: it stands\nfails: [moves]\nmistake: {moves: [never-spun, never-spum]}\n")
+    found = [
+        problem for problem in find_bad_submissions(tmp_path, course, course.lessons, ["never-spun"]) if problem.line
+    ]
+    assert [(problem.text, problem.hint, problem.line) for problem in found] == [
+        ("mistake: there is no 'never-spum'", "did you mean never-spun?", 3)
+    ]
+
+
 def test_correct_submissions_have_no_problems(course: Course, tmp_path: Path) -> None:
     root = tmp_path / "submissions"
     root.mkdir()

@@ -77,13 +77,25 @@ def _signature(found: Any) -> str:
         for field in sorted(fields(found), key=lambda field: field.kw_only is True):
             if field.name in shared:
                 continue
-            default = "" if field.default is MISSING else f" = {field.default!r}"
+            default = "" if field.default is MISSING else f" = {_shown(field.default)}"
             if field.default_factory is not MISSING:
                 default = f" = {field.default_factory()!r}"
             arguments.append(f"{field.name}: {field.type}{default}")
         return f"({', '.join(arguments)})"
-    parameters = inspect.signature(found).parameters.values()
-    return f"({', '.join(str(parameter).replace(chr(39), '') for parameter in parameters if parameter.name != 'self')})"
+    parameters = [parameter for parameter in inspect.signature(found).parameters.values() if parameter.name != "self"]
+    return f"({', '.join(_parameter(parameter) for parameter in parameters)})"
+
+
+def _parameter(parameter: inspect.Parameter) -> str:
+    """A parameter as it is written: its annotation is a string already, its default is not."""
+    bare = str(parameter.replace(default=inspect.Parameter.empty)).replace("'", "")
+    return bare if parameter.default is inspect.Parameter.empty else f"{bare} = {_shown(parameter.default)}"
+
+
+def _shown(default: object) -> str:
+    """A default as an author would write it: a constant that is offered by its name, anything else as it is."""
+    names = (name for name in exercise.__all__ if getattr(exercise, name) is default)
+    return next(names, repr(default))
 
 
 def _public(kind: type) -> Iterator[tuple[str, Callable[..., Any]]]:

@@ -33,6 +33,7 @@ from tutor.exercise import (
     EndsCleanly,
     InRange,
     NamesBadValue,
+    Node,
     Parameter,
     Program,
     Publishes,
@@ -45,6 +46,7 @@ from tutor.exercise import (
     SurvivesBadCall,
     Topic,
     check,
+    criterion,
 )
 from tutor.exercise.bad_values import BadValues
 from tutor.exercise.defaults import DeclaringRun
@@ -223,3 +225,26 @@ def test_defaults_are_those_of_the_nouns() -> None:
     assert_passed(judge_of(made, "defaults")(DeclaringRun(RUNNING, right, ending(0))))
     missing = DeclaringRun(RUNNING, right[:1], ending(0))
     assert_failed(judge_of(made, "defaults")(missing), "parameter not declared", "no room", check=made)
+
+
+def test_one_value_where_several_are_to_be_given_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"defaults: parameters takes several values, so put one into parentheses"):
+        check("x1.1", Program("a.py"), Defaults("defaults", Parameter("rate", 2.0)))  # type: ignore[arg-type]
+
+
+def test_a_function_that_awaits_nothing_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"line \d+ awaits nothing: write `await node.rejects\(...\)`"):
+
+        @criterion("limits", "bad values are rejected")
+        async def limits(node: Node) -> None:
+            node.rejects(Parameter("rate", 2.0), -1.0)  # type: ignore[unused-coroutine]
+
+
+def test_a_function_may_keep_what_it_awaits_later() -> None:
+    @criterion("limits", "bad values are rejected")
+    async def limits(node: Node) -> None:
+        node.expect(1, 1, do="Nothing.")
+        later = node.rejects(Parameter("rate", 2.0), -1.0)
+        await later
+
+    assert limits.id == "limits"

@@ -102,6 +102,8 @@ def _find_static_problems(
     from tutor.content.lint_checks import find_disagreements, find_stray_files
     from tutor.content.lint_commands import find_bad_commands
     from tutor.content.lint_submissions import find_bad_submissions
+    from tutor.engine.loading import load_catalogues
+    from tutor.mistakes.pages import every_mistake
     from tutor.workspace import TEMPLATE
 
     template_files = {path.name for path in TEMPLATE.rglob("*.py")}
@@ -111,8 +113,9 @@ def _find_static_problems(
         if lesson.id in checks:
             yield from find_disagreements(lesson, checks[lesson.id])
         yield from find_bad_commands(lesson, template_files, partial(_usage_error, arguments.parser))
+    known = every_mistake(load_catalogues(course))
     for folder, judged in submissions.items():
-        yield from find_bad_submissions(folder, course, judged)
+        yield from find_bad_submissions(folder, course, judged, known)
 
 
 def _find_submissions(arguments: argparse.Namespace, lessons: Sequence[Lesson]) -> dict[Path, list[Lesson]]:

@@ -41,6 +41,8 @@ def run(arguments: argparse.Namespace) -> int:
     if len(found) > 1:
         _print_list([(entry.id, entry.summary) for entry in found])
         return PASSED
+    if entry is None and "-" in arguments.words[0]:
+        terminal.say(f"there is no mistake {wanted!r}; {found[0].id} is the one that has these words")
     heading, _, body = pages.text_of(found[0]).partition("\n")
     columns = terminal.width(sys.stdout)
     terminal.out(f"{terminal.style(heading, '1', sys.stdout)}\n{terminal.wrap(body, columns)}")

@@ -30,7 +30,7 @@ class Deviation:
 
 def find_deviations(expected: Expected, result: ExerciseResult) -> Iterator[Deviation]:
     """Yield each deviation from what is expected (see tests/submissions/README.md)."""
-    some_failed = any(c.verdict.status is Status.FAILED for c in result.criteria)
+    some_failed = any(criterion.verdict.status in (Status.FAILED, Status.ERROR) for criterion in result.criteria)
     told = {criterion.id: criterion.verdict for criterion in result.criteria}
     for criterion in result.criteria:
         root = told.get(criterion.verdict.same_as)  # a cause is told once
@@ -45,7 +45,7 @@ def find_deviations(expected: Expected, result: ExerciseResult) -> Iterator[Devi
 
 def _of_criterion(criterion: CriterionResult, expected: Expected, some_failed: bool) -> Iterator[Deviation]:
     name, status, cause = criterion.id, criterion.verdict.status, criterion.verdict.cause
-    described = f"{name} {status.value}: {criterion.verdict.observed} | {cause}"
+    described = f"{name} {status.value}: {' | '.join(filter(None, (criterion.verdict.observed, cause)))}"
     must_fail = name in (*expected.fails, *expected.bonus_failed)
     if status is Status.ERROR and expected.exit == 3:
         return
@@ -65,7 +65,7 @@ def _of_criterion(criterion: CriterionResult, expected: Expected, some_failed: b
 
 
 def _is_acceptable(status: Status, some_failed: bool) -> bool:
-    """Return whether this status is fine for a criterion that no key names: skipping needs a failed criterion."""
+    """Return whether this status is fine for a criterion that no key names: skipping needs one that was not met."""
     return status is Status.PASSED or (status is Status.SKIPPED and some_failed)
 
 

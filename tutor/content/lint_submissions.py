@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from difflib import get_close_matches
 from pathlib import Path
 
 from tutor.content.model import Course, Lesson
@@ -16,8 +17,13 @@ _EXCLUSIVE = ("fails", "bonus_failed")
 """Keys whose criteria may be named in no other key: they fail, so no other expectation can hold for them."""
 
 
-def find_bad_submissions(root: Path, course: Course, lessons: Sequence[Lesson]) -> Iterator[Problem]:
-    """Find wrong and missing submissions to `lessons` below the folder `root`."""
+def find_bad_submissions(
+    root: Path, course: Course, lessons: Sequence[Lesson], mistakes: Collection[str] = ()
+) -> Iterator[Problem]:
+    """Find wrong and missing submissions to `lessons` below the folder `root`.
+
+    `mistakes`: the ids of those that have a page; if none are given, no name is looked up.
+    """
     folders = {lesson.folder.name: lesson for lesson in course.lessons}
     for path in _list_entries(root):
         if path.name not in folders and path.name != "README.md":
@@ -30,6 +36,7 @@ def find_bad_submissions(root: Path, course: Course, lessons: Sequence[Lesson]) 
             else:
                 cases.append(found)
                 yield from _lint_case(found, lesson)
+                yield from _find_unknown_mistakes(found, mistakes) if mistakes else ()
         yield from _find_uncovered(root / lesson.folder.name, lesson, cases)
 
 
@@ -77,6 +84,14 @@ def _lint_case(case: Case, lesson: Lesson) -> Iterator[Problem]:
                 yield Problem(source, text, hint, line=find_word(source, name))
     yield from _find_contradictions(source, expected.named, bonus)
     yield from (Problem(source, text, hint) for text, hint in _lint_kind(case, bonus))
+
+
+def _find_unknown_mistakes(case: Case, known: Collection[str]) -> Iterator[Problem]:
+    for name in dict.fromkeys(name for names in case.expected.mistakes.values() for name in names):
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            hint = f"did you mean {near[0]}?" if near else "`ros-tutor explain` lists all"
+            yield Problem(case.source, f"mistake: there is no {name!r}", hint, line=find_word(case.source, name))
 
 
 def _find_contradictions(

@@ -125,6 +125,14 @@ def _parameters_in(value: object) -> Iterator[Parameter]:
             yield from _parameters_in(item)
 
 
+def _reject_single_values(form: Form) -> None:
+    """Raise ValueError if one value stands where several are to be given: only a running check would notice."""
+    for argument in fields(form):
+        value = getattr(form, argument.name)
+        if str(argument.type).startswith("tuple[") and not isinstance(value, tuple | list):
+            raise ValueError(f"{form.id}: {argument.name} takes several values, so put one into parentheses: (…,)")
+
+
 def parameter_node(exercise: Exercise) -> ParameterNode:
     """The node with all parameters that the exercise names.
 
@@ -150,8 +158,11 @@ def check(
     `exercise`: its id, such as "i1.1". `started`: the learner's program or launch file. `expected_s`: the longest wait,
     in seconds, that a criterion needs with the solution, and `expected_reason` what it waits for. `mistakes`: the
     module with a catalogue of mistakes that only this exercise can know. Raises ValueError if an id is repeated, a
-    criterion comes before one that it is `after`, or it needs a program and a launch file is given, or the reverse.
+    criterion comes before one that it is `after`, it needs a program and a launch file is given, or the reverse, or an
+    argument that takes several values is given one that is not in a tuple.
     """
+    for form in criteria:
+        _reject_single_values(form)
     context = Exercise(started, criteria)
     judged = tuple(form.criterion(context) for form in criteria)
     return Check(exercise, judged, expected_s, expected_reason, mistakes)

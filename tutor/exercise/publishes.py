@@ -230,7 +230,8 @@ class FieldEquals(WatchingMessages):
 
     `wanted`: the value, or a function that says whether a value is right; then `what` says in words what it must be.
     A float is compared as nearly as 32 bits hold it. `every`: judge every message of the time `within_s`, in seconds
-    from the first one on; otherwise, one within that time is enough. `says` and `do`: what the learner is told.
+    from the first one on; otherwise, one within that time is enough. A single message can be every one: that they go on
+    is for `Publishes` or `AtLeast`. `says` and `do`: what the learner is told.
 
         FieldEquals("even", COUNT, lambda count: count % 2 == 0, what="even", every=True)
 

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Mapping
+import ast
+import inspect
+import textwrap
+from collections.abc import Callable, Coroutine, Mapping
 from contextlib import AsyncExitStack
 from dataclasses import dataclass, replace
+from typing import Any
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Parameter, Program, Topic, Value
@@ -14,7 +18,7 @@ from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.verdict import Verdict, passed
 
-Script = Callable[[Node], Awaitable[None]]
+Script = Callable[[Node], Coroutine[Any, Any, None]]
 
 
 @dataclass(frozen=True)
@@ -86,11 +90,29 @@ def criterion(
             shown = await node.next(COUNT, after=answer)
             node.expect(shown.data, 1, do="Publish what the callback has counted.")
 
-    A missing service, no answer, a wrong type and a slow machine are the node's business. On a busy machine, the whole
-    function is run once more before it may fail the criterion.
+    A missing service, no answer, a wrong type and a slow machine are the node's business. Each function has a start of
+    the program to itself. On a busy machine, the whole function is run once more, on another start, before it may fail
+    the criterion. Raises ValueError if an `await` was forgotten.
     """
 
     def make(script: Script) -> Scripted:
+        reject_forgotten_awaits(script)
         return Scripted(id, expected, script, parameters or {}, watch, after=after, bonus=bonus)
 
     return make
+
+
+def reject_forgotten_awaits(script: Script) -> None:
+    """Raise ValueError if the function calls something of the node's that is to be awaited, and does not.
+
+    Python would only warn, and whatever it should have judged would pass.
+    """
+    tree = ast.parse(textwrap.dedent(inspect.getsource(script)))
+    first_line = script.__code__.co_firstlineno
+    for statement in ast.walk(tree):
+        if not isinstance(statement, ast.Expr) or not isinstance(statement.value, ast.Call):
+            continue
+        called = statement.value.func
+        if isinstance(called, ast.Attribute) and inspect.iscoroutinefunction(getattr(Node, called.attr, None)):
+            line = first_line + statement.lineno - 1
+            raise ValueError(f"line {line} awaits nothing: write `await {ast.unparse(called)}(...)`")
