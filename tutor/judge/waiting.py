@@ -130,7 +130,7 @@ async def wait_for_publisher(run: Run, topic: str, type_name: str) -> bool:
 
 
 def _publisher_patience_s(run: Run, topic: str, type_name: str) -> float:
-    return patience_s(((each.topic, each.type) for each in run.graph.publishers), topic, type_name)
+    return patience_s(((publisher.topic, publisher.type) for publisher in run.graph.publishers), topic, type_name)
 
 
 async def find_stuck_frames(bench: Bench, file: str) -> tuple[Frame, ...]:
