@@ -159,6 +159,6 @@ class SetAtomically:
             since = answers[-1].answered_at
             rate, messages = await measure_steady_rate(run, node.topic.name, base_hz, since=since)
             samples = run.samples_on(node.topic.name)
-            shown = next((each for each in samples if any(effect.shows(t, each) for t in self.tokens[:2])), None)
+            shown = next((sample for sample in samples if any(effect.shows(t, sample) for t in self.tokens[:2])), None)
             seen = AtomicRequests(run.trace(), base_hz, tuple(answers), before, tuple(values), shown, rate, messages)
             return replace(seen, set_good=await set_values(run, name, whole, (other, self.good), atomic=True))

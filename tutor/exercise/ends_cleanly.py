@@ -67,7 +67,7 @@ class EndsCleanly(Form):
             shown_by, start = self.shown_by or [*others, self][0], self.start or _own_start(exercise.started)
             return self.judged(lambda seen: judge_end(seen.trace, seen.ending, shown_by=shown_by.id), start)
         start = started[0][1]
-        sharing = [form for form, each in started if each == start]
+        sharing = [form for form, other in started if other == start]
         following = [*others[others.index(sharing[-1]) + 1 :], sharing[-1]][0]
         judges = [(form, form.criterion(exercise).judge) for form in sharing]
 

@@ -61,7 +61,9 @@ class Form(ABC):
     @property
     def used_parameters(self) -> tuple[Parameter, ...]:
         """The parameters that this criterion names."""
-        return tuple(_parameters_in([getattr(self, each.name) for each in fields(self) if each.name != "after"]))
+        return tuple(
+            _parameters_in([getattr(self, attribute.name) for attribute in fields(self) if attribute.name != "after"])
+        )
 
     @abstractmethod
     def criterion(self, exercise: Exercise) -> Criterion:

@@ -224,7 +224,7 @@ def _with_best_graph(trace: Trace, met: Graph, find_wanted: Callable[[Graph], li
 
 def _listen(run: Run, topics: Iterable[str]) -> frozenset[str]:
     """Subscribe to these topics, and return those whose message type is not installed."""
-    types = {each.topic: each.type for each in run.graph.publishers}
+    types = {publisher.topic: publisher.type for publisher in run.graph.publishers}
     return frozenset(topic for topic in topics if not run.watch(topic, types[topic]))
 
 

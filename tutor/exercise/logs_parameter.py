@@ -186,7 +186,7 @@ class LogsParameter(Form):
             return self._not_declared(traces[0])
         names = {parameter.name for parameter in found.declared or ()}
         declared = [probe for probe in found.probes if probe.name in names]
-        probe = next((each for each in found.probes if each.is_printed), (declared or found.probes)[0])
+        probe = next((probe for probe in found.probes if probe.is_printed), (declared or found.probes)[0])
         return Symptom.NOT_LOGGED.seen(
             probe.trace,
             parameter=probe.name,

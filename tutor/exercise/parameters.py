@@ -46,7 +46,7 @@ class ParameterNode:
     @property
     def rate(self) -> Parameter | None:
         """The parameter that sets the rate, if there is one."""
-        return next((each for each in self.parameters if isinstance(each.effect, SetsRate)), None)
+        return next((parameter for parameter in self.parameters if isinstance(parameter.effect, SetsRate)), None)
 
     @property
     def default_hz(self) -> float:

@@ -107,7 +107,9 @@ class PublishingStart:
                 elif not stuck.is_for_ever():
                     declared = await run.parameters(ANSWER_S)
                 trace = run.trace()
-                sent = tuple(each for each in trace.samples_on(topic.name) if each.source_time >= stuck.restarted_at)
+                sent = tuple(
+                    sample for sample in trace.samples_on(topic.name) if sample.source_time >= stuck.restarted_at
+                )
                 trace = replace(trace, samples={**trace.samples, topic.name: sent})
                 bench.report_progress(0.8, "pressing Ctrl+C")
                 ended = await run.interrupt()

@@ -91,7 +91,7 @@ async def measure_new_rate(
     if new_hz > old_hz:
         measurable = max(settled, answer.answered_at + window) + IN_FLIGHT_S
         await run.until(lambda: run.now() >= measurable, window + 1 / old_hz + 1, idle_s=IDLE_S)
-        samples = [each for each in run.samples_on(node.topic.name) if each.source_time >= answer.answered_at]
+        samples = [sample for sample in run.samples_on(node.topic.name) if sample.source_time >= answer.answered_at]
         rate = measure(samples)
         if rate is not None and rate.agrees_with(new_hz) and rate.covers(window):
             return rate, len(samples)

@@ -119,7 +119,7 @@ class ProbeRates:
         return self._probe(self.suggested, "Hz", FAST_HZ)
 
     async def __call__(self, bench: Bench) -> RateProbes:
-        under_way = {each: asyncio.ensure_future(self._run(bench, each)) for each in self._suggested()}
+        under_way = {probe: asyncio.ensure_future(self._run(bench, probe)) for probe in self._suggested()}
         try:
             declared = await bench.facts(AskForParameters(self.program, self.topic))
             if declared is None or any(p.name == self.suggested for p in declared):
@@ -155,7 +155,9 @@ class ProbeRates:
             def decided() -> bool:
                 if any(len(group) == wanted[group[0].key] for group in find_agreeing_groups(tried)):
                     return True
-                refuted = [each for each in group_probes(tried) if len(each) > 1 and count_agreeing(each) < len(each)]
+                refuted = [
+                    group for group in group_probes(tried) if len(group) > 1 and count_agreeing(group) < len(group)
+                ]
                 return wanted.keys() <= {group[0].key for group in refuted}
 
             pending = {
@@ -176,7 +178,7 @@ class ProbeRates:
                 return RateProbes(declared, tuple(tried))
             # One that sets the rate to the reciprocal of what its name says leaves no room for another that sets it
             # right.
-            inverted = any(are_inverted(each, min_measured=2) for each in group_probes(tried))
+            inverted = any(are_inverted(probes, min_measured=2) for probes in group_probes(tried))
             if group is with_known_unit and inverted:
                 return RateProbes(declared, tuple(tried))
         plain = PublishingStart(self.program, self.topic)

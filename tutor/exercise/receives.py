@@ -42,7 +42,7 @@ async def wait_for_subscription(run: Run, topic: Topic, publisher: Publisher) ->
     """Wait until a subscription of the node receives what we publish."""
 
     def subscriptions() -> list[tuple[str, str]]:
-        return [(each.topic, each.type) for each in run.graph.subscriptions]
+        return [(subscription.topic, subscription.type) for subscription in run.graph.subscriptions]
 
     matched = await wait_until_seen(
         run,
@@ -92,8 +92,8 @@ class SendMessages:
         on = self.shown_on
         if on is None:
             return next((str(log) for log in run.logs if log.stamp >= sent.source_time and says(log.text, wanted)), "")
-        samples = [each for each in run.samples_on(on.name) if each.source_time >= sent.source_time]
-        return next((f"{on.name}, {on.show(each)}" for each in samples if is_shown(on.value(each), wanted)), "")
+        samples = [sample for sample in run.samples_on(on.name) if sample.source_time >= sent.source_time]
+        return next((f"{on.name}, {on.show(sample)}" for sample in samples if is_shown(on.value(sample), wanted)), "")
 
 
 @dataclass(frozen=True)

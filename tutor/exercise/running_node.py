@@ -169,7 +169,7 @@ class Node:
             seen = await look(run, does_nothing=not answer.accepted)
             self._fail(*unanswered(action, seen, answer, GOAL_S))
         self.seen.append(f"{action.name} {goal}: {outcome}, {dict(answer.result or {})}")
-        now, feedback = run.now(), [Fields(each.message, at=each.source_time) for each in answer.feedback]
+        now, feedback = run.now(), [Fields(sample.message, at=sample.source_time) for sample in answer.feedback]
         return Fields({"outcome": outcome, "result": answer.result or {}, "feedback": feedback}, at=now)
 
     async def next(self, topic: Topic, after: Fields, *, skip: int = 1) -> Fields:

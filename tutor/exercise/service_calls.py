@@ -89,7 +89,7 @@ class Server:
         def limit_s() -> float:
             present = [(server.name, server.type) for server in run.graph.servers]
             others = [server for server in present if server not in wanted]
-            patience = (patience_s(others, each.name, each.type) for each in self.missing(run.graph.servers))
+            patience = (patience_s(others, service.name, service.type) for service in self.missing(run.graph.servers))
             return min(patience, default=SETTLE_S)
 
         await wait_until_seen(run, all_offered, settle_s=limit_s)
@@ -170,7 +170,7 @@ class CallEach:
 
     async def _dump_stuck_node(self, bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
         """Repeat the unanswered call on another start to get a stack dump of the node while it does not answer."""
-        service = next(each for each in self.server.services if each.name == unanswered.service)
+        service = next(service for service in self.server.services if service.name == unanswered.service)
         async with bench.start(self.server.program.file) as run:
             bench.report_progress(0.9, "looking where the node is stuck")
             await wait_until_seen(run, lambda: any(server.name == service.name for server in run.graph.servers))

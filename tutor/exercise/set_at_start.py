@@ -231,7 +231,7 @@ class SetAtStart(Form):
             return None
         samples = start.trace.samples_on(given.topic.name)
         is_rate_wrong = bool(samples) and not given.find_without(samples)
-        rates = [other for each, other in zip(self._given, seen.starts, strict=True) if each.switch is None]
+        rates = [other for given, other in zip(self._given, seen.starts, strict=True) if given.switch is None]
         return None if is_rate_wrong and None in rates else self.judge(seen)
 
     def _judge_start(self, number: int, start: Started, seen: StartedWithParameters) -> Verdict | None:
