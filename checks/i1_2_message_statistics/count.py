@@ -191,7 +191,7 @@ def in_words(totals: range) -> str:
 
 def _may_be_made_after(messages: int, summary: Summary, *, before: int) -> bool:
     """Whether its quotations are consistent with a summary that was made after this many messages."""
-    newer = {each.number for each in summary.trial.sent[messages : summary.messages_at_end]}
+    newer = {message.number for message in summary.trial.sent[messages : summary.messages_at_end]}
     later = newer.intersection(quoted_without_first(summary, before=before))
     return not later or _is_made_after(messages, summary, before=before)
 
@@ -201,7 +201,7 @@ def _is_made_after(messages: int, summary: Summary, *, before: int) -> bool:
 
     A new publisher repeats some numbers; one that had come before does not count as later.
     """
-    numbers = [each.number for each in summary.trial.sent]
+    numbers = [message.number for message in summary.trial.sent]
     quoted = quoted_without_first(summary, before=before)
     newer = {*numbers[messages : summary.messages_at_end]}.difference(numbers[:messages])
     return numbers[messages - 1] in quoted and not newer.intersection(quoted)

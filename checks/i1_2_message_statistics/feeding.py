@@ -135,7 +135,7 @@ class Talker:
         run = self._run
 
         def subscriptions() -> list[tuple[str, str]]:
-            return [(each.topic, each.type) for each in run.graph.subscriptions]
+            return [(subscription.topic, subscription.type) for subscription in run.graph.subscriptions]
 
         self._bench.report_progress(0.05, "waiting for the subscription")
         await wait_until_seen(
@@ -204,7 +204,7 @@ async def collect_last_logs(run: Run, trial: Trial) -> Trial:
     if last := last_due_count(len(trial.sent)):
         # From the last message on: a node that restarts its count for a new publisher logs its summary later.
         since = trial.sent[-1].at
-        await run.until(lambda: any(each.messages >= last for each in find_summaries(current())), limit_s(since))
+        await run.until(lambda: any(summary.messages >= last for summary in find_summaries(current())), limit_s(since))
     if trial.jumps:
         jumped_at = trial.sent[trial.jumps[-1]].at
         await run.until(lambda: logs_something_new(jumped_at, current()), limit_s(jumped_at))

@@ -137,7 +137,7 @@ def _is_about_jump(line: Line, index: int, jump: Trial) -> bool:
 def _reports_all_jumps(line: Line, jump: Trial) -> bool:
     """Whether the line reports all jumps so far: their number, or the total of missed messages."""
     missed = jump.missed(line.messages)
-    return len(missed) > 1 and any(each.value in (len(missed), sum(missed)) for each in line.numbers)
+    return len(missed) > 1 and any(number.value in (len(missed), sum(missed)) for number in line.numbers)
 
 
 def _find_repeated_alarms(reports: Sequence[Line], jump: Trial) -> list[Line]:
@@ -197,7 +197,9 @@ def _find_false_alarms(index: int, jump: Trial, steady: Trial) -> list[tuple[Tri
 
     They are alarms only if they came with some, but not with most messages.
     """
-    in_summaries = {line.kind for trial in (steady, jump) for each in find_summaries(trial) for line in each.lines}
+    in_summaries = {
+        line.kind for trial in (steady, jump) for summary in find_summaries(trial) for line in summary.lines
+    }
     with_it = range(index + 1, index + 3)
     since = {line.kind for line in jump.lines if line.messages in with_it} - in_summaries
     calm = [(trial, line) for trial in (steady, jump) for line in trial.lines if is_before_jump(line, trial)]

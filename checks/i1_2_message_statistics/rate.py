@@ -33,12 +33,13 @@ def judge_rate(steady: Trial, jump: Trial, restart: Trial, fast: Trial) -> Verdi
     if not summaries:
         return skipped(NO_SUMMARY)
     allowed = [true_rates(summary) for summary in summaries]
-    low, high = min(each.low for each in allowed), max(each.high for each in allowed)
+    low, high = min(rates.low for rates in allowed), max(rates.high for rates in allowed)
     expected = f"each summary states the messages per second: {sent_hz(steady):.2f}, from {low:.1f} to {high:.1f}"
     stated = find_stated_rates(summaries, jump)
     if stated is None:
         wrong = next(
-            (each for each, true in zip(summaries, allowed, strict=True) if not true.among(each)), summaries[-1]
+            (summary for summary, true in zip(summaries, allowed, strict=True) if not true.among(summary)),
+            summaries[-1],
         )
         fault: Fault = {"fault": "wrong-rate", "summary": wrong, "summaries": summaries}
         return fails(expected, _describe_numbers(wrong), steady, fault)
@@ -120,7 +121,7 @@ def find_stated_rates(summaries: Sequence[Summary], jump: Trial) -> list[Number]
     """
     allowed = [true_rates(summary) for summary in summaries]
     elsewhere = find_summaries(jump)
-    wrong_numbers = [{n.text for n in each.numbers if not true_rates(each).holds(n)} for each in elsewhere]
+    wrong_numbers = [{n.text for n in summary.numbers if not true_rates(summary).holds(n)} for summary in elsewhere]
     constant = set.intersection(*wrong_numbers) if wrong_numbers else set()
     if (places := slots(summaries)) is not None:
         others = slots([summaries[0], *elsewhere]) or places
@@ -143,12 +144,17 @@ def find_kept_rate(restart: Trial) -> Number | None:
     decimals, and so may be the same by chance.
     """
     summaries = find_summaries(restart)
-    before = [each for each in summaries if each.messages <= restart.before_break]
-    after = [each for each in summaries if each.messages >= restart.before_break + MIN_WINDOW]
+    before = [summary for summary in summaries if summary.messages <= restart.before_break]
+    after = [summary for summary in summaries if summary.messages >= restart.before_break + MIN_WINDOW]
     for number in before[0].numbers if before and after else ():
-        kept = all(number.text in {other.text for other in each.numbers} for each in (*before, *after))
+        kept = all(number.text in {other.text for other in summary.numbers} for summary in (*before, *after))
         if "." in number.text and kept and true_rates(before[0]).holds(number):
-            others = (other for each in after for other in numbers_except_count(each) if true_rates(each).holds(other))
+            others = (
+                other
+                for summary in after
+                for other in numbers_except_count(summary)
+                if true_rates(summary).holds(other)
+            )
             return number if all(other.text == number.text for other in others) else None
     return None
 
@@ -166,7 +172,9 @@ def is_doubtful_rate(numbers: Sequence[Number], summaries: Sequence[Summary]) ->
     if true and not late and elapsed[0].low <= SLOWEST_S and trial.delay_s(0) <= STALL_S:
         return False
     times = [span.low for span in elapsed], [span.high for span in elapsed]
-    whole = [[each.messages / max(int(span), 1) for each, span in zip(summaries, at, strict=True)] for at in times]
+    whole = [
+        [summary.messages / max(int(span), 1) for summary, span in zip(summaries, at, strict=True)] for at in times
+    ]
     explained_otherwise = any(
         all(abs(number.value - other) < 0.01 + DELAY_S * other for number, other in zip(numbers, others, strict=True))
         for others in (*times, *whole)

@@ -75,7 +75,7 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
     summaries = losses.fast_summaries(fast)
     if not summaries:
         return None
-    if all(each.is_complete for each in summaries) and len(summaries) >= 1.5 * len(fast.sent) / SUMMARY_EVERY:
+    if all(summary.is_complete for summary in summaries) and len(summaries) >= 1.5 * len(fast.sent) / SUMMARY_EVERY:
         fault = find_wrong_interval(summaries, fast, len(fast.sent))
         apart = {after.messages - before.messages for before, after in pairwise(summaries)}
         # At different distances, some may be several that look like one because the messages came fast.
@@ -86,7 +86,7 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
         return None
     missing = [find_incomplete(summary) for summary in summaries[1:]]  # the first may be complete
     last = missing[-1]
-    if last is None or {each and each["fault"] for each in missing} != {last["fault"]}:
+    if last is None or {fault and fault["fault"] for fault in missing} != {last["fault"]}:
         return None
     return fails(EXPECTED, f"it is incomplete {summaries[-1]}", fast, last)
 
@@ -144,8 +144,8 @@ def find_wrong_interval(summaries: Sequence[Summary], trial: Trial, messages: in
         return too_many(sum(summary.repetitions for summary in summaries), messages)
     for number in due:
         if not any(summary.due == number and summary.is_in_time for summary in summaries):
-            early = [each for each in when if number - SUMMARY_EVERY < each < number]
-            late = [each for each in when if number < each < number + SUMMARY_EVERY]
+            early = [count for count in when if number - SUMMARY_EVERY < count < number]
+            late = [count for count in when if number < count < number + SUMMARY_EVERY]
             when_instead = f"one comes after {(early or late)[-1]}" if early or late else "and none comes soon after"
             return {"fault": "missing-summary", "what": f"there is none after {number} messages, {when_instead}"}
     return None
@@ -159,7 +159,7 @@ def too_many(summaries: int, messages: int, fault: str = "too-many-summaries") -
 def find_incomplete(summary: Summary) -> Fault | None:
     """What is missing from a summary, or in the wrong place; None if nothing is."""
     first, quoted = summary.trial.sent[0], summary.quoted
-    recent = {each.number for each in summary.recent}
+    recent = {message.number for message in summary.recent}
     if first.number not in quoted:
         others = [number for number in quoted if number not in recent]
         if others:
@@ -169,7 +169,7 @@ def find_incomplete(summary: Summary) -> Fault | None:
         return {"fault": "first-message-missing", "content": first.content, "cut": is_cut}
     if not recent.intersection(quoted):
         return {"fault": "last-message-missing", "what": f"“{summary.recent[0].content}” is not in it"}
-    labels = {each for line in summary.lines for each in labelled(line.text)}
+    labels = {label for line in summary.lines for label in labelled(line.text)}
     swapped = {("first", number) for number in recent if number != first.number}
     if ("last", first.number) in labels and labels & swapped and ("first", first.number) not in labels:
         return {"fault": "first-and-last-swapped", "content": first.content}

@@ -80,7 +80,7 @@ class Trial:
     @cached_property
     def lines(self) -> tuple[Line, ...]:
         """What the node logged since the first message, oldest first."""
-        times = [each.at for each in self.sent]
+        times = [message.at for message in self.sent]
         logs = sorted(self.trace.logs, key=lambda log: log.stamp)
         numbered = ((log, bisect_right(times, log.stamp)) for log in logs)
         return tuple(parse_log(log, messages) for log, messages in numbered if messages)
@@ -103,7 +103,7 @@ class Trial:
     @cached_property
     def order(self) -> dict[int, int]:
         """How many messages had been sent when that with this N had been; the last one, if N came twice."""
-        return {each.number: count for count, each in enumerate(self.sent, start=1)}
+        return {message.number: count for count, message in enumerate(self.sent, start=1)}
 
     @property
     def allowance_s(self) -> float:
@@ -128,7 +128,7 @@ class Trial:
 
     def delay_s(self, index: int) -> float:
         """How late the node may have received this message, given its waits for a CPU from then on."""
-        waits = [each.cpu_wait_s for each in self.sent[index:]] + [self.sent[0].cpu_wait_s + self.cpu_wait_s]
+        waits = [message.cpu_wait_s for message in self.sent[index:]] + [self.sent[0].cpu_wait_s + self.cpu_wait_s]
         late = 0.0
         for before, after in pairwise(waits):
             late += max(after - before, 0.0)

@@ -62,8 +62,8 @@ def _judge_both_calls(seen: SingleCalls, judge: Callable[[SingleCalls], Verdict]
     """The verdict on the first call, unless that passed and the second call fails, or cannot be judged."""
     first, *later = seen.first_and_later
     verdict = judge(first)
-    for each in later if verdict.passed else ():
-        second = judge(each)
+    for second_call in later if verdict.passed else ():
+        second = judge(second_call)
         if isinstance(second, Undecided):
             return second
         if not second.passed:
@@ -110,7 +110,7 @@ def wrong_answer(answer: CallAnswer, trace: Trace) -> Observation:
 
 def _wrong_sums(trace: Trace, answers: Sequence[CallAnswer], says: str, do: str) -> Observation:
     """Not all of these calls were answered with their own sum."""
-    sums, wrong = [sum_in(answer) for answer in answers], next(each for each in answers if not is_right(each))
+    sums, wrong = [sum_in(answer) for answer in answers], next(answer for answer in answers if not is_right(answer))
     return Symptom.WRONG_ANSWER.seen(
         trace,
         service=SERVICE,
@@ -170,8 +170,8 @@ def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
     calls = [call for call in seen.calls if not watch.is_doubtful(call)] or seen.calls
     found = [(series, measure_timer(series, watch.logs, call)) for call in calls for series in watch.right]
     series, pace = next(
-        (each for each in found if not each[1].fault),
-        next(each for each in reversed(found) if each[0] == likely),
+        ((series, pace) for series, pace in found if not pace.fault),
+        next((series, pace) for series, pace in reversed(found) if series == likely),
     )
     texts = [log.text for log in watch.logs if series.key.of(log)]
     observed = f"outside: {series}; {pace.beside(series)}"

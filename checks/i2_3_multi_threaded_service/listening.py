@@ -60,7 +60,7 @@ async def run_idle(bench: Bench) -> IdleRun:
             await _listen(run, since, waited_before_s)
         share = (run.node_cpu_wait_s() - cpu_wait_s) / max(0.1, run.now() - listened_at)
         series = timer_series(all_series(logs_since(run.logs, since)))
-        excused = share >= CPU_WAIT_SHARE and any(_may_be_10_hz(each, share) for each in series)
+        excused = share >= CPU_WAIT_SHARE and any(_may_be_10_hz(reading, share) for reading in series)
         idle = IdleRun(run.trace(), series, excused)
         bench.report_progress(0.8, "pressing Ctrl+C")
         return replace(idle, ending=await run.interrupt())
@@ -125,10 +125,10 @@ async def listen_until_tick(run: Run, series: Sequence[Series], call: Call) -> C
 
     def seen_enough() -> bool:
         late = takewhile(lambda log: log.received_at > answered_at, reversed(run.logs))
-        return any(log.stamp > answered_at and any(each.key.of(log) for each in series) for log in late)
+        return any(log.stamp > answered_at and any(reading.key.of(log) for reading in series) for log in late)
 
     if series:
-        await run.until(seen_enough, 1.3 * min(10.0, max(each.longest_s for each in series)) + 1.0)
+        await run.until(seen_enough, 1.3 * min(10.0, max(reading.longest_s for reading in series)) + 1.0)
         deadline = run.now() + 2 * IN_FLIGHT_S
         await run.until(lambda: run.now() >= deadline, 1.0)
     return replace(call, until=run.now())

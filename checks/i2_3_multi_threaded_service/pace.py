@@ -141,14 +141,14 @@ class Watch:
         """Whether a busy machine may have disturbed the timer: its pace is acceptable with twice the CPU wait."""
         twice_s = 2 * call.cpu_wait_s
         doubled = replace(call, cpu_wait_s=twice_s)
-        return call.busy and any(not measure_timer(each, self.logs, doubled, twice_s).fault for each in self.right)
+        return call.busy and any(not measure_timer(series, self.logs, doubled, twice_s).fault for series in self.right)
 
     def is_stopped(self, call: Call) -> bool:
         """Whether no timer logs anything during this call, although two messages are due even without the CPU wait."""
         begin, end = call.answer.asked_at + NEGLIGIBLE_S, call.answer.answered_at - NEGLIGIBLE_S
-        if not self.series or 2 * max(each.longest_s for each in self.series) > end - begin - call.cpu_wait_s:
+        if not self.series or 2 * max(series.longest_s for series in self.series) > end - begin - call.cpu_wait_s:
             return False
-        return not any(begin <= log.stamp <= end and each.key.of(log) for log in self.logs for each in self.series)
+        return not any(begin <= log.stamp <= end and series.key.of(log) for log in self.logs for series in self.series)
 
     def needs_repeat(self, calls: Sequence[Call], most: int) -> bool:
         """Whether to call again, to tell effects of the machine, or of the first connection, from the node's own.
@@ -166,4 +166,4 @@ class Watch:
         excused, late = disturbed and self.is_excused(call), late and call.nearly_in_time
         if tried < TRIES:
             return excused or (late and call.cpu_wait_s > BUSY_S) or self.is_doubtful(call)
-        return tried < most and (excused or (late and all(each.busy for each in calls)))
+        return tried < most and (excused or (late and all(call.busy for call in calls)))

@@ -179,9 +179,13 @@ def early_update(case: Case) -> Iterator[Found]:
     """
     for function in _callbacks(case, UNNOTICED):
         for number, last, node in comparing.comparisons(function):
-            for each in (each for each in function.body if isinstance(each, ast.Assign)):
-                if each.lineno < node.lineno and comparing.assigns_to(each, last) and ast.unparse(each.value) == number:
-                    yield found(case.program.holding(node), each, later=node.lineno)
+            for assignment in (statement for statement in function.body if isinstance(statement, ast.Assign)):
+                if (
+                    assignment.lineno < node.lineno
+                    and comparing.assigns_to(assignment, last)
+                    and ast.unparse(assignment.value) == number
+                ):
+                    yield found(case.program.holding(node), assignment, later=node.lineno)
 
 
 @CATALOGUE.mistake(

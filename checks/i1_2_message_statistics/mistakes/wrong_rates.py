@@ -40,9 +40,9 @@ def find_wrong_rate(summary: Summary, summaries: Sequence[Summary]) -> Fault:
     if all(map(_elapsed_numbers, summaries)):
         what = f"{_elapsed_numbers(summary)[0].text} is the time in seconds since the first message"
         return {"fault": "wrong-rate-in-the-summary", "what": what}
-    leads = [[lead for _, lead in _clock_leads(each)] for each in summaries]
+    leads = [[lead for _, lead in _clock_leads(other)] for other in summaries]
     for number, lead in _clock_leads(summary):
-        if lead.high > MIN_LEAD_S and all(any(_may_be_same(lead, other) for other in each) for each in leads):
+        if lead.high > MIN_LEAD_S and all(any(_may_be_same(lead, other) for other in possible) for possible in leads):
             return {"fault": "counted-from-the-nodes-start", "number": number.text, "lead_s": lead.high}
     if all(map(_find_whole_seconds, summaries)):
         number, whole_s = _find_whole_seconds(summary)[0]
@@ -58,7 +58,9 @@ def find_wrong_rate(summary: Summary, summaries: Sequence[Summary]) -> Fault:
 def _elapsed_numbers(summary: Summary) -> list[Number]:
     """The numbers that are the seconds from the first message to the summary."""
     span = elapsed_s(summary, covered_count(summary))
-    return [each for each in numbers_except_count(summary) if span.low - DELAY_S <= each.value <= span.high + DELAY_S]
+    return [
+        number for number in numbers_except_count(summary) if span.low - DELAY_S <= number.value <= span.high + DELAY_S
+    ]
 
 
 def _find_whole_seconds(summary: Summary) -> list[tuple[Number, int]]:
