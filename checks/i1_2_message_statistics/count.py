@@ -39,7 +39,7 @@ def judge_count(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     if not verdict.passed:
         return verdict
     lost = find_lost(fast, steady)
-    if lost.excused if lost else not was_sent_fast_enough(fast):
+    if lost.slowed if lost else not was_sent_fast_enough(fast):
         return undecided("to send messages fast")
     if lost is None:
         return verdict
@@ -113,7 +113,7 @@ def _is_certain_to_lose(steady: Trial, fast: Trial) -> bool:
     if renews_subscription(steady) or renews_subscription(fast):
         return True
     lost = find_lost(fast, steady) if counts_truly(steady) else None
-    return lost is not None and not lost.excused
+    return lost is not None and not lost.slowed
 
 
 def fails(expected: str, observed: str, trial: Trial, fault: Fault, evidence: Sequence[str] = ()) -> Verdict:

@@ -11,7 +11,7 @@ from checks.i1_2_message_statistics import plans
 from checks.i1_2_message_statistics.summaries import find_summaries, last_due_count
 from checks.i1_2_message_statistics.trial import CHATTER, PROGRAM, SOON_S, Sent, Trial
 from tutor.judge.bench import Bench, Publisher, Run
-from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.stuck import ask_unless_stuck
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting import patience_s, wait_until_log_quiet, wait_until_seen
@@ -57,7 +57,7 @@ class Feed:
     explains_silence: bool = False
 
     async def __call__(self, bench: Bench) -> Trial:
-        return await (repeat_if_doubtful(self._run) if self.ctrl_c else self._run)(bench)
+        return await (repeat_chance_failures(self._run) if self.ctrl_c else self._run)(bench)
 
     async def _run(self, bench: Bench) -> Trial:
         stretches = await self.plan(bench)

@@ -57,12 +57,12 @@ def was_sent_fast_enough(fast: Trial) -> bool:
 class LostMessages:
     """A summary whose count lacks messages. `counted`: the true count, up to the last message that it quotes.
 
-    `excused`: the node or our process waited for the CPU long enough to explain the loss.
+    `slowed`: the node or our process waited for a CPU long enough to explain the loss.
     """
 
     summary: Summary
     counted: int
-    excused: bool
+    slowed: bool
 
 
 def find_lost(fast: Trial, steady: Trial) -> LostMessages | None:

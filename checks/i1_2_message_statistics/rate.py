@@ -45,7 +45,7 @@ def judge_rate(steady: Trial, jump: Trial, restart: Trial, fast: Trial) -> Verdi
         return fails(expected, _describe_numbers(wrong), steady, fault)
     if all(map(total_as_rate, summaries)):
         return fails(expected, _describe_numbers(summaries[-1]), steady, swapped(summaries[-1]))
-    if is_doubtful_rate(stated, summaries):
+    if is_undecided(stated, summaries):
         return undecided("to send messages at an even rate")
     if (kept := find_kept_rate(restart)) is not None:
         return fails(
@@ -91,11 +91,11 @@ def sent_hz(trial: Trial) -> float:
     return (len(trial.sent) - 1) / (trial.sent[-1].at - trial.sent[0].at)
 
 
-def true_rates(summary: Summary, *, excused_s: float = inf) -> Range:
+def true_rates(summary: Summary, *, allowance_s: float = inf) -> Range:
     """The rates that may be stated: N or N-1 messages divided by the time since the first, or since a recent one.
 
-    If the machine delayed that message's callback, the time seems shorter to the node by the same amount; at most
-    `excused_s` of that is allowed for.
+    If the machine delayed that message's callback, the time seems shorter to the node by the same amount; the
+    allowance for that is at most `allowance_s`.
     """
     trial = summary.trial
     least, most = [], []
@@ -104,7 +104,7 @@ def true_rates(summary: Summary, *, excused_s: float = inf) -> Range:
         for first in range(max(1, until - MIN_WINDOW + 1)):
             count, since = until - first, trial.sent[first].at
             span = max(last_at - since, DELAY_S)
-            delay = min(DELAY_S + min(trial.delay_s(first), excused_s), 0.7 * span)
+            delay = min(DELAY_S + min(trial.delay_s(first), allowance_s), 0.7 * span)
             if count >= SUMMARY_EVERY or first == 0:  # from the first message until the summary is logged
                 least.append((count - 1) / (max(summary.at - since, span) + DELAY_S))
                 most.append(count / (span - delay))
@@ -159,15 +159,15 @@ def find_kept_rate(restart: Trial) -> Number | None:
     return None
 
 
-def is_doubtful_rate(numbers: Sequence[Number], summaries: Sequence[Summary]) -> bool:
-    """Whether these numbers may only look like the rate, because a busy machine kept us from the planned send rate.
+def is_undecided(numbers: Sequence[Number], summaries: Sequence[Summary]) -> bool:
+    """Whether these numbers may only look like the rate, because the machine kept us from the planned send rate.
 
     At the planned rate, other numbers are far from it: the elapsed seconds, the messages per whole seconds, or per
     seconds since the start of the node.
     """
     trial, stated = summaries[0].trial, list(zip(numbers, summaries, strict=True))
     elapsed = [elapsed_s(summary, summary.due or summary.messages) for summary in summaries]
-    true = all(true_rates(summary, excused_s=STALL_S).holds(number) for number, summary in stated)
+    true = all(true_rates(summary, allowance_s=STALL_S).holds(number) for number, summary in stated)
     late = trial.allowance_s > STALL_S and any(span.high - span.low > STALL_S for span in elapsed)
     if true and not late and elapsed[0].low <= SLOWEST_S and trial.delay_s(0) <= STALL_S:
         return False

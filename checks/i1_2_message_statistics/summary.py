@@ -18,8 +18,8 @@ from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
 EXPECTED = f"one summary for every {SUMMARY_EVERY} messages, with the first and the last message's content"
 EVERY_MESSAGE = "summary-for-every-message"
 
-BUSY_S = 0.5
-"""If the node waited longer for a CPU, missing summaries may be the machine's fault."""
+SLOWED_S = 0.5
+"""If the node waited longer for a CPU, the machine may be to blame for missing summaries."""
 
 
 @unless_messages_are_lost
@@ -28,7 +28,7 @@ def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     verdict = judge_slow_summary(steady, jump)
     if not verdict.passed or losses.find_lost(fast, steady) or not losses.is_summary_missing(fast, steady):
         return verdict
-    if not losses.was_sent_fast_enough(fast) or fast.allowance_s > BUSY_S:
+    if not losses.was_sent_fast_enough(fast) or fast.allowance_s > SLOWED_S:
         return undecided("to send messages fast")
     return failed(
         f"{EXPECTED}, at {FAST_HZ:g} a second, too",

@@ -34,7 +34,7 @@ SOON_S = 0.5
 """Latency bound of a log message that the callback writes immediately."""
 
 MAX_CPU_WAIT_S = 1.0
-"""Maximum excuse for a late log message, however busy the machine: a later one belongs to no message."""
+"""Maximum allowance for a late log message, however busy the machine: a later one belongs to no message."""
 
 ROUGH_S = 0.15
 """If the node waits longer for a CPU it may lose messages; if ours are more uneven, there is no single true rate."""
@@ -123,7 +123,7 @@ class Trial:
 
     @property
     def slowed(self) -> bool:
-        """Whether the machine may be why the node fails (see `tutor.judge.bench.was_slowed`)."""
+        """Whether the machine may be to blame for what the node logs (see `tutor.judge.bench.was_slowed`)."""
         return bool(self.sent) and max(self.cpu_wait_s, self.max_delay_s) >= ROUGH_S
 
     def delay_s(self, index: int) -> float:

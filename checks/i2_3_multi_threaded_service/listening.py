@@ -10,7 +10,7 @@ from checks.i2_3_multi_threaded_service.calling import total_cpu_wait_s, wait_un
 from checks.i2_3_multi_threaded_service.calls import PROGRAM, SERVER, Call
 from checks.i2_3_multi_threaded_service.timer_logs import HZ, Series, all_series, timer_series
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import Ending, LogRecord, Trace
 from tutor.judge.waiting import CPU_WAIT_SHARE, IDLE_S, IN_FLIGHT_S, wait_until_seen
@@ -33,16 +33,16 @@ class IdleRun:
     """A run without any call: the timer's log messages, and the shutdown of an idle node.
 
     `series`: the possible readings of the timer's log messages: all those of 10 Hz, else the likeliest one of another
-    pace, if any. `excused`: the machine was too busy for the pace to mean anything.
+    pace, if any. `pace_slowed`: the machine may be to blame for that other pace.
     """
 
     trace: Trace
     series: tuple[Series, ...] = ()
-    excused: bool = False
+    pace_slowed: bool = False
     ending: Ending | None = None
 
 
-@repeat_if_doubtful
+@repeat_chance_failures
 async def run_idle(bench: Bench) -> IdleRun:
     """Listen to the idle node, then press Ctrl+C."""
     async with bench.start(PROGRAM.file) as run:  # start first, like `call_singly`, which waits for these facts
@@ -60,8 +60,8 @@ async def run_idle(bench: Bench) -> IdleRun:
             await _listen(run, since, waited_before_s)
         share = (run.node_cpu_wait_s() - cpu_wait_s) / max(0.1, run.now() - listened_at)
         series = timer_series(all_series(logs_since(run.logs, since)))
-        excused = share >= CPU_WAIT_SHARE and any(_may_be_10_hz(reading, share) for reading in series)
-        idle = IdleRun(run.trace(), series, excused)
+        pace_slowed = share >= CPU_WAIT_SHARE and any(_may_be_10_hz(reading, share) for reading in series)
+        idle = IdleRun(run.trace(), series, pace_slowed)
         bench.report_progress(0.8, "pressing Ctrl+C")
         return replace(idle, ending=await run.interrupt())
 

@@ -16,7 +16,7 @@ below:
         EndsCleanly("shutdown", bonus=True),
     )
 
-How the program is started, how long is waited, and what a busy machine may excuse is the forms' business.
+How the program is started, how long is waited, and what the machine may be to blame for is the forms' business.
 """
 
 from tutor.exercise.argument_moves import ArgumentMovesNamespace, ArgumentMovesTopic

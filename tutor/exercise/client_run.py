@@ -55,7 +55,7 @@ class ClientRun:
 
     @property
     def slowed(self) -> bool:
-        """Whether a busy machine may have kept the client from finding our servers.
+        """Whether the machine may be to blame if the client did not find our servers.
 
         A client with incompatible QoS would not have found them on an idle machine either.
         """

@@ -11,7 +11,7 @@ from tutor.exercise.launch_run import Launch
 from tutor.exercise.nouns import LaunchFile, Program
 from tutor.judge.bench import Bench, Scenario
 from tutor.judge.check import Criterion
-from tutor.judge.ending import judge_ending, repeat_if_doubtful
+from tutor.judge.ending import judge_ending, repeat_chance_failures
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.verdict import Status, Verdict
 from tutor.judge.waiting import NO_NODE_S, START_S
@@ -35,7 +35,7 @@ class StartAndEnd:
     program: Program
 
     async def __call__(self, bench: Bench) -> EndedRun:
-        return await repeat_if_doubtful(self._run)(bench)
+        return await repeat_chance_failures(self._run)(bench)
 
     async def _run(self, bench: Bench) -> EndedRun:
         async with bench.start(self.program.file) as run:

@@ -20,7 +20,7 @@ from tutor.exercise.launch_graph import (
 from tutor.exercise.nouns import LaunchFile
 from tutor.exercise.quoted_messages import logs_of_messages
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.launch_output import ended_processes
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.waiting import MESSAGE_GAP_S, OTHER_NAME_S, START_S
@@ -96,7 +96,7 @@ class Launch:
     launch_file: LaunchFile
 
     async def __call__(self, bench: Bench) -> LaunchRun:
-        return await repeat_if_doubtful(self._run)(bench)
+        return await repeat_chance_failures(self._run)(bench)
 
     async def _run(self, bench: Bench) -> LaunchRun:
         async with bench.launch(self.launch_file.file) as run:

@@ -10,7 +10,7 @@ from typing import Any
 
 from tutor.exercise.nouns import Program, Topic
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.stuck import is_stuck_for_ever
 from tutor.judge.trace import Echo, Ending, Sample, Trace
 from tutor.judge.tracebacks import Frame
@@ -82,7 +82,7 @@ class PublishingStart:
     topic: Topic
 
     async def __call__(self, bench: Bench) -> PublishingRun:
-        return await repeat_if_doubtful(self._run)(bench)
+        return await repeat_chance_failures(self._run)(bench)
 
     async def _run(self, bench: Bench) -> PublishingRun:
         file, topic = self.program.file, self.topic
@@ -147,7 +147,7 @@ class PublishingStart:
 
 
 class _StuckNode:
-    """Whether a node that sends and answers nothing is stuck, by the stack of another start.
+    """A node that sends and answers nothing, and is perhaps stuck: the stack of another start shows it.
 
     `restarted_at`: when that start was made, in seconds since the epoch, or 0. A program that joins domains other than
     its own may send a message to its first run from there, so only later ones count.

@@ -27,7 +27,7 @@ from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy
 from tutor.judge.rates import measure
 from tutor.judge.trace import Trace
-from tutor.judge.waiting import TRIES, are_undisturbed, too_few_by_cpu_wait, wait_for_message, window_s
+from tutor.judge.waiting import TRIES, cannot_be_slowed, too_few_by_cpu_wait, wait_for_message, window_s
 from tutor.ros_model import Parameter
 
 FAST_COLLECT_S = 4.0
@@ -82,7 +82,7 @@ class ProbeRate:
                 if (
                     probe.agrees
                     or run.exit is not None
-                    or are_undisturbed(run.samples_on(topic.name)[1:], cpu_wait_s=lost_s, elapsed_s=elapsed_s)
+                    or cannot_be_slowed(run.samples_on(topic.name)[1:], cpu_wait_s=lost_s, elapsed_s=elapsed_s)
                     or (probe.rate is not None and probe.rate.is_far_above(asked_hz, window))
                     or (
                         stretch > 1

@@ -67,7 +67,7 @@ class RateProbes:
 
     @property
     def spins(self) -> bool | None:
-        """Whether the node spins, as it must to answer parameter calls; None if it has no services for these."""
+        """True if the node spins, as it must to answer parameter calls; None if it has no services for these."""
         if self.declared is None and not any(probe.trace.graph.parameter_nodes for probe in self.probes):
             return None
         return self.declared is not None

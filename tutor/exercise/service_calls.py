@@ -9,7 +9,7 @@ from typing import Any
 from tutor.exercise.nouns import Program, Service
 from tutor.exercise.parameters import DumpSilentNode
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.stuck import ask_unless_stuck
 from tutor.judge.trace import CallAnswer, Ending, Trace
 from tutor.judge.tracebacks import Frame, failed_outside_callbacks
@@ -129,7 +129,7 @@ class CallEach:
     given: tuple[Any, ...]
 
     async def __call__(self, bench: Bench) -> ServiceCalls:
-        return await repeat_if_doubtful(self._run)(bench)
+        return await repeat_chance_failures(self._run)(bench)
 
     async def _run(self, bench: Bench) -> ServiceCalls:
         server, file = self.server, self.server.program.file

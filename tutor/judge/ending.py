@@ -31,7 +31,7 @@ class _Ended(Protocol):
     def ending(self) -> Ending | None: ...
 
 
-def repeat_if_doubtful[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
+def repeat_chance_failures[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
     """Repeat a scenario that ends with Ctrl+C when its process failed in a way that a correct program may, by a race.
 
     The result is the facts of the first repetition that fails that way again, else those of the last one. A mistake of
@@ -62,7 +62,7 @@ def repeat_if_doubtful[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
 
 
 def may_be_chance(ending: Ending | None) -> bool:
-    """Whether the process failed in a way that a correct program may, by a race (see `repeat_if_doubtful`)."""
+    """Whether the process failed in a way that a correct program may, by a race (see `repeat_chance_failures`)."""
     if ending is not None and ending.exit is None:
         return ending.cpu_wait_share >= CPU_WAIT_SHARE
     found = tracebacks.find_tracebacks(ending.output) if ending is not None else []
