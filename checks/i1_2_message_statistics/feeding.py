@@ -12,9 +12,9 @@ from checks.i1_2_message_statistics.summaries import find_summaries, last_due_co
 from checks.i1_2_message_statistics.trial import CHATTER, PROGRAM, SOON_S, Sent, Trial
 from tutor.judge.bench import Bench, Publisher, Run
 from tutor.judge.ending import repeat_chance_failures
-from tutor.judge.stuck import ask_unless_stuck
+from tutor.judge.stuck_nodes import ask_unless_stuck
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import patience_s, wait_until_log_quiet, wait_until_seen
+from tutor.judge.waiting_for_nodes import patience_s, wait_until_log_quiet, wait_until_seen
 
 QUIET_S = 0.8
 """How long a node is up before the first message, so that a rate counted from its start is clearly too low."""

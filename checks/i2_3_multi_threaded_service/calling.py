@@ -21,7 +21,7 @@ from checks.i2_3_multi_threaded_service.calls import (
 from tutor.exercise.parameters import DumpSilentNode
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
-from tutor.judge.stuck import ask_unless_stuck
+from tutor.judge.stuck_nodes import ask_unless_stuck
 from tutor.judge.tasks import Tasks
 from tutor.judge.trace import CallAnswer, Ending, Trace
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from tutor.exercise import Program, Service
 from tutor.exercise.service_calls import Server, right_result
 from tutor.judge.trace import CallAnswer
-from tutor.judge.waiting import CPU_WAIT_SHARE
+from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE
 
 SLOW_ADD = Service("/slow_add", "example_interfaces/srv/AddTwoInts", ("a", "b"), "sum", lambda a, b: a + b, "+")
 PROGRAM = Program("concurrent_service.py")

@@ -13,7 +13,7 @@ from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import Ending, LogRecord, Trace
-from tutor.judge.waiting import CPU_WAIT_SHARE, IDLE_S, IN_FLIGHT_S, wait_until_seen
+from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE, IDLE_S, IN_FLIGHT_S, wait_until_seen
 
 STARTUP_S = 1.5
 """Messages logged later than this after the first one are not part of the node's startup."""

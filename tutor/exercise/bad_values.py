@@ -12,7 +12,7 @@ from tutor.judge.bench import Bench, Run
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import measure_steady_rate
+from tutor.judge.waiting_for_nodes import measure_steady_rate
 
 
 @dataclass(frozen=True)

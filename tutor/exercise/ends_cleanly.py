@@ -14,7 +14,7 @@ from tutor.judge.check import Criterion
 from tutor.judge.ending import judge_ending, repeat_chance_failures
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.verdict import Status, Verdict
-from tutor.judge.waiting import NO_NODE_S, START_S
+from tutor.judge.waiting_for_nodes import NO_NODE_S, START_S
 
 ANSWER_S = 2.0
 """Time limit for the answer to a parameter request, by which a node shows that it spins."""

@@ -14,7 +14,7 @@ from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import GoalAnswer
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, RESENT_S, patience_s, wait_until_seen
+from tutor.judge.waiting_for_nodes import IDLE_S, RESENT_S, patience_s, wait_until_seen
 from tutor.judge.wording import counted, output_tail
 
 ANSWER_S = 5.0

@@ -23,7 +23,7 @@ from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.launch_output import ended_processes
 from tutor.judge.trace import Ending, Trace
-from tutor.judge.waiting import MESSAGE_GAP_S, OTHER_NAME_S, START_S
+from tutor.judge.waiting_for_nodes import MESSAGE_GAP_S, OTHER_NAME_S, START_S
 from tutor.ros_model import Graph
 
 NODE_DELAY_S = 12.0

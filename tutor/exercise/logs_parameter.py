@@ -14,7 +14,7 @@ from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, MESSAGE_GAP_S, RESENT_S, wait_until_seen
+from tutor.judge.waiting_for_nodes import IDLE_S, MESSAGE_GAP_S, RESENT_S, wait_until_seen
 from tutor.ros_model import Parameter
 from tutor.source.log_calls import logs_the_same_on_each_message
 

@@ -17,7 +17,7 @@ from tutor.judge.check import Criterion
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Level, Trace
 from tutor.judge.verdict import Verdict, failed, passed, skipped
-from tutor.judge.waiting import IDLE_S, wait_until_seen
+from tutor.judge.waiting_for_nodes import IDLE_S, wait_until_seen
 from tutor.judge.wording import output_tail, shape
 
 

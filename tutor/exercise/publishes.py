@@ -17,7 +17,7 @@ from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Sample, Trace
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, IN_FLIGHT_S, wait_for_message
+from tutor.judge.waiting_for_nodes import IDLE_S, IN_FLIGHT_S, wait_for_message
 from tutor.judge.wording import counted, output_tail
 
 SHOWN = 3

@@ -11,10 +11,10 @@ from typing import Any
 from tutor.exercise.nouns import Program, Topic
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
-from tutor.judge.stuck import is_stuck_for_ever
+from tutor.judge.stuck_nodes import is_stuck_for_ever
 from tutor.judge.trace import Echo, Ending, Sample, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import IDLE_S, MESSAGE_GAP_S, RESENT_S, START_S, find_stuck_frames, wait_for_message
+from tutor.judge.waiting_for_nodes import IDLE_S, MESSAGE_GAP_S, RESENT_S, START_S, find_stuck_frames, wait_for_message
 from tutor.ros_model import Graph, Parameter
 
 MATCHED_S = 1.3

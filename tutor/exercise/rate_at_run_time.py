@@ -15,7 +15,7 @@ from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, IN_FLIGHT_S, measure_steady_rate, window_s
+from tutor.judge.waiting_for_nodes import IDLE_S, IN_FLIGHT_S, measure_steady_rate, window_s
 
 
 @dataclass(frozen=True)

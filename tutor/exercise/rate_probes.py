@@ -27,7 +27,7 @@ from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy
 from tutor.judge.rates import measure
 from tutor.judge.trace import Trace
-from tutor.judge.waiting import TRIES, cannot_be_slowed, too_few_by_cpu_wait, wait_for_message, window_s
+from tutor.judge.waiting_for_nodes import TRIES, cannot_be_slowed, too_few_by_cpu_wait, wait_for_message, window_s
 from tutor.ros_model import Parameter
 
 FAST_COLLECT_S = 4.0

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tutor.judge.rates import Rate, describe
 from tutor.judge.trace import Trace
-from tutor.judge.waiting import window_s
+from tutor.judge.waiting_for_nodes import window_s
 from tutor.ros_model import Parameter
 
 FAST_HZ = 8.0

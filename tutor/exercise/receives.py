@@ -16,7 +16,7 @@ from tutor.judge.check import Criterion
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Sample
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import RESENT_S, patience_s, wait_until_seen
+from tutor.judge.waiting_for_nodes import RESENT_S, patience_s, wait_until_seen
 from tutor.judge.wording import counted, output_tail
 from tutor.ros_model import TopicEndpoint
 

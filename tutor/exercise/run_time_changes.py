@@ -11,7 +11,7 @@ from tutor.judge.bench import Bench, Run
 from tutor.judge.rates import Rate, measure
 from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import IDLE_S, measure_steady_rate
+from tutor.judge.waiting_for_nodes import IDLE_S, measure_steady_rate
 
 QUIET_PERIODS = 1.3
 """A node that still publishes sends a message within this many periods, even with some jitter."""

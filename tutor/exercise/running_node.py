@@ -23,7 +23,7 @@ from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Sample, SetAnswer
 from tutor.judge.verdict import Verdict, failed
-from tutor.judge.waiting import (
+from tutor.judge.waiting_for_nodes import (
     IDLE_S,
     MESSAGE_GAP_S,
     RESENT_S,

@@ -11,7 +11,7 @@ from tutor.judge.bench import Run
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import HARDLY_WAITED_SHARE, RESENT_S
+from tutor.judge.waiting_for_nodes import HARDLY_WAITED_SHARE, RESENT_S
 
 SPIN_S = 2.0
 """A node that spins answers a parameter request within this time."""

@@ -10,10 +10,10 @@ from tutor.exercise.nouns import Program, Service
 from tutor.exercise.parameters import DumpSilentNode
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
-from tutor.judge.stuck import ask_unless_stuck
+from tutor.judge.stuck_nodes import ask_unless_stuck
 from tutor.judge.trace import CallAnswer, Ending, Trace
 from tutor.judge.tracebacks import Frame, failed_outside_callbacks
-from tutor.judge.waiting import SETTLE_S, patience_s, wait_until_seen
+from tutor.judge.waiting_for_nodes import SETTLE_S, patience_s, wait_until_seen
 from tutor.ros_model import Graph, ServiceEndpoint
 
 ANSWER_S = 5.0

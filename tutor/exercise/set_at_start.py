@@ -24,7 +24,7 @@ from tutor.judge.rates import TOLERANCE, Rate, describe, measure
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Sample, Trace
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, measure_steady_rate, wait_for_message, wait_until_seen, window_s
+from tutor.judge.waiting_for_nodes import IDLE_S, measure_steady_rate, wait_for_message, wait_until_seen, window_s
 from tutor.judge.wording import counted, output_tail
 from tutor.ros_model import Parameter as Reported
 

@@ -17,7 +17,7 @@ from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import CallAnswer, Level, LogRecord, OutputLine, Trace
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, wait_until_log_quiet, wait_until_seen
+from tutor.judge.waiting_for_nodes import IDLE_S, wait_until_log_quiet, wait_until_seen
 from tutor.judge.wording import describe_no_answer, output_tail, shape
 
 GOOD_CALLS = 3

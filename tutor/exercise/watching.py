@@ -22,7 +22,7 @@ from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Ending, Level, LogRecord, Trace
 from tutor.judge.verdict import Status, Verdict, failed, passed
-from tutor.judge.waiting import wait_until_seen
+from tutor.judge.waiting_for_nodes import wait_until_seen
 from tutor.judge.wording import counted, output_tail
 
 LOG_DELAY_S = 0.5

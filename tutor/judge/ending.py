@@ -12,7 +12,7 @@ from tutor.judge.bench import Bench, Scenario
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.verdict import Verdict, failed, passed, skipped
-from tutor.judge.waiting import CPU_WAIT_SHARE
+from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE
 from tutor.judge.wording import output_tail
 
 _CRASH_SIGNALS = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT
