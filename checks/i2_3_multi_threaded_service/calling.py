@@ -18,7 +18,7 @@ from checks.i2_3_multi_threaded_service.calls import (
     CallBatch,
     needs_repeat_at_once,
 )
-from tutor.exercise.parameters import DumpSilentNode
+from tutor.exercise.node_parameters import DumpSilentNode
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.stuck_nodes import ask_unless_stuck

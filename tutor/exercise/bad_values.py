@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
+from tutor.exercise.node_parameters import ParameterNode, read, set_values
 from tutor.exercise.nouns import Parameter, ShownIn, Value
-from tutor.exercise.parameters import ParameterNode, read, set_values
 from tutor.exercise.rate_at_run_time import measure_new_rate
 from tutor.judge.bench import Bench, Run
 from tutor.judge.rates import Rate

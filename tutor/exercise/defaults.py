@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tutor.exercise.form import Exercise, Form, parameter_node
+from tutor.exercise.node_parameters import ANSWER_S, ParameterNode, find_parameter
 from tutor.exercise.nouns import Parameter, show
-from tutor.exercise.parameters import ANSWER_S, ParameterNode, find_parameter
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.ending import repeat_chance_failures

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
+from tutor.exercise.node_parameters import ParameterNode
 from tutor.exercise.nouns import LaunchFile, Parameter, Program
-from tutor.exercise.parameters import ParameterNode
 from tutor.judge.bench import Scenario
 from tutor.judge.check import Check, Criterion, EarlyJudge, Judge
 from tutor.judge.verdict import Verdict

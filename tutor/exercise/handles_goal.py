@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import GOAL_SERVICE, GOAL_TYPE, Action, Program, agrees, show
-from tutor.exercise.seen import Seen, look, settle
+from tutor.exercise.seen_run import Seen, look, settle
 from tutor.judge.bench import Bench, GoalClient, Run
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom

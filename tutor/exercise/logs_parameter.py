@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Program, Topic
-from tutor.exercise.publishing import ANSWER_S, AskForParameters, PublishingStart, cancel
+from tutor.exercise.publishing_start import ANSWER_S, AskForParameters, PublishingStart, cancel
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom

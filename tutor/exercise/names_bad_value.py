@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from tutor.exercise.defaults import DeclaringRun, DeclaringStart
 from tutor.exercise.form import Exercise, Form, parameter_node
+from tutor.exercise.node_parameters import ParameterNode
 from tutor.exercise.nouns import Parameter, Value
-from tutor.exercise.parameters import ParameterNode
 from tutor.exercise.set_at_start import SetAtStart, StartedWithParameters
 from tutor.judge import tracebacks
 from tutor.judge.bench import Bench

@@ -9,9 +9,9 @@ from typing import Any
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Topic
-from tutor.exercise.publishing import NOT_STARTED, PublishingRun, PublishingStart
-from tutor.exercise.seen import Seen, fits
-from tutor.exercise.watching import Watching
+from tutor.exercise.publishing_start import NOT_STARTED, PublishingRun, PublishingStart
+from tutor.exercise.seen_run import Seen, fits
+from tutor.exercise.watched_start import Watching
 from tutor.judge.bench import Run
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom

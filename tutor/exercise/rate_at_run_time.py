@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from tutor.exercise.defaults import DeclaringStart
 from tutor.exercise.form import Exercise, Form, parameter_node
+from tutor.exercise.node_parameters import ParameterNode, are_alike, fail_not_running, fail_not_set, set_values
 from tutor.exercise.nouns import Parameter
-from tutor.exercise.parameters import ParameterNode, are_alike, fail_not_running, fail_not_set, set_values
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
 from tutor.judge.rates import TOLERANCE, Rate, describe, measure

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from tutor.exercise.nouns import Program, Topic
-from tutor.exercise.publishing import AskForParameters, PublishingStart, cancel, numeric
+from tutor.exercise.publishing_start import AskForParameters, PublishingStart, cancel, numeric
 from tutor.exercise.rate_units import (
     FAST_HZ,
     PROBE_VALUES,

@@ -10,7 +10,7 @@ from typing import Any
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Program, Topic, agrees
-from tutor.exercise.seen import Seen, look, settle
+from tutor.exercise.seen_run import Seen, look, settle
 from tutor.judge.bench import Bench, Publisher, Run
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Symptom

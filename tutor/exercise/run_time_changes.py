@@ -5,8 +5,8 @@ from __future__ import annotations
 import asyncio
 from dataclasses import dataclass, replace
 
+from tutor.exercise.node_parameters import ParameterNode, set_values
 from tutor.exercise.nouns import Parameter, ShownIn, Value
-from tutor.exercise.parameters import ParameterNode, set_values
 from tutor.judge.bench import Bench, Run
 from tutor.judge.rates import Rate, measure
 from tutor.judge.trace import Sample, SetAnswer, Trace

@@ -11,13 +11,13 @@ from typing import Any, NoReturn
 from tutor.exercise.bad_values import BadValues
 from tutor.exercise.defaults import DeclaringRun, Defaults
 from tutor.exercise.handles_goal import action_missing, pursue, unanswered, wait_for_server
+from tutor.exercise.node_parameters import ANSWER_S, DumpSilentNode, find_parameter
 from tutor.exercise.nouns import Action, Parameter, Program, Service, Topic, Value, agrees, show
-from tutor.exercise.parameters import ANSWER_S, DumpSilentNode, find_parameter
 from tutor.exercise.receives import wait_for_subscription
 from tutor.exercise.rejects import Rejects
-from tutor.exercise.seen import SPIN_S, look
+from tutor.exercise.seen_run import SPIN_S, look
 from tutor.exercise.serves import service_missing
-from tutor.exercise.watching import text_in
+from tutor.exercise.watched_start import text_in
 from tutor.judge.bench import Bench, Publisher, Run
 from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.symptom import Observation, Symptom

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from tutor.exercise.node_parameters import DumpSilentNode
 from tutor.exercise.nouns import Program, Service
-from tutor.exercise.parameters import DumpSilentNode
 from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.stuck_nodes import ask_unless_stuck

@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from tutor.exercise.form import Exercise, Form, parameter_node
-from tutor.exercise.nouns import Parameter, SetsRate, ShownIn, SwitchesOff, Topic, Value
-from tutor.exercise.parameters import (
+from tutor.exercise.node_parameters import (
     ANSWER_S,
     MESSAGE_GAP_S,
     ParameterNode,
@@ -17,6 +16,7 @@ from tutor.exercise.parameters import (
     read,
     set_values,
 )
+from tutor.exercise.nouns import Parameter, SetsRate, ShownIn, SwitchesOff, Topic, Value
 from tutor.judge import tracebacks
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion

@@ -7,11 +7,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Program, Service
 from tutor.exercise.serves import ended_by_a_call, wrong_answer
 from tutor.exercise.service_calls import Question, Server, describe_request, make_calls, right_result
-from tutor.exercise.words import SAYS_ERROR
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom

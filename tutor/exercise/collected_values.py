@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from tutor.exercise.nouns import Program, Topic
-from tutor.exercise.publishing import PublishingStart, cancel
+from tutor.exercise.publishing_start import PublishingStart, cancel
 from tutor.exercise.rate_probes import ProbeRates
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run

@@ -12,10 +12,10 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from tutor.exercise.form import Exercise, Form
+from tutor.exercise.node_parameters import DumpSilentNode
 from tutor.exercise.nouns import Program
-from tutor.exercise.parameters import DumpSilentNode
-from tutor.exercise.publishing import cancel
-from tutor.exercise.seen import Seen, look
+from tutor.exercise.publishing_start import cancel
+from tutor.exercise.seen_run import Seen, look
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
 from tutor.judge.ending import repeat_chance_failures

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Parameter, Program, Topic, Value
 from tutor.exercise.running_node import Node, Unmet
-from tutor.exercise.seen import slowed_so_far
+from tutor.exercise.seen_run import slowed_so_far
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.verdict import Verdict, passed
