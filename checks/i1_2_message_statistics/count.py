@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from functools import wraps
 from typing import Any
 
+from checks.i1_2_message_statistics.log_lines import Number
+from checks.i1_2_message_statistics.logged_summaries import NO_SUMMARY, Summary, find_summaries, possible_totals
 from checks.i1_2_message_statistics.losses import (
     fast_summaries,
     find_lost,
@@ -14,8 +16,6 @@ from checks.i1_2_message_statistics.losses import (
     was_sent_fast_enough,
 )
 from checks.i1_2_message_statistics.plans import FAST_HZ
-from checks.i1_2_message_statistics.reading import Number
-from checks.i1_2_message_statistics.summaries import NO_SUMMARY, Summary, find_summaries, possible_totals
 from checks.i1_2_message_statistics.trial import CHATTER, SHOWN, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Symptom
 from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided

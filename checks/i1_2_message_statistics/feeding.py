@@ -8,7 +8,7 @@ from dataclasses import KW_ONLY, dataclass, replace
 from itertools import accumulate
 
 from checks.i1_2_message_statistics import plans
-from checks.i1_2_message_statistics.summaries import find_summaries, last_due_count
+from checks.i1_2_message_statistics.logged_summaries import find_summaries, last_due_count
 from checks.i1_2_message_statistics.trial import CHATTER, PROGRAM, SOON_S, Sent, Trial
 from tutor.judge.bench import Bench, Publisher, Run
 from tutor.judge.ending import repeat_chance_failures

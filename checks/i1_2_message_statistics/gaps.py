@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from checks.i1_2_message_statistics.count import Fault, fails, unless_messages_are_lost
+from checks.i1_2_message_statistics.jump_reports import is_before_jump, kinds_about_first_message, new_lines
+from checks.i1_2_message_statistics.log_lines import Line
+from checks.i1_2_message_statistics.logged_summaries import find_summaries
 from checks.i1_2_message_statistics.negative_losses import find_negative_loss
 from checks.i1_2_message_statistics.rate import sent_hz
-from checks.i1_2_message_statistics.reading import Line
-from checks.i1_2_message_statistics.reports import is_before_jump, kinds_about_first_message, new_lines
-from checks.i1_2_message_statistics.summaries import find_summaries
 from checks.i1_2_message_statistics.trial import SHOWN, Trial
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.symptom import Observation, Symptom

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from functools import wraps
 from typing import Any
 
+from checks.i1_2_message_statistics.logged_summaries import Summary, find_summaries, group_lines, summary_kinds
 from checks.i1_2_message_statistics.plans import FAST_HZ, FAST_MESSAGES
-from checks.i1_2_message_statistics.summaries import Summary, find_summaries, group_lines, summary_kinds
 from checks.i1_2_message_statistics.trial import CHATTER, STALL_S, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Symptom
 from tutor.judge.verdict import Failure, Verdict

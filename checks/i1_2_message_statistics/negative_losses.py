@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from checks.i1_2_message_statistics.reading import Line
+from checks.i1_2_message_statistics.log_lines import Line
 from checks.i1_2_message_statistics.trial import Trial
 
 _LOSS = (

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from math import inf
 
 from checks.i1_2_message_statistics.count import Fault, fails, swapped, total_as_rate, unless_messages_are_lost
+from checks.i1_2_message_statistics.log_lines import Number
+from checks.i1_2_message_statistics.logged_summaries import NO_SUMMARY, Summary, find_summaries, possible_totals, slots
 from checks.i1_2_message_statistics.plans import RESTARTED_HZ
-from checks.i1_2_message_statistics.reading import Number
-from checks.i1_2_message_statistics.summaries import NO_SUMMARY, Summary, find_summaries, possible_totals, slots
 from checks.i1_2_message_statistics.trial import STALL_S, SUMMARY_EVERY, Trial
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.verdict import Verdict, passed, skipped, undecided

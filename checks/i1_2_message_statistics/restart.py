@@ -14,8 +14,8 @@ from checks.i1_2_message_statistics.count import (
     true_total,
     unless_messages_are_lost,
 )
-from checks.i1_2_message_statistics.reports import new_lines
-from checks.i1_2_message_statistics.summaries import NO_SUMMARY, Summary, find_summaries
+from checks.i1_2_message_statistics.jump_reports import new_lines
+from checks.i1_2_message_statistics.logged_summaries import NO_SUMMARY, Summary, find_summaries
 from checks.i1_2_message_statistics.summary import EVERY_MESSAGE, judge_slow_summary, too_many
 from checks.i1_2_message_statistics.trial import OURS, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Symptom

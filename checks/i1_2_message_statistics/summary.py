@@ -7,9 +7,9 @@ from itertools import pairwise
 
 from checks.i1_2_message_statistics import losses
 from checks.i1_2_message_statistics.count import Fault, counts_truly, fails, true_total, unless_messages_are_lost
+from checks.i1_2_message_statistics.log_lines import labelled, parse_log
+from checks.i1_2_message_statistics.logged_summaries import Summary, count_complete, find_summaries
 from checks.i1_2_message_statistics.plans import FAST_HZ, FAST_MESSAGES
-from checks.i1_2_message_statistics.reading import labelled, parse_log
-from checks.i1_2_message_statistics.summaries import Summary, count_complete, find_summaries
 from checks.i1_2_message_statistics.trial import OURS, SHOWN, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import LogRecord

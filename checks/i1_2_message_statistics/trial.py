@@ -9,7 +9,7 @@ from itertools import pairwise
 from statistics import median
 from typing import Any
 
-from checks.i1_2_message_statistics.reading import Line, parse_log
+from checks.i1_2_message_statistics.log_lines import Line, parse_log
 from tutor.exercise import Program, Topic
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Ending, Trace

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from checks.i2_3_multi_threaded_service.calling import ConcurrentCalls, Interrupted
+from checks.i2_3_multi_threaded_service.call_scenarios import ConcurrentCalls, Interrupted
 from checks.i2_3_multi_threaded_service.calls import (
     ALLOWANCE_S,
     CALLS,
@@ -25,10 +25,10 @@ from checks.i2_3_multi_threaded_service.calls import (
     right_sum,
     sum_in,
 )
-from checks.i2_3_multi_threaded_service.listening import IdleRun
-from checks.i2_3_multi_threaded_service.pace import TimerPace, Watch, measure_timer
+from checks.i2_3_multi_threaded_service.idle_run import IdleRun
 from checks.i2_3_multi_threaded_service.single_calls import SingleCalls
 from checks.i2_3_multi_threaded_service.timer_logs import HZ, Series, best_series
+from checks.i2_3_multi_threaded_service.timer_pace import TimerPace, Watch, measure_timer
 from tutor.exercise.service_calls import describe_request
 from tutor.judge.ending import judge_ending
 from tutor.judge.rates import TOLERANCE

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 
-from checks.i2_3_multi_threaded_service.calling import (
+from checks.i2_3_multi_threaded_service.call_scenarios import (
     dump_silent_node,
     large_operands,
     make_call,
@@ -23,8 +23,8 @@ from checks.i2_3_multi_threaded_service.calls import (
     Call,
     is_wrong,
 )
-from checks.i2_3_multi_threaded_service.listening import IdleRun, listen_until_tick, run_idle
-from checks.i2_3_multi_threaded_service.pace import MAX_TRIES, TRIES, Watch
+from checks.i2_3_multi_threaded_service.idle_run import IdleRun, listen_until_tick, run_idle
+from checks.i2_3_multi_threaded_service.timer_pace import MAX_TRIES, TRIES, Watch
 from tutor.judge.bench import Bench, Run
 from tutor.judge.tasks import Tasks
 from tutor.judge.trace import Trace

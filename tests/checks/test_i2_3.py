@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checks.i2_3_multi_threaded_service import CHECK
-from checks.i2_3_multi_threaded_service.calling import ConcurrentCalls, Interrupted
+from checks.i2_3_multi_threaded_service.call_scenarios import ConcurrentCalls, Interrupted
 from checks.i2_3_multi_threaded_service.calls import (
     MAX_AT_ONCE_TRIES,
     SLOW_ADD,
@@ -21,6 +21,7 @@ from checks.i2_3_multi_threaded_service.calls import (
     CallBatch,
     needs_repeat_at_once,
 )
+from checks.i2_3_multi_threaded_service.idle_run import IdleRun, logs_since
 from checks.i2_3_multi_threaded_service.judges import (
     judge_blocks,
     judge_blocks_so_far,
@@ -32,10 +33,9 @@ from checks.i2_3_multi_threaded_service.judges import (
     judge_timer,
     judge_timer_so_far,
 )
-from checks.i2_3_multi_threaded_service.listening import IdleRun, logs_since
-from checks.i2_3_multi_threaded_service.pace import MAX_TRIES, TRIES, Fault, Watch, measure_timer
 from checks.i2_3_multi_threaded_service.single_calls import SingleCalls
 from checks.i2_3_multi_threaded_service.timer_logs import Series, all_series, timer_series
+from checks.i2_3_multi_threaded_service.timer_pace import MAX_TRIES, TRIES, Fault, Watch, measure_timer
 from tests.checks import builders
 from tests.checks.builders import (
     CRASHED,

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from checks.i1_2_message_statistics.count import Fault
+from checks.i1_2_message_statistics.log_lines import Number
+from checks.i1_2_message_statistics.logged_summaries import Summary
 from checks.i1_2_message_statistics.rate import (
     DELAY_S,
     Range,
@@ -13,8 +15,6 @@ from checks.i1_2_message_statistics.rate import (
     numbers_except_count,
     true_rates,
 )
-from checks.i1_2_message_statistics.reading import Number
-from checks.i1_2_message_statistics.summaries import Summary
 
 WHOLE_SECONDS_ERROR_S = 0.01
 """Maximum deviation from whole seconds of the time that a rate implies: rates are often written with two digits."""

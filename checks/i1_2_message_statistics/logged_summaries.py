@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 
-from checks.i1_2_message_statistics.reading import Line, Number
+from checks.i1_2_message_statistics.log_lines import Line, Number
 from checks.i1_2_message_statistics.trial import SOON_S, SUMMARY_EVERY, Sent, Trial
 
 AT_ONCE_S = 0.05

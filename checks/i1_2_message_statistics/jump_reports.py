@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
-from checks.i1_2_message_statistics.reading import Line
-from checks.i1_2_message_statistics.summaries import Summary, find_summaries, last_due_count
+from checks.i1_2_message_statistics.log_lines import Line
+from checks.i1_2_message_statistics.logged_summaries import Summary, find_summaries, last_due_count
 from checks.i1_2_message_statistics.trial import SOON_S, Trial
 from tutor.judge.trace import Level
 from tutor.judge.wording import shape

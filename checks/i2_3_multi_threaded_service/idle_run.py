@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
 
-from checks.i2_3_multi_threaded_service.calling import total_cpu_wait_s, wait_until_spinning
+from checks.i2_3_multi_threaded_service.call_scenarios import total_cpu_wait_s, wait_until_spinning
 from checks.i2_3_multi_threaded_service.calls import PROGRAM, SERVER, Call
 from checks.i2_3_multi_threaded_service.timer_logs import HZ, Series, all_series, timer_series
 from tutor.judge.bench import Bench, Run
