@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from functools import wraps
 from typing import Any
 
+from checks.i1_2_message_statistics.log_lines import Number
+from checks.i1_2_message_statistics.logged_summaries import NO_SUMMARY, Summary, find_summaries, possible_totals
 from checks.i1_2_message_statistics.losses import (
     fast_summaries,
     find_lost,
@@ -14,8 +16,6 @@ from checks.i1_2_message_statistics.losses import (
     was_sent_fast_enough,
 )
 from checks.i1_2_message_statistics.plans import FAST_HZ
-from checks.i1_2_message_statistics.reading import Number
-from checks.i1_2_message_statistics.summaries import NO_SUMMARY, Summary, find_summaries, possible_totals
 from checks.i1_2_message_statistics.trial import CHATTER, SHOWN, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Symptom
 from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
@@ -39,7 +39,7 @@ def judge_count(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     if not verdict.passed:
         return verdict
     lost = find_lost(fast, steady)
-    if lost.excused if lost else not was_sent_fast_enough(fast):
+    if lost.slowed if lost else not was_sent_fast_enough(fast):
         return undecided("to send messages fast")
     if lost is None:
         return verdict
@@ -113,7 +113,7 @@ def _is_certain_to_lose(steady: Trial, fast: Trial) -> bool:
     if renews_subscription(steady) or renews_subscription(fast):
         return True
     lost = find_lost(fast, steady) if counts_truly(steady) else None
-    return lost is not None and not lost.excused
+    return lost is not None and not lost.slowed
 
 
 def fails(expected: str, observed: str, trial: Trial, fault: Fault, evidence: Sequence[str] = ()) -> Verdict:
@@ -191,7 +191,7 @@ def in_words(totals: range) -> str:
 
 def _may_be_made_after(messages: int, summary: Summary, *, before: int) -> bool:
     """Whether its quotations are consistent with a summary that was made after this many messages."""
-    newer = {each.number for each in summary.trial.sent[messages : summary.messages_at_end]}
+    newer = {message.number for message in summary.trial.sent[messages : summary.messages_at_end]}
     later = newer.intersection(quoted_without_first(summary, before=before))
     return not later or _is_made_after(messages, summary, before=before)
 
@@ -201,7 +201,7 @@ def _is_made_after(messages: int, summary: Summary, *, before: int) -> bool:
 
     A new publisher repeats some numbers; one that had come before does not count as later.
     """
-    numbers = [each.number for each in summary.trial.sent]
+    numbers = [message.number for message in summary.trial.sent]
     quoted = quoted_without_first(summary, before=before)
     newer = {*numbers[messages : summary.messages_at_end]}.difference(numbers[:messages])
     return numbers[messages - 1] in quoted and not newer.intersection(quoted)

@@ -8,13 +8,13 @@ from dataclasses import KW_ONLY, dataclass, replace
 from itertools import accumulate
 
 from checks.i1_2_message_statistics import plans
-from checks.i1_2_message_statistics.summaries import find_summaries, last_due_count
+from checks.i1_2_message_statistics.logged_summaries import find_summaries, last_due_count
 from checks.i1_2_message_statistics.trial import CHATTER, PROGRAM, SOON_S, Sent, Trial
 from tutor.judge.bench import Bench, Publisher, Run
-from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.stuck import ask_unless_stuck
+from tutor.judge.ending import repeat_chance_failures
+from tutor.judge.stuck_nodes import ask_unless_stuck
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import patience_s, wait_until_log_quiet, wait_until_seen
+from tutor.judge.waiting_for_nodes import patience_s, wait_until_log_quiet, wait_until_seen
 
 QUIET_S = 0.8
 """How long a node is up before the first message, so that a rate counted from its start is clearly too low."""
@@ -57,7 +57,7 @@ class Feed:
     explains_silence: bool = False
 
     async def __call__(self, bench: Bench) -> Trial:
-        return await (repeat_if_doubtful(self._run) if self.ctrl_c else self._run)(bench)
+        return await (repeat_chance_failures(self._run) if self.ctrl_c else self._run)(bench)
 
     async def _run(self, bench: Bench) -> Trial:
         stretches = await self.plan(bench)
@@ -135,7 +135,7 @@ class Talker:
         run = self._run
 
         def subscriptions() -> list[tuple[str, str]]:
-            return [(each.topic, each.type) for each in run.graph.subscriptions]
+            return [(subscription.topic, subscription.type) for subscription in run.graph.subscriptions]
 
         self._bench.report_progress(0.05, "waiting for the subscription")
         await wait_until_seen(
@@ -204,7 +204,7 @@ async def collect_last_logs(run: Run, trial: Trial) -> Trial:
     if last := last_due_count(len(trial.sent)):
         # From the last message on: a node that restarts its count for a new publisher logs its summary later.
         since = trial.sent[-1].at
-        await run.until(lambda: any(each.messages >= last for each in find_summaries(current())), limit_s(since))
+        await run.until(lambda: any(summary.messages >= last for summary in find_summaries(current())), limit_s(since))
     if trial.jumps:
         jumped_at = trial.sent[trial.jumps[-1]].at
         await run.until(lambda: logs_something_new(jumped_at, current()), limit_s(jumped_at))

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from checks.i1_2_message_statistics.count import Fault, fails, unless_messages_are_lost
+from checks.i1_2_message_statistics.jump_reports import is_before_jump, kinds_about_first_message, new_lines
+from checks.i1_2_message_statistics.log_lines import Line
+from checks.i1_2_message_statistics.logged_summaries import find_summaries
 from checks.i1_2_message_statistics.negative_losses import find_negative_loss
 from checks.i1_2_message_statistics.rate import sent_hz
-from checks.i1_2_message_statistics.reading import Line
-from checks.i1_2_message_statistics.reports import is_before_jump, kinds_about_first_message, new_lines
-from checks.i1_2_message_statistics.summaries import find_summaries
 from checks.i1_2_message_statistics.trial import SHOWN, Trial
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.symptom import Observation, Symptom
@@ -137,7 +137,7 @@ def _is_about_jump(line: Line, index: int, jump: Trial) -> bool:
 def _reports_all_jumps(line: Line, jump: Trial) -> bool:
     """Whether the line reports all jumps so far: their number, or the total of missed messages."""
     missed = jump.missed(line.messages)
-    return len(missed) > 1 and any(each.value in (len(missed), sum(missed)) for each in line.numbers)
+    return len(missed) > 1 and any(number.value in (len(missed), sum(missed)) for number in line.numbers)
 
 
 def _find_repeated_alarms(reports: Sequence[Line], jump: Trial) -> list[Line]:
@@ -197,7 +197,9 @@ def _find_false_alarms(index: int, jump: Trial, steady: Trial) -> list[tuple[Tri
 
     They are alarms only if they came with some, but not with most messages.
     """
-    in_summaries = {line.kind for trial in (steady, jump) for each in find_summaries(trial) for line in each.lines}
+    in_summaries = {
+        line.kind for trial in (steady, jump) for summary in find_summaries(trial) for line in summary.lines
+    }
     with_it = range(index + 1, index + 3)
     since = {line.kind for line in jump.lines if line.messages in with_it} - in_summaries
     calm = [(trial, line) for trial in (steady, jump) for line in trial.lines if is_before_jump(line, trial)]

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from functools import wraps
 from typing import Any
 
+from checks.i1_2_message_statistics.logged_summaries import Summary, find_summaries, group_lines, summary_kinds
 from checks.i1_2_message_statistics.plans import FAST_HZ, FAST_MESSAGES
-from checks.i1_2_message_statistics.summaries import Summary, find_summaries, group_lines, summary_kinds
 from checks.i1_2_message_statistics.trial import CHATTER, STALL_S, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Symptom
 from tutor.judge.verdict import Failure, Verdict
@@ -33,7 +33,7 @@ def of_what_comes[V: Verdict | None](judge: Callable[..., V]) -> Callable[..., V
     @wraps(judge)
     def judged(*trials: Trial) -> V:
         verdict = judge(*trials)
-        if not isinstance(verdict, Failure) or any(each.trace.exit is not None for each in trials):
+        if not isinstance(verdict, Failure) or any(trial.trace.exit is not None for trial in trials):
             return verdict
         seen = verdict.seen
         if seen is None or seen.symptom not in (Symptom.WRONG_LOG, Symptom.NOT_LOGGED):
@@ -57,12 +57,12 @@ def was_sent_fast_enough(fast: Trial) -> bool:
 class LostMessages:
     """A summary whose count lacks messages. `counted`: the true count, up to the last message that it quotes.
 
-    `excused`: the node or our process waited for the CPU long enough to explain the loss.
+    `slowed`: the node or our process waited for a CPU long enough to explain the loss.
     """
 
     summary: Summary
     counted: int
-    excused: bool
+    slowed: bool
 
 
 def find_lost(fast: Trial, steady: Trial) -> LostMessages | None:
@@ -132,7 +132,7 @@ def fast_summaries(fast: Trial) -> Sequence[Summary]:
         and len(summaries) >= len(fast.sent) // SUMMARY_EVERY
     )
     prompt = fast.spins and fast.allowance_s < STALL_S and not messages_behind(fast)
-    alone = sum(each.topic == CHATTER.name for each in fast.trace.graph.subscriptions) == 1
+    alone = sum(subscription.topic == CHATTER.name for subscription in fast.trace.graph.subscriptions) == 1
     return summaries if whole and prompt and alone and not renews_subscription(fast) else ()
 
 
@@ -159,14 +159,14 @@ def _find_facts(trials: Sequence[Trial]) -> dict[str, Any]:
 
 
 def _on_topic(endpoints: Sequence[TopicEndpoint]) -> list[TopicEndpoint]:
-    return [each for each in endpoints if (each.topic, each.type) == (CHATTER.name, CHATTER.type)]
+    return [endpoint for endpoint in endpoints if (endpoint.topic, endpoint.type) == (CHATTER.name, CHATTER.type)]
 
 
 def _find_delay(trial: Trial, trials: Sequence[Trial]) -> str:
     """How the node handles messages late or not at all, in words; "" if it keeps up."""
     if behind := messages_behind(trial):
         return f"a message is handled when {behind} newer ones have come, or never"
-    if not trial.jumps and any(find_lost(trial, each) for each in trials):
+    if not trial.jumps and any(find_lost(trial, other) for other in trials):
         return "some messages never reach the callback"
     if trial.sent and trial.spins and not trial.lines:
         return "the node is not done with its messages in time"

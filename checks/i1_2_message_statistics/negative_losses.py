@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from checks.i1_2_message_statistics.reading import Line
+from checks.i1_2_message_statistics.log_lines import Line
 from checks.i1_2_message_statistics.trial import Trial
 
 _LOSS = (
@@ -55,6 +55,6 @@ def _is_negative_total(line: Line, jump: Trial, jump_twice: Trial, steady: Trial
         return False
     return any(
         number.value < 0
-        and all(len(each.numbers) > place and each.numbers[place].value == sum(missed) for each, missed in others)
+        and all(len(other.numbers) > place and other.numbers[place].value == sum(missed) for other, missed in others)
         for place, number in enumerate(line.numbers)
     )

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from math import inf
 
 from checks.i1_2_message_statistics.count import Fault, fails, swapped, total_as_rate, unless_messages_are_lost
+from checks.i1_2_message_statistics.log_lines import Number
+from checks.i1_2_message_statistics.logged_summaries import NO_SUMMARY, Summary, find_summaries, possible_totals, slots
 from checks.i1_2_message_statistics.plans import RESTARTED_HZ
-from checks.i1_2_message_statistics.reading import Number
-from checks.i1_2_message_statistics.summaries import NO_SUMMARY, Summary, find_summaries, possible_totals, slots
 from checks.i1_2_message_statistics.trial import STALL_S, SUMMARY_EVERY, Trial
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.verdict import Verdict, passed, skipped, undecided
@@ -33,18 +33,19 @@ def judge_rate(steady: Trial, jump: Trial, restart: Trial, fast: Trial) -> Verdi
     if not summaries:
         return skipped(NO_SUMMARY)
     allowed = [true_rates(summary) for summary in summaries]
-    low, high = min(each.low for each in allowed), max(each.high for each in allowed)
+    low, high = min(rates.low for rates in allowed), max(rates.high for rates in allowed)
     expected = f"each summary states the messages per second: {sent_hz(steady):.2f}, from {low:.1f} to {high:.1f}"
     stated = find_stated_rates(summaries, jump)
     if stated is None:
         wrong = next(
-            (each for each, true in zip(summaries, allowed, strict=True) if not true.among(each)), summaries[-1]
+            (summary for summary, true in zip(summaries, allowed, strict=True) if not true.among(summary)),
+            summaries[-1],
         )
         fault: Fault = {"fault": "wrong-rate", "summary": wrong, "summaries": summaries}
         return fails(expected, _describe_numbers(wrong), steady, fault)
     if all(map(total_as_rate, summaries)):
         return fails(expected, _describe_numbers(summaries[-1]), steady, swapped(summaries[-1]))
-    if is_doubtful_rate(stated, summaries):
+    if is_undecided(stated, summaries):
         return undecided("to send messages at an even rate")
     if (kept := find_kept_rate(restart)) is not None:
         return fails(
@@ -90,11 +91,11 @@ def sent_hz(trial: Trial) -> float:
     return (len(trial.sent) - 1) / (trial.sent[-1].at - trial.sent[0].at)
 
 
-def true_rates(summary: Summary, *, excused_s: float = inf) -> Range:
+def true_rates(summary: Summary, *, allowance_s: float = inf) -> Range:
     """The rates that may be stated: N or N-1 messages divided by the time since the first, or since a recent one.
 
-    If the machine delayed that message's callback, the time seems shorter to the node by the same amount; at most
-    `excused_s` of that is allowed for.
+    If the machine delayed that message's callback, the time seems shorter to the node by the same amount; the
+    allowance for that is at most `allowance_s`.
     """
     trial = summary.trial
     least, most = [], []
@@ -103,7 +104,7 @@ def true_rates(summary: Summary, *, excused_s: float = inf) -> Range:
         for first in range(max(1, until - MIN_WINDOW + 1)):
             count, since = until - first, trial.sent[first].at
             span = max(last_at - since, DELAY_S)
-            delay = min(DELAY_S + min(trial.delay_s(first), excused_s), 0.7 * span)
+            delay = min(DELAY_S + min(trial.delay_s(first), allowance_s), 0.7 * span)
             if count >= SUMMARY_EVERY or first == 0:  # from the first message until the summary is logged
                 least.append((count - 1) / (max(summary.at - since, span) + DELAY_S))
                 most.append(count / (span - delay))
@@ -120,7 +121,7 @@ def find_stated_rates(summaries: Sequence[Summary], jump: Trial) -> list[Number]
     """
     allowed = [true_rates(summary) for summary in summaries]
     elsewhere = find_summaries(jump)
-    wrong_numbers = [{n.text for n in each.numbers if not true_rates(each).holds(n)} for each in elsewhere]
+    wrong_numbers = [{n.text for n in summary.numbers if not true_rates(summary).holds(n)} for summary in elsewhere]
     constant = set.intersection(*wrong_numbers) if wrong_numbers else set()
     if (places := slots(summaries)) is not None:
         others = slots([summaries[0], *elsewhere]) or places
@@ -143,30 +144,37 @@ def find_kept_rate(restart: Trial) -> Number | None:
     decimals, and so may be the same by chance.
     """
     summaries = find_summaries(restart)
-    before = [each for each in summaries if each.messages <= restart.before_break]
-    after = [each for each in summaries if each.messages >= restart.before_break + MIN_WINDOW]
+    before = [summary for summary in summaries if summary.messages <= restart.before_break]
+    after = [summary for summary in summaries if summary.messages >= restart.before_break + MIN_WINDOW]
     for number in before[0].numbers if before and after else ():
-        kept = all(number.text in {other.text for other in each.numbers} for each in (*before, *after))
+        kept = all(number.text in {other.text for other in summary.numbers} for summary in (*before, *after))
         if "." in number.text and kept and true_rates(before[0]).holds(number):
-            others = (other for each in after for other in numbers_except_count(each) if true_rates(each).holds(other))
+            others = (
+                other
+                for summary in after
+                for other in numbers_except_count(summary)
+                if true_rates(summary).holds(other)
+            )
             return number if all(other.text == number.text for other in others) else None
     return None
 
 
-def is_doubtful_rate(numbers: Sequence[Number], summaries: Sequence[Summary]) -> bool:
-    """Whether these numbers may only look like the rate, because a busy machine kept us from the planned send rate.
+def is_undecided(numbers: Sequence[Number], summaries: Sequence[Summary]) -> bool:
+    """Whether these numbers may only look like the rate, because the machine kept us from the planned send rate.
 
     At the planned rate, other numbers are far from it: the elapsed seconds, the messages per whole seconds, or per
     seconds since the start of the node.
     """
     trial, stated = summaries[0].trial, list(zip(numbers, summaries, strict=True))
     elapsed = [elapsed_s(summary, summary.due or summary.messages) for summary in summaries]
-    true = all(true_rates(summary, excused_s=STALL_S).holds(number) for number, summary in stated)
+    true = all(true_rates(summary, allowance_s=STALL_S).holds(number) for number, summary in stated)
     late = trial.allowance_s > STALL_S and any(span.high - span.low > STALL_S for span in elapsed)
     if true and not late and elapsed[0].low <= SLOWEST_S and trial.delay_s(0) <= STALL_S:
         return False
     times = [span.low for span in elapsed], [span.high for span in elapsed]
-    whole = [[each.messages / max(int(span), 1) for each, span in zip(summaries, at, strict=True)] for at in times]
+    whole = [
+        [summary.messages / max(int(span), 1) for summary, span in zip(summaries, at, strict=True)] for at in times
+    ]
     explained_otherwise = any(
         all(abs(number.value - other) < 0.01 + DELAY_S * other for number, other in zip(numbers, others, strict=True))
         for others in (*times, *whole)

@@ -14,8 +14,8 @@ from checks.i1_2_message_statistics.count import (
     true_total,
     unless_messages_are_lost,
 )
-from checks.i1_2_message_statistics.reports import new_lines
-from checks.i1_2_message_statistics.summaries import NO_SUMMARY, Summary, find_summaries
+from checks.i1_2_message_statistics.jump_reports import new_lines
+from checks.i1_2_message_statistics.logged_summaries import NO_SUMMARY, Summary, find_summaries
 from checks.i1_2_message_statistics.summary import EVERY_MESSAGE, judge_slow_summary, too_many
 from checks.i1_2_message_statistics.trial import OURS, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Symptom
@@ -82,7 +82,7 @@ def _count_summaries(found: Sequence[Summary], usual: Sequence[Summary]) -> int:
 
     A node that waited for the CPU may log several summaries at once, so that they look like one.
     """
-    lines, usual_lines = (Counter(line.kind for each in of for line in each.lines) for of in (found, usual))
+    lines, usual_lines = (Counter(line.kind for summary in of for line in summary.lines) for of in (found, usual))
     return min((lines[kind] * len(usual) // usual_lines[kind] for kind in usual_lines if kind in lines), default=0)
 
 
@@ -91,4 +91,4 @@ def _quotes_new_publisher(summary: Summary) -> bool:
     sent, before = summary.trial.sent, summary.trial.before_break
     quoted = quoted_without_first(summary, before=before)
     recent = sent[max(before, summary.messages - SUMMARY_EVERY) : summary.messages_at_end]
-    return any(each.number in quoted for each in recent)
+    return any(message.number in quoted for message in recent)

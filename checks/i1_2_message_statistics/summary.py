@@ -7,9 +7,9 @@ from itertools import pairwise
 
 from checks.i1_2_message_statistics import losses
 from checks.i1_2_message_statistics.count import Fault, counts_truly, fails, true_total, unless_messages_are_lost
+from checks.i1_2_message_statistics.log_lines import labelled, parse_log
+from checks.i1_2_message_statistics.logged_summaries import Summary, count_complete, find_summaries
 from checks.i1_2_message_statistics.plans import FAST_HZ, FAST_MESSAGES
-from checks.i1_2_message_statistics.reading import labelled, parse_log
-from checks.i1_2_message_statistics.summaries import Summary, count_complete, find_summaries
 from checks.i1_2_message_statistics.trial import OURS, SHOWN, SUMMARY_EVERY, Trial
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import LogRecord
@@ -18,8 +18,8 @@ from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
 EXPECTED = f"one summary for every {SUMMARY_EVERY} messages, with the first and the last message's content"
 EVERY_MESSAGE = "summary-for-every-message"
 
-BUSY_S = 0.5
-"""If the node waited longer for a CPU, missing summaries may be the machine's fault."""
+SLOWED_S = 0.5
+"""If the node waited longer for a CPU, the machine may be to blame for missing summaries."""
 
 
 @unless_messages_are_lost
@@ -28,7 +28,7 @@ def judge_summary(steady: Trial, jump: Trial, fast: Trial) -> Verdict:
     verdict = judge_slow_summary(steady, jump)
     if not verdict.passed or losses.find_lost(fast, steady) or not losses.is_summary_missing(fast, steady):
         return verdict
-    if not losses.was_sent_fast_enough(fast) or fast.allowance_s > BUSY_S:
+    if not losses.was_sent_fast_enough(fast) or fast.allowance_s > SLOWED_S:
         return undecided("to send messages fast")
     return failed(
         f"{EXPECTED}, at {FAST_HZ:g} a second, too",
@@ -75,7 +75,7 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
     summaries = losses.fast_summaries(fast)
     if not summaries:
         return None
-    if all(each.is_complete for each in summaries) and len(summaries) >= 1.5 * len(fast.sent) / SUMMARY_EVERY:
+    if all(summary.is_complete for summary in summaries) and len(summaries) >= 1.5 * len(fast.sent) / SUMMARY_EVERY:
         fault = find_wrong_interval(summaries, fast, len(fast.sent))
         apart = {after.messages - before.messages for before, after in pairwise(summaries)}
         # At different distances, some may be several that look like one because the messages came fast.
@@ -86,7 +86,7 @@ def judge_fast_summary(fast: Trial) -> Verdict | None:
         return None
     missing = [find_incomplete(summary) for summary in summaries[1:]]  # the first may be complete
     last = missing[-1]
-    if last is None or {each and each["fault"] for each in missing} != {last["fault"]}:
+    if last is None or {fault and fault["fault"] for fault in missing} != {last["fault"]}:
         return None
     return fails(EXPECTED, f"it is incomplete {summaries[-1]}", fast, last)
 
@@ -144,8 +144,8 @@ def find_wrong_interval(summaries: Sequence[Summary], trial: Trial, messages: in
         return too_many(sum(summary.repetitions for summary in summaries), messages)
     for number in due:
         if not any(summary.due == number and summary.is_in_time for summary in summaries):
-            early = [each for each in when if number - SUMMARY_EVERY < each < number]
-            late = [each for each in when if number < each < number + SUMMARY_EVERY]
+            early = [count for count in when if number - SUMMARY_EVERY < count < number]
+            late = [count for count in when if number < count < number + SUMMARY_EVERY]
             when_instead = f"one comes after {(early or late)[-1]}" if early or late else "and none comes soon after"
             return {"fault": "missing-summary", "what": f"there is none after {number} messages, {when_instead}"}
     return None
@@ -159,7 +159,7 @@ def too_many(summaries: int, messages: int, fault: str = "too-many-summaries") -
 def find_incomplete(summary: Summary) -> Fault | None:
     """What is missing from a summary, or in the wrong place; None if nothing is."""
     first, quoted = summary.trial.sent[0], summary.quoted
-    recent = {each.number for each in summary.recent}
+    recent = {message.number for message in summary.recent}
     if first.number not in quoted:
         others = [number for number in quoted if number not in recent]
         if others:
@@ -169,7 +169,7 @@ def find_incomplete(summary: Summary) -> Fault | None:
         return {"fault": "first-message-missing", "content": first.content, "cut": is_cut}
     if not recent.intersection(quoted):
         return {"fault": "last-message-missing", "what": f"“{summary.recent[0].content}” is not in it"}
-    labels = {each for line in summary.lines for each in labelled(line.text)}
+    labels = {label for line in summary.lines for label in labelled(line.text)}
     swapped = {("first", number) for number in recent if number != first.number}
     if ("last", first.number) in labels and labels & swapped and ("first", first.number) not in labels:
         return {"fault": "first-and-last-swapped", "content": first.content}

@@ -9,7 +9,7 @@ from itertools import pairwise
 from statistics import median
 from typing import Any
 
-from checks.i1_2_message_statistics.reading import Line, parse_log
+from checks.i1_2_message_statistics.log_lines import Line, parse_log
 from tutor.exercise import Program, Topic
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Ending, Trace
@@ -34,7 +34,7 @@ SOON_S = 0.5
 """Latency bound of a log message that the callback writes immediately."""
 
 MAX_CPU_WAIT_S = 1.0
-"""Maximum excuse for a late log message, however busy the machine: a later one belongs to no message."""
+"""Maximum allowance for a late log message, however busy the machine: a later one belongs to no message."""
 
 ROUGH_S = 0.15
 """If the node waits longer for a CPU it may lose messages; if ours are more uneven, there is no single true rate."""
@@ -80,7 +80,7 @@ class Trial:
     @cached_property
     def lines(self) -> tuple[Line, ...]:
         """What the node logged since the first message, oldest first."""
-        times = [each.at for each in self.sent]
+        times = [message.at for message in self.sent]
         logs = sorted(self.trace.logs, key=lambda log: log.stamp)
         numbered = ((log, bisect_right(times, log.stamp)) for log in logs)
         return tuple(parse_log(log, messages) for log, messages in numbered if messages)
@@ -103,7 +103,7 @@ class Trial:
     @cached_property
     def order(self) -> dict[int, int]:
         """How many messages had been sent when that with this N had been; the last one, if N came twice."""
-        return {each.number: count for count, each in enumerate(self.sent, start=1)}
+        return {message.number: count for count, message in enumerate(self.sent, start=1)}
 
     @property
     def allowance_s(self) -> float:
@@ -123,12 +123,12 @@ class Trial:
 
     @property
     def slowed(self) -> bool:
-        """Whether the machine may be why the node fails (see `tutor.judge.bench.was_slowed`)."""
+        """Whether the machine may be to blame for what the node logs (see `tutor.judge.bench.was_slowed`)."""
         return bool(self.sent) and max(self.cpu_wait_s, self.max_delay_s) >= ROUGH_S
 
     def delay_s(self, index: int) -> float:
         """How late the node may have received this message, given its waits for a CPU from then on."""
-        waits = [each.cpu_wait_s for each in self.sent[index:]] + [self.sent[0].cpu_wait_s + self.cpu_wait_s]
+        waits = [message.cpu_wait_s for message in self.sent[index:]] + [self.sent[0].cpu_wait_s + self.cpu_wait_s]
         late = 0.0
         for before, after in pairwise(waits):
             late += max(after - before, 0.0)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from checks.i2_3_multi_threaded_service import judges
-from checks.i2_3_multi_threaded_service.calling import call_concurrently, interrupt_during_call
+from checks.i2_3_multi_threaded_service.call_scenarios import call_concurrently, interrupt_during_call
 from checks.i2_3_multi_threaded_service.calls import PROGRAM
-from checks.i2_3_multi_threaded_service.listening import run_idle
+from checks.i2_3_multi_threaded_service.idle_run import run_idle
 from checks.i2_3_multi_threaded_service.single_calls import call_singly
 from tutor.exercise import Custom, EndsCleanly, check
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from tutor.exercise import Program, Service
 from tutor.exercise.service_calls import Server, right_result
 from tutor.judge.trace import CallAnswer
-from tutor.judge.waiting import CPU_WAIT_SHARE
+from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE
 
 SLOW_ADD = Service("/slow_add", "example_interfaces/srv/AddTwoInts", ("a", "b"), "sum", lambda a, b: a + b, "+")
 PROGRAM = Program("concurrent_service.py")
@@ -17,28 +17,28 @@ WORK_S = 3.0
 SHORTEST_S, LONGEST_S = 2.75, 3.4
 """Accepted range for 3 s: thirty sleeps of 0.1 s may take 2.9 s or 3.2 s, but 2.5 s or 3.5 s are meant to differ."""
 
-EXCUSED_S = 0.5
-"""Maximum delay of a call that is attributed to a busy machine."""
+ALLOWANCE_S = 0.5
+"""Maximum allowance for a late answer."""
 
-BUSY_S = 0.1
-"""A CPU wait shorter than this does not disturb a call."""
+HARDLY_WAITED_S = 0.1
+"""A CPU wait shorter than this does not slow a call."""
 
-STARVED_SHARE = 0.9
-"""CPU wait, as a share of a call, from which on nothing is known of the call. Checks five at a time stay below it."""
+HARDLY_RAN_SHARE = 0.9
+"""A node that waited for a CPU for this share of a call hardly ran. Checks five at a time stay below it."""
 
 CALLS = 3
 PARALLEL_RATIO = 1.5
 """Three concurrent calls that run in parallel take less than this many times one call."""
 
-INCONCLUSIVE_RATIO = 1.2
-"""Concurrent calls are inconclusive if, without the CPU wait, they took less than this many times one call."""
+ONLY_SLOWED_RATIO = 1.2
+"""Concurrent calls may only have been slowed if, without the CPU wait, they took less than this many times one call."""
 
 SEQUENTIAL_RATIO = 2.6
 """Three calls that take more than this many times one ran one after another, however busy the machine is."""
 
 AT_ONCE_TRIES, MAX_AT_ONCE_TRIES = 3, 6
-"""How often three concurrent calls are made that a busy machine may have disturbed: at most `MAX_AT_ONCE_TRIES` times
-if none of them was conclusive."""
+"""How often three concurrent calls are made that the machine may have slowed: at most `MAX_AT_ONCE_TRIES` times if it
+may have slowed all of them."""
 
 
 def right_sum(answer: CallAnswer) -> int:
@@ -81,17 +81,17 @@ class Call:
     @property
     def in_time(self) -> bool:
         """Whether the answer came, and not too late. However busy the machine, a call of 4 s is too slow."""
-        return self.answered and self.answer.took_s <= LONGEST_S + min(self.cpu_wait_s, EXCUSED_S)
+        return self.answered and self.answer.took_s <= LONGEST_S + min(self.cpu_wait_s, ALLOWANCE_S)
 
     @property
     def nearly_in_time(self) -> bool:
-        """Whether the answer was so little late, or the CPU so scarce, that a busy machine may be the reason."""
-        starved = self.cpu_wait_s >= STARVED_SHARE * self.answer.took_s
-        return self.answered and (starved or self.answer.took_s <= LONGEST_S + 2 * EXCUSED_S)
+        """Whether the machine may be to blame for a late answer: it was little late, or the node hardly ran."""
+        hardly_ran = self.cpu_wait_s >= HARDLY_RAN_SHARE * self.answer.took_s
+        return self.answered and (hardly_ran or self.answer.took_s <= LONGEST_S + 2 * ALLOWANCE_S)
 
     @property
-    def busy(self) -> bool:
-        """Whether the machine was busy enough during the call to have made the answer late."""
+    def slowed(self) -> bool:
+        """Whether the wait for a CPU was long enough for the machine to be to blame for a late answer."""
         return self.cpu_wait_s >= CPU_WAIT_SHARE * self.answer.took_s
 
 
@@ -117,17 +117,17 @@ class CallBatch:
         """Seconds from the first request to the last answer."""
         return max(a.answered_at for a in self.answers) - min(a.asked_at for a in self.answers)
 
-    def may_be_slowed(self, one_s: float) -> bool:
-        """Whether a busy machine may be the only reason that they took longer than one call of `one_s` seconds."""
-        return self.took_s < SEQUENTIAL_RATIO * one_s and self.took_s - self.cpu_wait_s < INCONCLUSIVE_RATIO * one_s
+    def only_slowed(self, one_s: float) -> bool:
+        """Whether the machine alone may be to blame if they took longer than one call of `one_s` seconds."""
+        return self.took_s < SEQUENTIAL_RATIO * one_s and self.took_s - self.cpu_wait_s < ONLY_SLOWED_RATIO * one_s
 
 
-def is_conclusive(batches: tuple[CallBatch, ...], one_s: float) -> bool:
-    """Whether the batches show how the node serves concurrent calls, however busy the machine was.
+def all_only_slowed(batches: tuple[CallBatch, ...], one_s: float) -> bool:
+    """Whether no batch shows how the node serves concurrent calls: the machine alone may be to blame for all of them.
 
     The first batch is left out if there are others: connecting may have delayed it.
     """
-    return not all(batch.may_be_slowed(one_s) for batch in batches[1:] or batches)
+    return all(batch.only_slowed(one_s) for batch in batches[1:] or batches)
 
 
 def needs_repeat_at_once(batches: tuple[CallBatch, ...]) -> bool:
@@ -135,6 +135,6 @@ def needs_repeat_at_once(batches: tuple[CallBatch, ...]) -> bool:
     last, tried = batches[-1], len(batches)
     one_s = min(answer.took_s for answer in last.answers)
     partly_parallel = 1.4 < last.took_s / one_s < SEQUENTIAL_RATIO
-    if last.correct_count < CALLS or not partly_parallel or (tried > 1 and last.cpu_wait_s <= BUSY_S):
+    if last.correct_count < CALLS or not partly_parallel or (tried > 1 and last.cpu_wait_s <= HARDLY_WAITED_S):
         return False
-    return tried < AT_ONCE_TRIES or (tried < MAX_AT_ONCE_TRIES and not is_conclusive(batches, one_s))
+    return tried < AT_ONCE_TRIES or (tried < MAX_AT_ONCE_TRIES and all_only_slowed(batches, one_s))

@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from checks.i2_3_multi_threaded_service.calling import ConcurrentCalls, Interrupted
+from checks.i2_3_multi_threaded_service.call_scenarios import ConcurrentCalls, Interrupted
 from checks.i2_3_multi_threaded_service.calls import (
+    ALLOWANCE_S,
     CALLS,
-    EXCUSED_S,
     LONGEST_S,
     PARALLEL_RATIO,
     SEQUENTIAL_RATIO,
@@ -19,16 +19,16 @@ from checks.i2_3_multi_threaded_service.calls import (
     SLOW_ADD,
     WORK_S,
     CallBatch,
-    is_conclusive,
+    all_only_slowed,
     is_right,
     is_wrong,
     right_sum,
     sum_in,
 )
-from checks.i2_3_multi_threaded_service.listening import IdleRun
-from checks.i2_3_multi_threaded_service.pace import TimerPace, Watch, measure_timer
+from checks.i2_3_multi_threaded_service.idle_run import IdleRun
 from checks.i2_3_multi_threaded_service.single_calls import SingleCalls
 from checks.i2_3_multi_threaded_service.timer_logs import HZ, Series, best_series
+from checks.i2_3_multi_threaded_service.timer_pace import TimerPace, Watch, measure_timer
 from tutor.exercise.service_calls import describe_request
 from tutor.judge.ending import judge_ending
 from tutor.judge.rates import TOLERANCE
@@ -62,8 +62,8 @@ def _judge_both_calls(seen: SingleCalls, judge: Callable[[SingleCalls], Verdict]
     """The verdict on the first call, unless that passed and the second call fails, or cannot be judged."""
     first, *later = seen.first_and_later
     verdict = judge(first)
-    for each in later if verdict.passed else ():
-        second = judge(each)
+    for second_call in later if verdict.passed else ():
+        second = judge(second_call)
         if isinstance(second, Undecided):
             return second
         if not second.passed:
@@ -85,7 +85,7 @@ def _judge_answer(seen: SingleCalls) -> Verdict:
         return _fail_answer(wrong or best.answer, seen.trace, expected)
     if best.in_time:
         return passed(expected, _describe(best.answer))
-    if best.nearly_in_time and all(call.busy for call in seen.calls):
+    if best.nearly_in_time and all(call.slowed for call in seen.calls):
         return undecided("to time the service")
     return _fail_answer(best.answer, seen.trace, expected)
 
@@ -110,7 +110,7 @@ def wrong_answer(answer: CallAnswer, trace: Trace) -> Observation:
 
 def _wrong_sums(trace: Trace, answers: Sequence[CallAnswer], says: str, do: str) -> Observation:
     """Not all of these calls were answered with their own sum."""
-    sums, wrong = [sum_in(answer) for answer in answers], next(each for each in answers if not is_right(each))
+    sums, wrong = [sum_in(answer) for answer in answers], next(answer for answer in answers if not is_right(answer))
     return Symptom.WRONG_ANSWER.seen(
         trace,
         service=SERVICE,
@@ -158,7 +158,7 @@ def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
     )
     likely = best_series(idle.series)
     if likely is None or not likely.is_10_hz:
-        if idle.excused:
+        if idle.pace_slowed:
             return undecided("to measure the timer")
         observed = f"outside a call: {likely}" if likely else "outside a call, the node logs nothing repeatedly"
         evidence = [tick.text for tick in likely.ticks[:4]] if likely else output_tail(idle.trace)
@@ -167,11 +167,11 @@ def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
     if not seen.calls:
         return skipped("not judged, because there was no call to listen during: `blocks` did not pass")
     watch = Watch(seen.trace.logs, idle.series)
-    calls = [call for call in seen.calls if not watch.is_doubtful(call)] or seen.calls
+    calls = [call for call in seen.calls if not watch.passes_by_allowance(call)] or seen.calls
     found = [(series, measure_timer(series, watch.logs, call)) for call in calls for series in watch.right]
     series, pace = next(
-        (each for each in found if not each[1].fault),
-        next(each for each in reversed(found) if each[0] == likely),
+        ((series, pace) for series, pace in found if not pace.fault),
+        next((series, pace) for series, pace in reversed(found) if series == likely),
     )
     texts = [log.text for log in watch.logs if series.key.of(log)]
     observed = f"outside: {series}; {pace.beside(series)}"
@@ -180,7 +180,7 @@ def _judge_timer(idle: IdleRun, seen: SingleCalls) -> Verdict:
         return failed(expected, observed, disturbed_timer(seen, pace), output_tail(seen.trace))
     if pace.fault is None:
         return passed(expected, observed, texts[:6])
-    if watch.is_excused(calls[-1]):
+    if watch.is_slowed(calls[-1]):
         return undecided("to listen to the timer")
     return failed(expected, observed, disturbed_timer(seen, pace), texts[-6:])
 
@@ -266,9 +266,9 @@ def judge_parallel(single: SingleCalls, concurrent: ConcurrentCalls) -> Verdict:
     one_s = single.quickest.answer.took_s
     best = min(concurrent.batches, key=lambda batch: batch.took_s)
     observed = f"one call {one_s:.2f} s, three at once {best.took_s:.2f} s ({best.took_s / one_s:.1f} times)"
-    if any(batch.took_s < PARALLEL_RATIO * one_s + min(batch.cpu_wait_s, EXCUSED_S) for batch in concurrent.batches):
+    if any(batch.took_s < PARALLEL_RATIO * one_s + min(batch.cpu_wait_s, ALLOWANCE_S) for batch in concurrent.batches):
         return passed(expected, observed)
-    if not is_conclusive(concurrent.batches, one_s):
+    if all_only_slowed(concurrent.batches, one_s):
         return undecided("to time three calls at once")
     return failed(expected, observed, waiting_calls(concurrent.trace, best.took_s / one_s))
 

@@ -7,16 +7,24 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 
-from checks.i2_3_multi_threaded_service.calling import (
+from checks.i2_3_multi_threaded_service.call_scenarios import (
     dump_silent_node,
     large_operands,
     make_call,
     wait_for_service,
     wait_until_spinning,
 )
-from checks.i2_3_multi_threaded_service.calls import EXCUSED_S, LONGEST_S, PROGRAM, SLOW_ADD, WORK_S, Call, is_wrong
-from checks.i2_3_multi_threaded_service.listening import IdleRun, listen_until_tick, run_idle
-from checks.i2_3_multi_threaded_service.pace import MAX_TRIES, TRIES, Watch
+from checks.i2_3_multi_threaded_service.calls import (
+    ALLOWANCE_S,
+    LONGEST_S,
+    PROGRAM,
+    SLOW_ADD,
+    WORK_S,
+    Call,
+    is_wrong,
+)
+from checks.i2_3_multi_threaded_service.idle_run import IdleRun, listen_until_tick, run_idle
+from checks.i2_3_multi_threaded_service.timer_pace import MAX_TRIES, TRIES, Watch
 from tutor.judge.bench import Bench, Run
 from tutor.judge.tasks import Tasks
 from tutor.judge.trace import Trace
@@ -80,7 +88,7 @@ async def call_singly(bench: Bench) -> SingleCalls:
 async def _call_twice(bench: Bench, dump: Dump) -> tuple[SingleCalls, bool]:
     """Make both calls; also return whether the first one was fine, or it is known why not.
 
-    `dump` is called as soon as it may not be. A call is repeated while a busy machine leaves it in doubt.
+    `dump` is called as soon as it may not be. A call is repeated while the machine may be to blame for what it showed.
     """
     async with bench.start(PROGRAM.file) as run, Tasks() as tasks:
         bench.report_progress(0.1, f"waiting for {SLOW_ADD.name}")
@@ -101,7 +109,7 @@ async def _call_twice(bench: Bench, dump: Dump) -> tuple[SingleCalls, bool]:
         def watch() -> Watch:
             return Watch(run.logs, idle.series)
 
-        def in_doubt(made: list[Call], most: int) -> bool:
+        def needs_another(made: list[Call], most: int) -> bool:
             return run.exit is None and watch().needs_repeat(made, most)
 
         second: asyncio.Task[Call] | None = None
@@ -111,21 +119,21 @@ async def _call_twice(bench: Bench, dump: Dump) -> tuple[SingleCalls, bool]:
         calls = [await listen_until_tick(run, idle.series, first)]
         if run.exit is None and watch().is_disturbed(calls[0]):
             dump(calls[0].answered)
-        while in_doubt(calls, MAX_TRIES):
+        while needs_another(calls, MAX_TRIES):
             if second is not None:
                 await second  # must not overlap with a repetition
             again = await make_call(run, ready.limit_s, large_operands())
             calls.append(await listen_until_tick(run, idle.series, again))
         last = calls[-1]
-        is_clear = last.answered and (not watch().is_disturbed(last) or watch().is_excused(last))
+        is_clear = last.answered and (not watch().is_disturbed(last) or watch().is_slowed(last))
         bench.report_facts(SingleCalls(run.trace(), tuple(calls), idle=idle))
         later: list[Call] = []
         if is_clear and run.exit is None:
             bench.report_progress(0.6, f"calling {SLOW_ADD.name} once more")
             second = second or tasks.start(make_call(run))
             later.append(await _listen_if_disturbed(run, watch, await second))
-            # An inconclusive second call does not change the verdict on the first.
-            while in_doubt(later, TRIES):
+            # A second call that is slowed every time does not change the verdict on the first.
+            while needs_another(later, TRIES):
                 later.append(await _listen_if_disturbed(run, watch, await make_call(run)))
         return SingleCalls(run.trace(), tuple(calls), later=tuple(later)), is_clear
 
@@ -141,7 +149,7 @@ async def _make_first_call(run: Run, tasks: Tasks, dump: Dump, limit_s: float) -
     await run.until(lambda: call.done() or is_silent(), LONGEST_S)
     if not call.done() and run.exit is None:
         dump(True)
-    done, _ = await asyncio.wait({call}, timeout=max(0.0, asked_at + LONGEST_S + 2 * EXCUSED_S - run.now()))
+    done, _ = await asyncio.wait({call}, timeout=max(0.0, asked_at + LONGEST_S + 2 * ALLOWANCE_S - run.now()))
     if not done:
         dump(False)
     return await call

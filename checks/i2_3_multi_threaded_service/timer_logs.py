@@ -173,7 +173,7 @@ class Series:
         steps = [(b.stamp - a.stamp, b.number - a.number if self.numbered else 1.0) for a, b in pairwise(ticks)]
         if 2 * sum(step < 0 for _, step in steps) > len(steps):  # it counts down
             steps = [(for_s, -step) for for_s, step in steps]
-        known = [each for each in steps if each[1] >= -RESTART_STEP or self.key.feature == "function"]
+        known = [(for_s, step) for for_s, step in steps if step >= -RESTART_STEP or self.key.feature == "function"]
         span_s = sum(for_s for for_s, _ in known)
         return abs(sum(step for _, step in known)) / span_s if span_s > 0 else 0.0
 

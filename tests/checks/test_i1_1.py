@@ -31,10 +31,10 @@ from tests.checks.builders import (
     samples,
     trace,
 )
+from tutor.exercise.collected_values import CollectedValues
 from tutor.exercise.logs_parameter import NameProbe, NameProbes
-from tutor.exercise.publishing import MATCHED_S, PublishingRun
+from tutor.exercise.publishing_start import MATCHED_S, PublishingRun
 from tutor.exercise.rate_units import UNITS, RateProbe, RateProbes, are_inverted, possible_units
-from tutor.exercise.values import CollectedValues
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Echo, Trace
 from tutor.ros_model import Parameter, QoS, TopicEndpoint

@@ -16,6 +16,8 @@ from checks.i1_2_message_statistics import CHECK
 from checks.i1_2_message_statistics.count import in_words, judge_count, judge_fast_count
 from checks.i1_2_message_statistics.feeding import logs_something_new
 from checks.i1_2_message_statistics.gaps import judge_gaps, judge_jumps
+from checks.i1_2_message_statistics.log_lines import parse_log, values
+from checks.i1_2_message_statistics.logged_summaries import find_summaries
 from checks.i1_2_message_statistics.plans import (
     AFTER_ZERO_MESSAGES,
     FAST_HZ,
@@ -29,9 +31,7 @@ from checks.i1_2_message_statistics.plans import (
     SECOND_JUMP_AFTER,
 )
 from checks.i1_2_message_statistics.rate import judge_rate
-from checks.i1_2_message_statistics.reading import parse_log, values
 from checks.i1_2_message_statistics.restart import judge_restart
-from checks.i1_2_message_statistics.summaries import find_summaries
 from checks.i1_2_message_statistics.summary import judge_fast_summary, judge_slow_summary, judge_summary
 from checks.i1_2_message_statistics.trial import Sent, Trial
 from tests.checks.builders import (

@@ -10,6 +10,7 @@ import pytest
 
 from checks.i2_3_multi_threaded_service import CHECK
 from checks.i2_3_multi_threaded_service.calls import CallBatch, right_sum
+from checks.i2_3_multi_threaded_service.idle_run import IdleRun
 from checks.i2_3_multi_threaded_service.judges import (
     disturbed_timer,
     lost_calls,
@@ -18,9 +19,8 @@ from checks.i2_3_multi_threaded_service.judges import (
     waiting_calls,
     wrong_answer,
 )
-from checks.i2_3_multi_threaded_service.listening import IdleRun
-from checks.i2_3_multi_threaded_service.pace import Fault, TimerPace
 from checks.i2_3_multi_threaded_service.single_calls import SingleCalls
+from checks.i2_3_multi_threaded_service.timer_pace import Fault, TimerPace
 from tests.checks.test_i2_3 import EXECUTING, SERVICE, SERVING, answer, series_in, tick_logs
 from tutor.judge.symptom import Observation
 from tutor.judge.trace import Trace

@@ -15,7 +15,7 @@ from tutor.engine.loading import load_check
 from tutor.judge import ending
 from tutor.judge.bench import Bench
 from tutor.judge.check import Check
-from tutor.judge.ending import judge_ending, repeat_if_doubtful
+from tutor.judge.ending import judge_ending, repeat_chance_failures
 from tutor.judge.submission import Submission
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.verdict import Verdict
@@ -78,7 +78,7 @@ class Interrupted:
     ending: Ending | None
 
 
-@repeat_if_doubtful
+@repeat_chance_failures
 async def press_ctrl_c(bench: Bench) -> Interrupted:
     """Press Ctrl+C once the program is up."""
     async with bench.start(FILE) as run:

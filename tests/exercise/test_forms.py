@@ -51,7 +51,7 @@ from tutor.exercise import (
 from tutor.exercise.bad_values import BadValues
 from tutor.exercise.defaults import DeclaringRun
 from tutor.exercise.ends_cleanly import EndedRun, StartAndEnd
-from tutor.exercise.publishing import PublishingRun
+from tutor.exercise.publishing_start import PublishingRun
 from tutor.exercise.run_time_changes import RunTimeChanges
 from tutor.exercise.service_calls import ServiceCalls
 from tutor.exercise.set_at_start import Started, StartedWithParameters

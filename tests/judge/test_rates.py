@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from tests.checks.builders import sample, samples
 from tutor.judge.rates import MIN_EVEN, MIN_FOR_BURSTS, TOLERANCE, Rate, are_even, describe, measure
 from tutor.judge.trace import Sample
-from tutor.judge.waiting import REMEASURE_S, measure_steady_rate, too_few_by_cpu_wait, window_s
+from tutor.judge.waiting_for_nodes import REMEASURE_S, measure_steady_rate, too_few_by_cpu_wait, window_s
 
 rates = st.floats(0.05, 1000)
 

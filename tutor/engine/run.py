@@ -30,7 +30,7 @@ from tutor.judge.trace import (
     Trace,
 )
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import RESENT_S
+from tutor.judge.waiting_for_nodes import RESENT_S
 from tutor.process import LearnerProcess, next_wake, own_cpu_time
 from tutor.ros import echo, graph, parameters
 from tutor.ros.goal_sender import GoalSender

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from tutor.errors import EngineError, MachineTooBusy
 from tutor.judge.trace import Exit, ServedRequest
-from tutor.judge.waiting import IDLE_S, RESENT_S
+from tutor.judge.waiting_for_nodes import IDLE_S, RESENT_S
 from tutor.process import CpuMeter, CpuTime, LearnerProcess, NextWake, count_dropped_datagrams, own_cpu_time
 from tutor.process.cpu_wait import MAX_EXTENSION_FACTOR, estimate_unblocked_s
 

@@ -16,13 +16,15 @@ below:
         EndsCleanly("shutdown", bonus=True),
     )
 
-How the program is started, how long is waited, and what a busy machine may excuse is the forms' business.
+How the program is started, how long is waited, and what the machine may be to blame for is the forms' business.
 """
 
 from tutor.exercise.argument_moves import ArgumentMovesNamespace, ArgumentMovesTopic
 from tutor.exercise.calls_all import CallsAll
+from tutor.exercise.criterion_function import criterion
 from tutor.exercise.defaults import Defaults
 from tutor.exercise.ends_cleanly import EndsCleanly
+from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.form import Custom, Form, check
 from tutor.exercise.handles_goal import HandlesGoal
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
@@ -46,15 +48,13 @@ from tutor.exercise.rate_at_start import RateAtStart
 from tutor.exercise.receives import Receives
 from tutor.exercise.rejects import Rejects, RejectsAtomically
 from tutor.exercise.running_node import Fields, Node
-from tutor.exercise.script import criterion
 from tutor.exercise.serves import Answers, Serves
 from tutor.exercise.service_calls import Question
 from tutor.exercise.set_at_run_time import SetAtRunTime
 from tutor.exercise.set_at_start import SetAtStart
 from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
-from tutor.exercise.watching import LogsText
-from tutor.exercise.words import SAYS_ERROR
+from tutor.exercise.watched_start import LogsText
 
 __all__ = [
     "SAYS_ERROR",

@@ -67,7 +67,9 @@ class ArgumentMovesTopic(Form):
         """With another topic given, one of the nodes does not use `wanted`, or the default topic is still used."""
         graph = seen.trace.graph
         still_used = sorted(shared_topics(default_run.trace.graph) & topics_in_use(graph))
-        users = sorted({each.node for each in (*publishers(graph), *subscriptions(graph)) if each.topic in still_used})
+        users = sorted(
+            {endpoint.node for endpoint in (*publishers(graph), *subscriptions(graph)) if endpoint.topic in still_used}
+        )
         unheard = not still_used and wanted in shared_topics(graph)
         return seen_in_launch(
             Symptom.WRONG_NAMES,
@@ -159,11 +161,11 @@ class ArgumentMovesNamespace(Form):
         """With a namespace given, one of the nodes or their topic is not in it."""
         endpoints = (*publishers(seen.trace.graph), *subscriptions(seen.trace.graph))
         under = f"/{namespace}/"
-        within = {each.node for each in endpoints if each.node.startswith(under)}
+        within = {endpoint.node for endpoint in endpoints if endpoint.node.startswith(under)}
         topic = self.and_topic
         if topic is not None and topic.argument in seen.arguments and len(within) > 1:
-            all_in = all(each.node.startswith(under) and each.topic.startswith(under) for each in endpoints)
-            if all_in and not any(is_namespace_doubled(each.topic, namespace) for each in endpoints):
+            all_in = all(endpoint.node.startswith(under) and endpoint.topic.startswith(under) for endpoint in endpoints)
+            if all_in and not any(is_namespace_doubled(endpoint.topic, namespace) for endpoint in endpoints):
                 return topic.wrong_topic(default_run, seen, f"{under}{seen.arguments[topic.argument]}")
         return seen_in_launch(Symptom.WRONG_NAMES, seen, moves="namespace", argument=self.argument, wanted=namespace)
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
+from tutor.exercise.node_parameters import ParameterNode, read, set_values
 from tutor.exercise.nouns import Parameter, ShownIn, Value
-from tutor.exercise.parameters import ParameterNode, read, set_values
 from tutor.exercise.rate_at_run_time import measure_new_rate
 from tutor.judge.bench import Bench, Run
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import measure_steady_rate
+from tutor.judge.waiting_for_nodes import measure_steady_rate
 
 
 @dataclass(frozen=True)
@@ -159,6 +159,6 @@ class SetAtomically:
             since = answers[-1].answered_at
             rate, messages = await measure_steady_rate(run, node.topic.name, base_hz, since=since)
             samples = run.samples_on(node.topic.name)
-            shown = next((each for each in samples if any(effect.shows(t, each) for t in self.tokens[:2])), None)
+            shown = next((sample for sample in samples if any(effect.shows(t, sample) for t in self.tokens[:2])), None)
             seen = AtomicRequests(run.trace(), base_hz, tuple(answers), before, tuple(values), shown, rate, messages)
             return replace(seen, set_good=await set_values(run, name, whole, (other, self.good), atomic=True))

@@ -83,4 +83,4 @@ class CallsAll(Form):
 
     def _list(self, names: Iterable[str]) -> str:
         present = set(names)
-        return ", ".join(each.name for each in self.services if each.name in present) or "nothing"
+        return ", ".join(service.name for service in self.services if service.name in present) or "nothing"

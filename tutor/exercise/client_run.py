@@ -10,10 +10,10 @@ from typing import Any
 from tutor.exercise.nouns import Program, Service
 from tutor.exercise.service_calls import STUCK_CALL_S, right_result
 from tutor.judge.bench import Bench, Handler, Run
-from tutor.judge.stuck import StuckTest
+from tutor.judge.stuck_nodes import StuckTest
 from tutor.judge.trace import Exit, ServedRequest, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import wait_until_seen
+from tutor.judge.waiting_for_nodes import wait_until_seen
 from tutor.ros_model import ServiceEndpoint
 
 SERVER_DELAY_S = 0.7
@@ -55,7 +55,7 @@ class ClientRun:
 
     @property
     def slowed(self) -> bool:
-        """Whether a busy machine may have kept the client from finding our servers.
+        """Whether the machine may be to blame if the client did not find our servers.
 
         A client with incompatible QoS would not have found them on an idle machine either.
         """

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tutor.exercise.form import Exercise, Form, parameter_node
+from tutor.exercise.node_parameters import ANSWER_S, ParameterNode, find_parameter
 from tutor.exercise.nouns import Parameter, show
-from tutor.exercise.parameters import ANSWER_S, ParameterNode, find_parameter
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
-from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.tracebacks import Frame
@@ -39,7 +39,7 @@ class DeclaringStart:
     node: ParameterNode
 
     async def __call__(self, bench: Bench) -> DeclaringRun:
-        return await repeat_if_doubtful(self._run)(bench)
+        return await repeat_chance_failures(self._run)(bench)
 
     async def _run(self, bench: Bench) -> DeclaringRun:
         node = self.node

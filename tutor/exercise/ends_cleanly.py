@@ -11,10 +11,10 @@ from tutor.exercise.launch_run import Launch
 from tutor.exercise.nouns import LaunchFile, Program
 from tutor.judge.bench import Bench, Scenario
 from tutor.judge.check import Criterion
-from tutor.judge.ending import judge_ending, repeat_if_doubtful
+from tutor.judge.ending import judge_ending, repeat_chance_failures
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.verdict import Status, Verdict
-from tutor.judge.waiting import NO_NODE_S, START_S
+from tutor.judge.waiting_for_nodes import NO_NODE_S, START_S
 
 ANSWER_S = 2.0
 """Time limit for the answer to a parameter request, by which a node shows that it spins."""
@@ -35,7 +35,7 @@ class StartAndEnd:
     program: Program
 
     async def __call__(self, bench: Bench) -> EndedRun:
-        return await repeat_if_doubtful(self._run)(bench)
+        return await repeat_chance_failures(self._run)(bench)
 
     async def _run(self, bench: Bench) -> EndedRun:
         async with bench.start(self.program.file) as run:
@@ -67,7 +67,7 @@ class EndsCleanly(Form):
             shown_by, start = self.shown_by or [*others, self][0], self.start or _own_start(exercise.started)
             return self.judged(lambda seen: judge_end(seen.trace, seen.ending, shown_by=shown_by.id), start)
         start = started[0][1]
-        sharing = [form for form, each in started if each == start]
+        sharing = [form for form, other in started if other == start]
         following = [*others[others.index(sharing[-1]) + 1 :], sharing[-1]][0]
         judges = [(form, form.criterion(exercise).judge) for form in sharing]
 

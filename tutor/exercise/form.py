@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
+from tutor.exercise.node_parameters import ParameterNode
 from tutor.exercise.nouns import LaunchFile, Parameter, Program
-from tutor.exercise.parameters import ParameterNode
 from tutor.judge.bench import Scenario
 from tutor.judge.check import Check, Criterion, EarlyJudge, Judge
 from tutor.judge.verdict import Verdict
@@ -61,7 +61,9 @@ class Form(ABC):
     @property
     def used_parameters(self) -> tuple[Parameter, ...]:
         """The parameters that this criterion names."""
-        return tuple(_parameters_in([getattr(self, each.name) for each in fields(self) if each.name != "after"]))
+        return tuple(
+            _parameters_in([getattr(self, attribute.name) for attribute in fields(self) if attribute.name != "after"])
+        )
 
     @abstractmethod
     def criterion(self, exercise: Exercise) -> Criterion:

@@ -8,13 +8,13 @@ from typing import Any, Literal
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import GOAL_SERVICE, GOAL_TYPE, Action, Program, agrees, show
-from tutor.exercise.seen import Seen, look, settle
+from tutor.exercise.seen_run import Seen, look, settle
 from tutor.judge.bench import Bench, GoalClient, Run
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import GoalAnswer
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, RESENT_S, patience_s, wait_until_seen
+from tutor.judge.waiting_for_nodes import IDLE_S, RESENT_S, patience_s, wait_until_seen
 from tutor.judge.wording import counted, output_tail
 
 ANSWER_S = 5.0
@@ -46,7 +46,7 @@ async def wait_for_server(run: Run, action: Action, client: GoalClient) -> bool:
         lambda: client.matched,
         promised=lambda: action.has_server(run.graph),
         message_gap_s=RESENT_S,
-        settle_s=lambda: patience_s(((each.name, each.type) for each in run.graph.servers), name, kind),
+        settle_s=lambda: patience_s(((server.name, server.type) for server in run.graph.servers), name, kind),
     )
     if there:
         await settle(run)  # otherwise the first feedback may be lost
@@ -140,7 +140,7 @@ class HandlesGoal(Form):
         tail = output_tail(found.trace)
         if answer is None:
             return failed(expected, f"{action.name} has no action server", action_missing(action, found), tail)
-        trail = [str(dict(each.message)) for each in answer.feedback[:3]]
+        trail = [str(dict(feedback.message)) for feedback in answer.feedback[:3]]
         observed, why = self._what_is_wrong(found, answer)
         if why is not None:
             return failed(expected, observed, why, [*trail, *tail])
@@ -176,7 +176,7 @@ class HandlesGoal(Form):
 
 def action_missing(action: Action, seen: Seen) -> Observation:
     """There is no server of this action; others may be there."""
-    services = [(each.name, each.type) for each in seen.trace.graph.servers if each.name.endswith(GOAL_SERVICE)]
+    services = [(server.name, server.type) for server in seen.trace.graph.servers if server.name.endswith(GOAL_SERVICE)]
     others = [f"{name.removesuffix(GOAL_SERVICE)} of type {kind.removesuffix(GOAL_TYPE)}" for name, kind in services]
     says = f"there is an action server {' and '.join(others)}, but none {action.name} of type {action.type}"
     return seen.symptom(Symptom.ACTION_MISSING, action=action.name, type=action.type, says=says if others else "")

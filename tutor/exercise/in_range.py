@@ -5,12 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from tutor.exercise.form import Exercise, Form
-from tutor.exercise.nouns import Topic
-from tutor.exercise.publishes import stopped
-from tutor.exercise.publishing import NOT_STARTED
-from tutor.exercise.rate_at_start import RateAtStart
-from tutor.exercise.values import (
+from tutor.exercise.collected_values import (
     MAX_COLLECT_S,
     MIN_VALUES,
     CollectedValues,
@@ -18,6 +13,11 @@ from tutor.exercise.values import (
     CollectValues,
     find_out_of_range,
 )
+from tutor.exercise.form import Exercise, Form
+from tutor.exercise.nouns import Topic
+from tutor.exercise.publishes import stopped
+from tutor.exercise.publishing_start import NOT_STARTED
+from tutor.exercise.rate_at_start import RateAtStart
 from tutor.judge import randomness
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Symptom

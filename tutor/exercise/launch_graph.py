@@ -12,12 +12,12 @@ Pair = tuple[TopicEndpoint, TopicEndpoint]
 
 def publishers(graph: Graph) -> list[TopicEndpoint]:
     """The publishers, except those that ROS creates itself."""
-    return [each for each in graph.publishers if not _is_standard(each.topic)]
+    return [publisher for publisher in graph.publishers if not _is_standard(publisher.topic)]
 
 
 def subscriptions(graph: Graph) -> list[TopicEndpoint]:
     """The subscriptions, except those that ROS creates itself."""
-    return [each for each in graph.subscriptions if not _is_standard(each.topic)]
+    return [subscription for subscription in graph.subscriptions if not _is_standard(subscription.topic)]
 
 
 def _is_standard(topic: str) -> bool:
@@ -51,7 +51,7 @@ def _are_different_nodes(graph: Graph, one: str, other: str) -> bool:
 
 def topics_in_use(graph: Graph) -> set[str]:
     """The topics with a publisher or a subscription."""
-    return {each.topic for each in (*publishers(graph), *subscriptions(graph))}
+    return {endpoint.topic for endpoint in (*publishers(graph), *subscriptions(graph))}
 
 
 def shared_topics(graph: Graph) -> set[str]:
@@ -61,7 +61,7 @@ def shared_topics(graph: Graph) -> set[str]:
 
 def shared_namespaces(graph: Graph) -> set[str]:
     """The namespaces that contain both nodes of a pair and their topic, such as "/demo"; "" is the root."""
-    spaces = {(one.topic, each.node.rpartition("/")[0]) for one, other in pairs(graph) for each in (one, other)}
+    spaces = {(one.topic, endpoint.node.rpartition("/")[0]) for one, other in pairs(graph) for endpoint in (one, other)}
     return {space for topic, space in spaces if topic.startswith(f"{space}/")}
 
 
@@ -81,7 +81,7 @@ def pairs_in_namespace(graph: Graph, space: str, name: str = "") -> list[Pair]:
     return [
         (one, other)
         for one, other in pairs(graph)
-        if all(_is_under(each, space) for each in (one.topic, one.node, other.node))
+        if all(_is_under(name, space) for name in (one.topic, one.node, other.node))
         and (not name or one.topic.endswith(f"/{name}"))
     ]
 
@@ -92,7 +92,7 @@ def has_pair_in_namespace(graph: Graph, space: str) -> bool:
         _are_different_nodes(graph, one.node, other.node)
         for one in publishers(graph)
         for other in subscriptions(graph)
-        if all(_is_under(name, space) for each in (one, other) for name in (each.node, each.topic))
+        if all(_is_under(name, space) for endpoint in (one, other) for name in (endpoint.node, endpoint.topic))
     )
 
 
@@ -112,8 +112,8 @@ def count_entities(graph: Graph) -> tuple[int, int, int]:
 
 def describe_graph(graph: Graph) -> str:
     """Who publishes and subscribes to what."""
-    ends = [f"{each.node} publishes on {each.topic}" for each in publishers(graph)]
-    ends += [f"{each.node} subscribes to {each.topic}" for each in subscriptions(graph)]
+    ends = [f"{publisher.node} publishes on {publisher.topic}" for publisher in publishers(graph)]
+    ends += [f"{subscription.node} subscribes to {subscription.topic}" for subscription in subscriptions(graph)]
     return "; ".join(sorted(set(ends))) or f"nodes without topics: {', '.join(graph.nodes)}"
 
 

@@ -20,10 +20,10 @@ from tutor.exercise.launch_graph import (
 from tutor.exercise.nouns import LaunchFile
 from tutor.exercise.quoted_messages import logs_of_messages
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.launch_output import ended_processes
 from tutor.judge.trace import Ending, Trace
-from tutor.judge.waiting import MESSAGE_GAP_S, OTHER_NAME_S, START_S
+from tutor.judge.waiting_for_nodes import MESSAGE_GAP_S, OTHER_NAME_S, START_S
 from tutor.ros_model import Graph
 
 NODE_DELAY_S = 12.0
@@ -96,7 +96,7 @@ class Launch:
     launch_file: LaunchFile
 
     async def __call__(self, bench: Bench) -> LaunchRun:
-        return await repeat_if_doubtful(self._run)(bench)
+        return await repeat_chance_failures(self._run)(bench)
 
     async def _run(self, bench: Bench) -> LaunchRun:
         async with bench.launch(self.launch_file.file) as run:
@@ -224,7 +224,7 @@ def _with_best_graph(trace: Trace, met: Graph, find_wanted: Callable[[Graph], li
 
 def _listen(run: Run, topics: Iterable[str]) -> frozenset[str]:
     """Subscribe to these topics, and return those whose message type is not installed."""
-    types = {each.topic: each.type for each in run.graph.publishers}
+    types = {publisher.topic: publisher.type for publisher in run.graph.publishers}
     return frozenset(topic for topic in topics if not run.watch(topic, types[topic]))
 
 

@@ -50,5 +50,5 @@ def _find_exception(trace: Trace) -> Traceback | None:
     ended = ended_processes(trace.output)
     if ended:
         return ended[0].traceback
-    left = [tracebacks.find_tracebacks(by_stream(written_by(trace.output, each))) for each in writers(trace.output)]
+    left = [tracebacks.find_tracebacks(by_stream(written_by(trace.output, writer))) for writer in writers(trace.output)]
     return next((found[-1] for found in left if found), None)

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Program, Topic
-from tutor.exercise.publishing import ANSWER_S, AskForParameters, PublishingStart, cancel
+from tutor.exercise.publishing_start import ANSWER_S, AskForParameters, PublishingStart, cancel
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import OutputLine, Trace
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, MESSAGE_GAP_S, RESENT_S, wait_until_seen
+from tutor.judge.waiting_for_nodes import IDLE_S, MESSAGE_GAP_S, RESENT_S, wait_until_seen
 from tutor.ros_model import Parameter
 from tutor.source.log_calls import logs_the_same_on_each_message
 
@@ -186,7 +186,7 @@ class LogsParameter(Form):
             return self._not_declared(traces[0])
         names = {parameter.name for parameter in found.declared or ()}
         declared = [probe for probe in found.probes if probe.name in names]
-        probe = next((each for each in found.probes if each.is_printed), (declared or found.probes)[0])
+        probe = next((probe for probe in found.probes if probe.is_printed), (declared or found.probes)[0])
         return Symptom.NOT_LOGGED.seen(
             probe.trace,
             parameter=probe.name,

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from tutor.exercise.defaults import DeclaringRun, DeclaringStart
 from tutor.exercise.form import Exercise, Form, parameter_node
+from tutor.exercise.node_parameters import ParameterNode
 from tutor.exercise.nouns import Parameter, Value
-from tutor.exercise.parameters import ParameterNode
 from tutor.exercise.set_at_start import SetAtStart, StartedWithParameters
 from tutor.judge import tracebacks
 from tutor.judge.bench import Bench
@@ -17,7 +17,7 @@ from tutor.judge.check import Criterion
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Level, Trace
 from tutor.judge.verdict import Verdict, failed, passed, skipped
-from tutor.judge.waiting import IDLE_S, wait_until_seen
+from tutor.judge.waiting_for_nodes import IDLE_S, wait_until_seen
 from tutor.judge.wording import output_tail, shape
 
 

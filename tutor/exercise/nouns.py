@@ -176,7 +176,7 @@ class Action:
 
     def has_server(self, graph: Graph) -> bool:
         """Whether the graph has a server of this action."""
-        return any((each.name, each.type) == self.goal_service for each in graph.servers)
+        return any((server.name, server.type) == self.goal_service for server in graph.servers)
 
     @property
     def goal_service(self) -> tuple[str, str]:

@@ -9,15 +9,15 @@ from typing import Any
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Topic
-from tutor.exercise.publishing import NOT_STARTED, PublishingRun, PublishingStart
-from tutor.exercise.seen import Seen, fits
-from tutor.exercise.watching import Watching
+from tutor.exercise.publishing_start import NOT_STARTED, PublishingRun, PublishingStart
+from tutor.exercise.seen_run import Seen, fits
+from tutor.exercise.watched_start import Watching
 from tutor.judge.bench import Run
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Sample, Trace
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, IN_FLIGHT_S, wait_for_message
+from tutor.judge.waiting_for_nodes import IDLE_S, IN_FLIGHT_S, wait_for_message
 from tutor.judge.wording import counted, output_tail
 
 SHOWN = 3
@@ -90,7 +90,9 @@ class ShownByEcho(Form):
             return failed(expected, "messages do not go on arriving", stopped(seen.trace, topic))
         # A subscription counts, too: the real echo takes the type from all that is on the topic, and refuses two.
         graph = seen.trace.graph
-        found = {each.type for each in (*graph.publishers, *graph.subscriptions) if each.topic == topic.name}
+        found = {
+            endpoint.type for endpoint in (*graph.publishers, *graph.subscriptions) if endpoint.topic == topic.name
+        }
         if len(types := sorted(found.union(echo.types))) > 1:
             mixed = Symptom.NO_MESSAGES.seen(seen.trace, topic=topic.name, type=topic.type, types=tuple(types))
             return failed(expected, "refused, since there is more than one type on the topic", mixed)
@@ -207,10 +209,10 @@ class AtLeast(WatchingMessages):
 
     def judge_messages(self, seen: Seen, samples: Sequence[Sample]) -> Verdict:
         limit_s = self.within_s + seen.cpu_wait_s
-        counted_in = [each for each in samples if each.source_time - samples[0].source_time <= limit_s]
+        counted_in = [sample for sample in samples if sample.source_time - samples[0].source_time <= limit_s]
         took_s = counted_in[-1].source_time - samples[0].source_time
         observed = f"{counted(len(counted_in), 'message')} in {max(took_s, 0.0):.1f} s"
-        evidence = [self.topic.show(each) for each in counted_in[:SHOWN]]
+        evidence = [self.topic.show(sample) for sample in counted_in[:SHOWN]]
         if len(counted_in) >= self.messages:
             return passed(self.expected, observed, evidence)
         few = seen.symptom(
@@ -258,7 +260,7 @@ class FieldEquals(WatchingMessages):
 
     def judge_messages(self, seen: Seen, samples: Sequence[Sample]) -> Verdict:
         topic, deciding = self.topic, self._deciding(samples)
-        shown, number = [topic.show(each) for each in samples[:SHOWN]], counted(len(samples), "message")
+        shown, number = [topic.show(sample) for sample in samples[:SHOWN]], counted(len(samples), "message")
         if (deciding is not None) != self.every:
             return passed(self.expected, topic.show(deciding) if deciding else f"all of {number}", shown)
         other = deciding or samples[0]
@@ -268,4 +270,4 @@ class FieldEquals(WatchingMessages):
 
     def _deciding(self, samples: Sequence[Sample]) -> Sample | None:
         """The first message that decides: one that is wrong, if every one must be right, or else one that is right."""
-        return next((each for each in samples if fits(self.wanted, self.topic.value(each)) != self.every), None)
+        return next((sample for sample in samples if fits(self.wanted, self.topic.value(sample)) != self.every), None)

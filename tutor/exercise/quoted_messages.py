@@ -45,10 +45,10 @@ def _quoted_values(text: str, sample: Sample) -> Iterator[str]:
 
 def _leaves(value: Any) -> Iterator[Any]:
     if isinstance(value, Mapping):
-        for each in value.values():
-            yield from _leaves(each)
+        for item in value.values():
+            yield from _leaves(item)
     elif isinstance(value, (list, tuple)):
-        for each in value[:100]:
-            yield from _leaves(each)
+        for item in value[:100]:
+            yield from _leaves(item)
     else:
         yield value

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from tutor.exercise.defaults import DeclaringStart
 from tutor.exercise.form import Exercise, Form, parameter_node
+from tutor.exercise.node_parameters import ParameterNode, are_alike, fail_not_running, fail_not_set, set_values
 from tutor.exercise.nouns import Parameter
-from tutor.exercise.parameters import ParameterNode, are_alike, fail_not_running, fail_not_set, set_values
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
 from tutor.judge.rates import TOLERANCE, Rate, describe, measure
@@ -15,7 +15,7 @@ from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, IN_FLIGHT_S, measure_steady_rate, window_s
+from tutor.judge.waiting_for_nodes import IDLE_S, IN_FLIGHT_S, measure_steady_rate, window_s
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ async def measure_new_rate(
     if new_hz > old_hz:
         measurable = max(settled, answer.answered_at + window) + IN_FLIGHT_S
         await run.until(lambda: run.now() >= measurable, window + 1 / old_hz + 1, idle_s=IDLE_S)
-        samples = [each for each in run.samples_on(node.topic.name) if each.source_time >= answer.answered_at]
+        samples = [sample for sample in run.samples_on(node.topic.name) if sample.source_time >= answer.answered_at]
         rate = measure(samples)
         if rate is not None and rate.agrees_with(new_hz) and rate.covers(window):
             return rate, len(samples)

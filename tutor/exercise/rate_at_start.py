@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Topic
-from tutor.exercise.publishing import NOT_STARTED
+from tutor.exercise.publishing_start import NOT_STARTED
 from tutor.exercise.rate_probes import ProbeRates
 from tutor.exercise.rate_units import (
     RateProbe,

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from tutor.exercise.nouns import Program, Topic
-from tutor.exercise.publishing import AskForParameters, PublishingStart, cancel, numeric
+from tutor.exercise.publishing_start import AskForParameters, PublishingStart, cancel, numeric
 from tutor.exercise.rate_units import (
     FAST_HZ,
     PROBE_VALUES,
@@ -27,7 +27,7 @@ from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy
 from tutor.judge.rates import measure
 from tutor.judge.trace import Trace
-from tutor.judge.waiting import TRIES, are_undisturbed, too_few_by_cpu_wait, wait_for_message, window_s
+from tutor.judge.waiting_for_nodes import TRIES, cannot_be_slowed, too_few_by_cpu_wait, wait_for_message, window_s
 from tutor.ros_model import Parameter
 
 FAST_COLLECT_S = 4.0
@@ -82,7 +82,7 @@ class ProbeRate:
                 if (
                     probe.agrees
                     or run.exit is not None
-                    or are_undisturbed(run.samples_on(topic.name)[1:], cpu_wait_s=lost_s, elapsed_s=elapsed_s)
+                    or cannot_be_slowed(run.samples_on(topic.name)[1:], cpu_wait_s=lost_s, elapsed_s=elapsed_s)
                     or (probe.rate is not None and probe.rate.is_far_above(asked_hz, window))
                     or (
                         stretch > 1
@@ -119,7 +119,7 @@ class ProbeRates:
         return self._probe(self.suggested, "Hz", FAST_HZ)
 
     async def __call__(self, bench: Bench) -> RateProbes:
-        under_way = {each: asyncio.ensure_future(self._run(bench, each)) for each in self._suggested()}
+        under_way = {probe: asyncio.ensure_future(self._run(bench, probe)) for probe in self._suggested()}
         try:
             declared = await bench.facts(AskForParameters(self.program, self.topic))
             if declared is None or any(p.name == self.suggested for p in declared):
@@ -155,7 +155,9 @@ class ProbeRates:
             def decided() -> bool:
                 if any(len(group) == wanted[group[0].key] for group in find_agreeing_groups(tried)):
                     return True
-                refuted = [each for each in group_probes(tried) if len(each) > 1 and count_agreeing(each) < len(each)]
+                refuted = [
+                    group for group in group_probes(tried) if len(group) > 1 and count_agreeing(group) < len(group)
+                ]
                 return wanted.keys() <= {group[0].key for group in refuted}
 
             pending = {
@@ -176,7 +178,7 @@ class ProbeRates:
                 return RateProbes(declared, tuple(tried))
             # One that sets the rate to the reciprocal of what its name says leaves no room for another that sets it
             # right.
-            inverted = any(are_inverted(each, min_measured=2) for each in group_probes(tried))
+            inverted = any(are_inverted(probes, min_measured=2) for probes in group_probes(tried))
             if group is with_known_unit and inverted:
                 return RateProbes(declared, tuple(tried))
         plain = PublishingStart(self.program, self.topic)

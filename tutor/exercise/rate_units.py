@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tutor.judge.rates import Rate, describe
 from tutor.judge.trace import Trace
-from tutor.judge.waiting import window_s
+from tutor.judge.waiting_for_nodes import window_s
 from tutor.ros_model import Parameter
 
 FAST_HZ = 8.0
@@ -67,7 +67,7 @@ class RateProbes:
 
     @property
     def spins(self) -> bool | None:
-        """Whether the node spins, as it must to answer parameter calls; None if it has no services for these."""
+        """True if the node spins, as it must to answer parameter calls; None if it has no services for these."""
         if self.declared is None and not any(probe.trace.graph.parameter_nodes for probe in self.probes):
             return None
         return self.declared is not None

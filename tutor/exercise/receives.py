@@ -10,13 +10,13 @@ from typing import Any
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Program, Topic, agrees
-from tutor.exercise.seen import Seen, look, settle
+from tutor.exercise.seen_run import Seen, look, settle
 from tutor.judge.bench import Bench, Publisher, Run
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Sample
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import RESENT_S, patience_s, wait_until_seen
+from tutor.judge.waiting_for_nodes import RESENT_S, patience_s, wait_until_seen
 from tutor.judge.wording import counted, output_tail
 from tutor.ros_model import TopicEndpoint
 
@@ -42,7 +42,7 @@ async def wait_for_subscription(run: Run, topic: Topic, publisher: Publisher) ->
     """Wait until a subscription of the node receives what we publish."""
 
     def subscriptions() -> list[tuple[str, str]]:
-        return [(each.topic, each.type) for each in run.graph.subscriptions]
+        return [(subscription.topic, subscription.type) for subscription in run.graph.subscriptions]
 
     matched = await wait_until_seen(
         run,
@@ -92,8 +92,8 @@ class SendMessages:
         on = self.shown_on
         if on is None:
             return next((str(log) for log in run.logs if log.stamp >= sent.source_time and says(log.text, wanted)), "")
-        samples = [each for each in run.samples_on(on.name) if each.source_time >= sent.source_time]
-        return next((f"{on.name}, {on.show(each)}" for each in samples if is_shown(on.value(each), wanted)), "")
+        samples = [sample for sample in run.samples_on(on.name) if sample.source_time >= sent.source_time]
+        return next((f"{on.name}, {on.show(sample)}" for sample in samples if is_shown(on.value(sample), wanted)), "")
 
 
 @dataclass(frozen=True)

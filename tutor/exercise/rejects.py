@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from tutor.exercise.bad_values import AtomicRequests, BadValues, SetAtomically, SetBadValues
 from tutor.exercise.form import Exercise, Form, parameter_node
+from tutor.exercise.node_parameters import ParameterNode, describe_refusal, fail_not_running, fail_not_set, is_unchanged
 from tutor.exercise.nouns import Parameter, SetsRate, ShownIn, Value, show
-from tutor.exercise.parameters import ParameterNode, describe_refusal, fail_not_running, fail_not_set, is_unchanged
 from tutor.exercise.rate_at_run_time import RateAtRunTime, RateChanges
 from tutor.exercise.run_time_changes import RunTimeChanges
 from tutor.exercise.set_at_run_time import SetAtRunTime

@@ -5,13 +5,13 @@ from __future__ import annotations
 import asyncio
 from dataclasses import dataclass, replace
 
+from tutor.exercise.node_parameters import ParameterNode, set_values
 from tutor.exercise.nouns import Parameter, ShownIn, Value
-from tutor.exercise.parameters import ParameterNode, set_values
 from tutor.judge.bench import Bench, Run
 from tutor.judge.rates import Rate, measure
 from tutor.judge.trace import Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import IDLE_S, measure_steady_rate
+from tutor.judge.waiting_for_nodes import IDLE_S, measure_steady_rate
 
 QUIET_PERIODS = 1.3
 """A node that still publishes sends a message within this many periods, even with some jitter."""
@@ -160,7 +160,7 @@ class ChangeAtRunTime:
         quiet_from = max(set_off.answered_at + period_s, set_rate.answered_at) + 0.1
         quiet_until = quiet_from + 3 / FAST_HZ
         await run.until(lambda: run.now() >= quiet_until, period_s + 2, idle_s=IDLE_S)
-        return tuple(each for each in run.samples_on(self.node.topic.name) if each.source_time > quiet_from)
+        return tuple(sample for sample in run.samples_on(self.node.topic.name) if sample.source_time > quiet_from)
 
     async def _switch_off_and_on(self, bench: Bench, switch: Parameter) -> RunTimeChanges:
         """Set the value and switch off; then set another value and switch on again."""
@@ -235,7 +235,7 @@ class ChangeAtRunTime:
             await run.until(lambda until=first + limit_s: run.now() >= until, limit_s + 2)  # type: ignore[misc]
             early = received(first)
             rate = measure(early)
-            are_right = all(self._shows(self.later, each) and not self._shows(self.value, each) for each in early)
+            are_right = all(self._shows(self.later, sample) and not self._shows(self.value, sample) for sample in early)
             if are_right and len(early) == messages and rate is not None and rate.agrees_with(hz):
                 return early, rate
         await run.until(lambda: run.now() >= since + 2.2 / hz, 3.5 / hz + 2)

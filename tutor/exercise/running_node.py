@@ -11,19 +11,19 @@ from typing import Any, NoReturn
 from tutor.exercise.bad_values import BadValues
 from tutor.exercise.defaults import DeclaringRun, Defaults
 from tutor.exercise.handles_goal import action_missing, pursue, unanswered, wait_for_server
+from tutor.exercise.node_parameters import ANSWER_S, DumpSilentNode, find_parameter
 from tutor.exercise.nouns import Action, Parameter, Program, Service, Topic, Value, agrees, show
-from tutor.exercise.parameters import ANSWER_S, DumpSilentNode, find_parameter
 from tutor.exercise.receives import wait_for_subscription
 from tutor.exercise.rejects import Rejects
-from tutor.exercise.seen import SPIN_S, look
+from tutor.exercise.seen_run import SPIN_S, look
 from tutor.exercise.serves import service_missing
-from tutor.exercise.watching import text_in
+from tutor.exercise.watched_start import text_in
 from tutor.judge.bench import Bench, Publisher, Run
 from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Sample, SetAnswer
 from tutor.judge.verdict import Verdict, failed
-from tutor.judge.waiting import (
+from tutor.judge.waiting_for_nodes import (
     IDLE_S,
     MESSAGE_GAP_S,
     RESENT_S,
@@ -169,7 +169,7 @@ class Node:
             seen = await look(run, does_nothing=not answer.accepted)
             self._fail(*unanswered(action, seen, answer, GOAL_S))
         self.seen.append(f"{action.name} {goal}: {outcome}, {dict(answer.result or {})}")
-        now, feedback = run.now(), [Fields(each.message, at=each.source_time) for each in answer.feedback]
+        now, feedback = run.now(), [Fields(sample.message, at=sample.source_time) for sample in answer.feedback]
         return Fields({"outcome": outcome, "result": answer.result or {}, "feedback": feedback}, at=now)
 
     async def next(self, topic: Topic, after: Fields, *, skip: int = 1) -> Fields:

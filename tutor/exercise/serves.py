@@ -96,7 +96,7 @@ def service_missing(services: Sequence[Service], trace: Trace, missing: Sequence
         service=missing[0].name,
         type=missing[0].type,
         services=tuple(service.name for service in services),
-        says=f"{', '.join(each.name for each in missing)} {'is' if len(missing) == 1 else 'are'} not there",
+        says=f"{', '.join(service.name for service in missing)} {'is' if len(missing) == 1 else 'are'} not there",
         do="Create each service where the node is set up, under its own name and with its own callback.",
     )
 
@@ -176,7 +176,7 @@ def wrong_answer(
         wanted=right_result(service, answer.request),
         calls=tuple(calls),
         field=service.response,
-        operations={each.name: each.computes for each in services if each.computes is not None},
+        operations={service.name: service.computes for service in services if service.computes is not None},
         says=says,
         do=do,
     )

@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from tutor.exercise.node_parameters import DumpSilentNode
 from tutor.exercise.nouns import Program, Service
-from tutor.exercise.parameters import DumpSilentNode
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.stuck import ask_unless_stuck
+from tutor.judge.ending import repeat_chance_failures
+from tutor.judge.stuck_nodes import ask_unless_stuck
 from tutor.judge.trace import CallAnswer, Ending, Trace
 from tutor.judge.tracebacks import Frame, failed_outside_callbacks
-from tutor.judge.waiting import SETTLE_S, patience_s, wait_until_seen
+from tutor.judge.waiting_for_nodes import SETTLE_S, patience_s, wait_until_seen
 from tutor.ros_model import Graph, ServiceEndpoint
 
 ANSWER_S = 5.0
@@ -89,7 +89,7 @@ class Server:
         def limit_s() -> float:
             present = [(server.name, server.type) for server in run.graph.servers]
             others = [server for server in present if server not in wanted]
-            patience = (patience_s(others, each.name, each.type) for each in self.missing(run.graph.servers))
+            patience = (patience_s(others, service.name, service.type) for service in self.missing(run.graph.servers))
             return min(patience, default=SETTLE_S)
 
         await wait_until_seen(run, all_offered, settle_s=limit_s)
@@ -129,7 +129,7 @@ class CallEach:
     given: tuple[Any, ...]
 
     async def __call__(self, bench: Bench) -> ServiceCalls:
-        return await repeat_if_doubtful(self._run)(bench)
+        return await repeat_chance_failures(self._run)(bench)
 
     async def _run(self, bench: Bench) -> ServiceCalls:
         server, file = self.server, self.server.program.file
@@ -170,7 +170,7 @@ class CallEach:
 
     async def _dump_stuck_node(self, bench: Bench, unanswered: CallAnswer) -> tuple[Frame, ...]:
         """Repeat the unanswered call on another start to get a stack dump of the node while it does not answer."""
-        service = next(each for each in self.server.services if each.name == unanswered.service)
+        service = next(service for service in self.server.services if service.name == unanswered.service)
         async with bench.start(self.server.program.file) as run:
             bench.report_progress(0.9, "looking where the node is stuck")
             await wait_until_seen(run, lambda: any(server.name == service.name for server in run.graph.servers))

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from tutor.exercise.form import Exercise, Form, parameter_node
+from tutor.exercise.node_parameters import ParameterNode, fail_not_running, fail_not_set, is_unchanged
 from tutor.exercise.nouns import Parameter, ShownIn, Value
-from tutor.exercise.parameters import ParameterNode, fail_not_running, fail_not_set, is_unchanged
 from tutor.exercise.rate_at_run_time import RateAtRunTime, RateChanges
 from tutor.exercise.run_time_changes import FAST_HZ, ChangeAtRunTime, RunTimeChanges
 from tutor.judge.check import Criterion

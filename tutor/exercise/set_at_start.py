@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from tutor.exercise.form import Exercise, Form, parameter_node
-from tutor.exercise.nouns import Parameter, SetsRate, ShownIn, SwitchesOff, Topic, Value
-from tutor.exercise.parameters import (
+from tutor.exercise.node_parameters import (
     ANSWER_S,
     MESSAGE_GAP_S,
     ParameterNode,
@@ -17,6 +16,7 @@ from tutor.exercise.parameters import (
     read,
     set_values,
 )
+from tutor.exercise.nouns import Parameter, SetsRate, ShownIn, SwitchesOff, Topic, Value
 from tutor.judge import tracebacks
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
@@ -24,7 +24,7 @@ from tutor.judge.rates import TOLERANCE, Rate, describe, measure
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Sample, Trace
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, measure_steady_rate, wait_for_message, wait_until_seen, window_s
+from tutor.judge.waiting_for_nodes import IDLE_S, measure_steady_rate, wait_for_message, wait_until_seen, window_s
 from tutor.judge.wording import counted, output_tail
 from tutor.ros_model import Parameter as Reported
 
@@ -231,7 +231,7 @@ class SetAtStart(Form):
             return None
         samples = start.trace.samples_on(given.topic.name)
         is_rate_wrong = bool(samples) and not given.find_without(samples)
-        rates = [other for each, other in zip(self._given, seen.starts, strict=True) if each.switch is None]
+        rates = [other for given, other in zip(self._given, seen.starts, strict=True) if given.switch is None]
         return None if is_rate_wrong and None in rates else self.judge(seen)
 
     def _judge_start(self, number: int, start: Started, seen: StartedWithParameters) -> Verdict | None:

@@ -7,17 +7,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Program, Service
 from tutor.exercise.serves import ended_by_a_call, wrong_answer
 from tutor.exercise.service_calls import Question, Server, describe_request, make_calls, right_result
-from tutor.exercise.words import SAYS_ERROR
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import CallAnswer, Level, LogRecord, OutputLine, Trace
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting import IDLE_S, wait_until_log_quiet, wait_until_seen
+from tutor.judge.waiting_for_nodes import IDLE_S, wait_until_log_quiet, wait_until_seen
 from tutor.judge.wording import describe_no_answer, output_tail, shape
 
 GOOD_CALLS = 3

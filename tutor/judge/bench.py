@@ -243,11 +243,20 @@ class Bench(Protocol):
 Scenario = Callable[[Bench], Awaitable[T]]
 """Exercises the learner's node and returns the observed facts; also the key under which those facts are cached.
 
-Facts may have an attribute `slowed` (see `was_slowed`). A scenario raises MachineTooBusy when the machine was too busy
-to gather any facts, and is then repeated with nothing else running.
+Facts may have an attribute `slowed`, and a scenario may raise MachineTooBusy: see `was_slowed`.
 """
 
 
 def was_slowed(facts: object) -> bool:
-    """Whether the machine slowed the node down, so that a criterion failed by these facts is re-judged on new ones."""
+    """Whether the machine may be to blame for what these facts show, so that they alone fail no criterion.
+
+    These are the words for it, in facts and verdicts:
+
+    - *slowed*: the node, or our process, waited for a CPU (`cpu_wait_s`) for so long that this may explain what was
+      seen. A criterion that slowed facts fail is judged again on new ones.
+    - *allowance*: the seconds that a limit is extended by for such a wait.
+    - *undecided*: the verdict of a judge that cannot tell, from slowed facts, the node's fault from the machine's (see
+      `tutor.judge.verdict.undecided`). The scenarios are repeated with nothing else running.
+    - MachineTooBusy: what a scenario raises that was slowed too much to gather any facts, and is repeated likewise.
+    """
     return bool(getattr(facts, "slowed", False))

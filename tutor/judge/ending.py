@@ -12,7 +12,7 @@ from tutor.judge.bench import Bench, Scenario
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.verdict import Verdict, failed, passed, skipped
-from tutor.judge.waiting import CPU_WAIT_SHARE
+from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE
 from tutor.judge.wording import output_tail
 
 _CRASH_SIGNALS = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT
@@ -31,7 +31,7 @@ class _Ended(Protocol):
     def ending(self) -> Ending | None: ...
 
 
-def repeat_if_doubtful[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
+def repeat_chance_failures[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
     """Repeat a scenario that ends with Ctrl+C when its process failed in a way that a correct program may, by a race.
 
     The result is the facts of the first repetition that fails that way again, else those of the last one. A mistake of
@@ -62,11 +62,13 @@ def repeat_if_doubtful[T: _Ended](scenario: Scenario[T]) -> Scenario[T]:
 
 
 def may_be_chance(ending: Ending | None) -> bool:
-    """Whether the process failed in a way that a correct program may, by a race (see `repeat_if_doubtful`)."""
+    """Whether the process failed in a way that a correct program may, by a race (see `repeat_chance_failures`)."""
     if ending is not None and ending.exit is None:
         return ending.cpu_wait_share >= CPU_WAIT_SHARE
     found = tracebacks.find_tracebacks(ending.output) if ending is not None else []
-    return all(_is_race_in_spin(each) or _is_race_in_shutdown(each) for each in found) if found else _crashed(ending)
+    if not found:
+        return _crashed(ending)
+    return all(_is_race_in_spin(traceback) or _is_race_in_shutdown(traceback) for traceback in found)
 
 
 def _is_race_in_spin(found: tracebacks.Traceback) -> bool:
@@ -94,7 +96,7 @@ def judge_ending(trace: Trace, ending: Ending | None, *, shown_by: str) -> Verdi
         goes_on = Symptom.DOES_NOT_END.seen(trace, ending=ending, raised=None)
         return failed(expected, f"still running {ending.limit_s:g} s after Ctrl+C", goes_on, output_tail(trace))
     seen = tracebacks.find_tracebacks(ending.output) or _find_printed_endings(ending)
-    found = [each for each in seen if not _is_from_rclpy_cleanup(each, trace)]
+    found = [traceback for traceback in seen if not _is_from_rclpy_cleanup(traceback, trace)]
     observed = f"ended {ending.took_s:.2f} s after Ctrl+C with {ending.exit}"
     if found and not _is_race_in_shutdown(found[-1]):
         raised = Symptom.ENDS_BADLY.seen(trace, ending=ending, raised=found[-1])
@@ -110,7 +112,7 @@ def _find_printed_endings(ending: Ending) -> list[tracebacks.Traceback]:
     Others may be older, of exceptions that the program has dealt with: what it prints is held back in a buffer.
     """
     printed = [replace(line, stream="stderr") for line in ending.output if line.stream == "stdout"]
-    return [each for each in tracebacks.find_tracebacks(printed) if each.type.endswith(SPIN_ENDINGS)]
+    return [traceback for traceback in tracebacks.find_tracebacks(printed) if traceback.type.endswith(SPIN_ENDINGS)]
 
 
 def _is_from_rclpy_cleanup(found: tracebacks.Traceback, trace: Trace) -> bool:

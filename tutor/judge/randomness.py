@@ -112,8 +112,8 @@ def may_be_one_sequence(values: Sequence[float], others: Sequence[float]) -> boo
         return len(set(others).intersection(values)) > len(values) / 2
     shifted = [(values[shift:], others) for shift in range(MAX_MISSED + 1)]
     shifted += [(values, others[shift:]) for shift in range(1, MAX_MISSED + 1)]
-    pairs = [list(zip(*each, strict=False)) for each in shifted]
-    return any(sum(a == b for a, b in each) > 0.8 * len(each) for each in pairs)
+    pairs = [list(zip(*runs, strict=False)) for runs in shifted]
+    return any(sum(a == b for a, b in overlap) > 0.8 * len(overlap) for overlap in pairs)
 
 
 def _may_have_begun_to_cycle(values: Sequence[float]) -> bool:

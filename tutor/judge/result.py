@@ -144,7 +144,7 @@ def overall(statuses: Iterable[Status]) -> Status:
 def tell_roots_once(criteria: Sequence[CriterionResult]) -> tuple[CriterionResult, ...]:
     """Let criteria that fail for the same reason point to the first of them, required ones first."""
     roots: dict[tuple[str, str], str] = {}
-    for criterion in sorted(criteria, key=lambda each: each.bonus):
+    for criterion in sorted(criteria, key=lambda criterion: criterion.bonus):
         if criterion.verdict.mistake:
             roots.setdefault(_root(criterion.verdict), criterion.id)
     told = []

@@ -127,7 +127,7 @@ def dumped_frames(output: Iterable[OutputLine]) -> tuple[Frame, ...]:
 
 def frames_by_thread(frames: Iterable[Frame]) -> tuple[tuple[Frame, ...], ...]:
     """The frames of each thread of a stack dump, innermost first."""
-    return tuple(tuple(each) for _, each in groupby(frames, key=lambda frame: frame.thread))
+    return tuple(tuple(thread) for _, thread in groupby(frames, key=lambda frame: frame.thread))
 
 
 def own_frame(frames: Iterable[Frame], folder: str) -> Frame | None:
@@ -147,7 +147,7 @@ def last_traceback(trace: Trace) -> Traceback | None:
     An ignored one counts only if there is no other: objects being cleaned up at exit complain after the actual crash.
     """
     found = find_tracebacks(trace.output)
-    return next((each for each in reversed(found) if not each.ignored), found[-1] if found else None)
+    return next((traceback for traceback in reversed(found) if not traceback.ignored), found[-1] if found else None)
 
 
 def failed_outside_callbacks(trace: Trace) -> bool:

@@ -1,4 +1,4 @@
-"""I1.2: entries for what the judges have seen, by the name of the fault (see `faults`)."""
+"""I1.2: entries for what the judges have seen, by the name that they give a fault (see `Fault`)."""
 
 from __future__ import annotations
 

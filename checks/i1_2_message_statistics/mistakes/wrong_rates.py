@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from checks.i1_2_message_statistics.count import Fault
+from checks.i1_2_message_statistics.log_lines import Number
+from checks.i1_2_message_statistics.logged_summaries import Summary
 from checks.i1_2_message_statistics.rate import (
     DELAY_S,
     Range,
@@ -13,8 +15,6 @@ from checks.i1_2_message_statistics.rate import (
     numbers_except_count,
     true_rates,
 )
-from checks.i1_2_message_statistics.reading import Number
-from checks.i1_2_message_statistics.summaries import Summary
 
 WHOLE_SECONDS_ERROR_S = 0.01
 """Maximum deviation from whole seconds of the time that a rate implies: rates are often written with two digits."""
@@ -40,9 +40,9 @@ def find_wrong_rate(summary: Summary, summaries: Sequence[Summary]) -> Fault:
     if all(map(_elapsed_numbers, summaries)):
         what = f"{_elapsed_numbers(summary)[0].text} is the time in seconds since the first message"
         return {"fault": "wrong-rate-in-the-summary", "what": what}
-    leads = [[lead for _, lead in _clock_leads(each)] for each in summaries]
+    leads = [[lead for _, lead in _clock_leads(other)] for other in summaries]
     for number, lead in _clock_leads(summary):
-        if lead.high > MIN_LEAD_S and all(any(_may_be_same(lead, other) for other in each) for each in leads):
+        if lead.high > MIN_LEAD_S and all(any(_may_be_same(lead, other) for other in possible) for possible in leads):
             return {"fault": "counted-from-the-nodes-start", "number": number.text, "lead_s": lead.high}
     if all(map(_find_whole_seconds, summaries)):
         number, whole_s = _find_whole_seconds(summary)[0]
@@ -58,7 +58,9 @@ def find_wrong_rate(summary: Summary, summaries: Sequence[Summary]) -> Fault:
 def _elapsed_numbers(summary: Summary) -> list[Number]:
     """The numbers that are the seconds from the first message to the summary."""
     span = elapsed_s(summary, covered_count(summary))
-    return [each for each in numbers_except_count(summary) if span.low - DELAY_S <= each.value <= span.high + DELAY_S]
+    return [
+        number for number in numbers_except_count(summary) if span.low - DELAY_S <= number.value <= span.high + DELAY_S
+    ]
 
 
 def _find_whole_seconds(summary: Summary) -> list[tuple[Number, int]]:

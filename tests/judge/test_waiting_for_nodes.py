@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from tutor.judge.trace import Sample
-from tutor.judge.waiting import MESSAGE_GAP_S, OTHER_NAME_S, OTHER_TYPE_S, SETTLE_S, wait_for_message
+from tutor.judge.waiting_for_nodes import MESSAGE_GAP_S, OTHER_NAME_S, OTHER_TYPE_S, SETTLE_S, wait_for_message
 from tutor.ros_model import Graph, TopicEndpoint
 
 TOPIC, TYPE = "/sensor/temperature", "std_msgs/msg/Float64"

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from checks.i1_2_message_statistics.reading import labelled, parse_log
+from checks.i1_2_message_statistics.log_lines import labelled, parse_log
 from tutor.judge.trace import LogRecord
 
 LONG = 2000

@@ -9,12 +9,12 @@ from typing import Any
 from tutor.exercise.nouns import Parameter, Program, SetsRate, Topic, show
 from tutor.judge.bench import Bench, Run
 from tutor.judge.rates import Rate, measure
-from tutor.judge.stuck import ask_unless_stuck
+from tutor.judge.stuck_nodes import ask_unless_stuck
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Verdict, failed
-from tutor.judge.waiting import RESENT_S, START_S, find_stuck_frames, wait_for_message, wait_for_publisher
+from tutor.judge.waiting_for_nodes import RESENT_S, START_S, find_stuck_frames, wait_for_message, wait_for_publisher
 from tutor.judge.wording import describe_no_answer, output_tail
 from tutor.ros_model import Parameter as Reported
 
@@ -46,7 +46,7 @@ class ParameterNode:
     @property
     def rate(self) -> Parameter | None:
         """The parameter that sets the rate, if there is one."""
-        return next((each for each in self.parameters if isinstance(each.effect, SetsRate)), None)
+        return next((parameter for parameter in self.parameters if isinstance(parameter.effect, SetsRate)), None)
 
     @property
     def default_hz(self) -> float:

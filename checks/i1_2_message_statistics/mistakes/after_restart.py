@@ -61,7 +61,7 @@ def texts_compared(case: Case) -> Iterator[Found]:
         for node in ast.walk(function):
             if isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE):
                 operands = (node.left, *node.comparators)
-                if len(operands) == 2 and all(_is_text(each, texts) for each in operands):
+                if len(operands) == 2 and all(_is_text(operand, texts) for operand in operands):
                     yield found(case.program.holding(node), node)
 
 
@@ -75,8 +75,8 @@ def _texts(case: Case) -> set[str]:
     texts: set[str] = set()
     for _ in range(2):  # a variable may be set to another one
         for name, values in given.items():
-            values = [each for each in values if not (isinstance(each, ast.Constant) and each.value is None)]
-            if values and all(_is_text(each, texts) for each in values):
+            values = [value for value in values if not (isinstance(value, ast.Constant) and value.value is None)]
+            if values and all(_is_text(value, texts) for value in values):
                 texts.add(name)
     return texts
 

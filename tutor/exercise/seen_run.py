@@ -11,7 +11,7 @@ from tutor.judge.bench import Run
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import HARDLY_WAITED_SHARE, RESENT_S
+from tutor.judge.waiting_for_nodes import HARDLY_WAITED_SHARE, RESENT_S
 
 SPIN_S = 2.0
 """A node that spins answers a parameter request within this time."""
@@ -28,8 +28,8 @@ class Seen:
     """A run, as far as a criterion looks at it.
 
     `answers`: whether the node has shown that it spins, or need not. `stuck`: the stack, innermost frame first, of a
-    node that does nothing. `slowed`: the node waited for a CPU, so that a failure may be the
-    machine's; `cpu_wait_s`: for how long.
+    node that does nothing. `slowed`: see `tutor.judge.bench.was_slowed`; `cpu_wait_s`: how long the node waited for a
+    CPU.
     """
 
     trace: Trace
@@ -47,8 +47,8 @@ class Seen:
         return kind(**vars(self), **found)
 
 
-def was_slowed(run: Run) -> bool:
-    """Whether the node has waited for a CPU so much that what it did or left may be the machine's fault."""
+def slowed_so_far(run: Run) -> bool:
+    """Whether the node has waited for a CPU so much by now that the machine may be to blame for what it did or left."""
     return run.node_cpu_wait_s() >= HARDLY_WAITED_SHARE * (run.now() - run.started_at)
 
 
@@ -63,7 +63,7 @@ async def look(run: Run, *, does_nothing: bool = False, dump: Dump | None = None
     trace = run.trace()
     silent = not answers and trace.exit is None and bool(trace.graph.nodes)
     stuck = await (dump or run.dump_stacks)() if silent else ()
-    return Seen(trace, answers, stuck, was_slowed(run), run.node_cpu_wait_s())
+    return Seen(trace, answers, stuck, slowed_so_far(run), run.node_cpu_wait_s())
 
 
 async def settle(run: Run) -> None:

@@ -96,7 +96,7 @@ def _is_in_waiting_loop(program: Program, at: Frame, alone: bool) -> bool:
     """`alone`: no other thread can change what the loop waits for."""
     file = program.named(at.name)
     inside = [file.statement_at(at.line), *file.ancestors(file.statement_at(at.line) or file.tree)]
-    loop = next((each for each in inside if isinstance(each, Loop)), None)
+    loop = next((node for node in inside if isinstance(node, Loop)), None)
     if not isinstance(loop, ast.While) or file.function_around(loop) is not file.function_at(at.line):
         return False
     endless = ast.unparse(loop.test) in _UNTIL_SIGINT or (alone and _only_looks(program, loop.test))
@@ -105,16 +105,16 @@ def _is_in_waiting_loop(program: Program, at: Frame, alone: bool) -> bool:
 
 def _only_looks(program: Program, test: ast.expr) -> bool:
     """Whether evaluating a condition runs no code of the learner's, and asks no clock: only others can change it."""
-    own = {each.name for each in program.nodes() if isinstance(each, Function)}
+    own = {node.name for node in program.nodes() if isinstance(node, Function)}
     if any(name.startswith("__") and name != "__init__" for name in own):  # such as __bool__ or __eq__
         return False
-    for each in ast.walk(test):
-        if isinstance(each, ast.Call):
-            if called_name(each) not in _QUERIES:
+    for part in ast.walk(test):
+        if isinstance(part, ast.Call):
+            if called_name(part) not in _QUERIES:
                 return False
-        elif isinstance(each, ast.Name | ast.Attribute):
-            if last_name(each) in own:  # perhaps a property
+        elif isinstance(part, ast.Name | ast.Attribute):
+            if last_name(part) in own:  # perhaps a property
                 return False
-        elif not isinstance(each, _PLAIN):
+        elif not isinstance(part, _PLAIN):
             return False
     return True

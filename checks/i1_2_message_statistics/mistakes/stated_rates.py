@@ -65,7 +65,7 @@ def worked_out_once(case: Case) -> Iterator[Found]:
 
 
 def _divides(value: ast.expr) -> bool:
-    return any(isinstance(each, ast.Div) for each in ast.walk(value))
+    return any(isinstance(node, ast.Div) for node in ast.walk(value))
 
 
 @shown(

@@ -13,7 +13,7 @@ from typing import Any
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Parameter, Program, Topic, Value
 from tutor.exercise.running_node import Node, Unmet
-from tutor.exercise.seen import was_slowed
+from tutor.exercise.seen_run import slowed_so_far
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.verdict import Verdict, passed
@@ -23,7 +23,7 @@ Script = Callable[[Node], Coroutine[Any, Any, None]]
 
 @dataclass(frozen=True)
 class ScriptRun:
-    """What a script found. `slowed`: the node waited for a CPU, so that a failure may be the machine's."""
+    """What a script found. `slowed`: see `tutor.judge.bench.was_slowed`."""
 
     verdict: Verdict
     slowed: bool
@@ -52,7 +52,7 @@ class RunScript:
                 verdict = passed(self.expected, node.seen[-1] if node.seen else "it does", node.seen)
             except Unmet as unmet:
                 verdict = replace(unmet.verdict, expected=self.expected)
-            return ScriptRun(verdict, was_slowed(run))
+            return ScriptRun(verdict, slowed_so_far(run))
 
 
 @dataclass(frozen=True)

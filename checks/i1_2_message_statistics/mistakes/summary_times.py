@@ -170,5 +170,5 @@ def throttled(case: Case) -> Iterator[Found]:
     """
     for file in case.files if case.about("fault") == "fewer-summaries" else ():
         for node in file.nodes:
-            if isinstance(node, ast.Call) and any(each.arg == "throttle_duration_sec" for each in node.keywords):
+            if isinstance(node, ast.Call) and any(keyword.arg == "throttle_duration_sec" for keyword in node.keywords):
                 yield found(file, node)

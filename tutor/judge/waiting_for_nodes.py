@@ -130,7 +130,7 @@ async def wait_for_publisher(run: Run, topic: str, type_name: str) -> bool:
 
 
 def _publisher_patience_s(run: Run, topic: str, type_name: str) -> float:
-    return patience_s(((each.topic, each.type) for each in run.graph.publishers), topic, type_name)
+    return patience_s(((publisher.topic, publisher.type) for publisher in run.graph.publishers), topic, type_name)
 
 
 async def find_stuck_frames(bench: Bench, file: str) -> tuple[Frame, ...]:
@@ -201,7 +201,7 @@ async def measure_steady_rate(run: Run, topic: str, asked_hz: float, *, since: f
     return rate, len(samples)
 
 
-def are_undisturbed(samples: Sequence[Sample], *, cpu_wait_s: float, elapsed_s: float) -> bool:
+def cannot_be_slowed(samples: Sequence[Sample], *, cpu_wait_s: float, elapsed_s: float) -> bool:
     """Whether the machine cannot have changed the rate of these samples: they are even, and the node hardly waited."""
     return cpu_wait_s < HARDLY_WAITED_SHARE * elapsed_s and are_even(samples)
 
@@ -209,7 +209,7 @@ def are_undisturbed(samples: Sequence[Sample], *, cpu_wait_s: float, elapsed_s: 
 def too_few_by_cpu_wait(messages: int, asked_hz: float, *, cpu_wait_s: float, elapsed_s: float) -> bool:
     """Whether the node's wait for a CPU (`cpu_wait_s` of `elapsed_s`) alone may explain why it sent so few messages.
 
-    Too many messages are never excused.
+    The machine is never to blame for too many messages.
     """
     if cpu_wait_s < CPU_WAIT_SHARE * elapsed_s:
         return False

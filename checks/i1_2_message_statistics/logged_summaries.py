@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 
-from checks.i1_2_message_statistics.reading import Line, Number
+from checks.i1_2_message_statistics.log_lines import Line, Number
 from checks.i1_2_message_statistics.trial import SOON_S, SUMMARY_EVERY, Sent, Trial
 
 AT_ONCE_S = 0.05
@@ -86,7 +86,7 @@ class Summary:
         """Whether it quotes a first message and a recent one."""
         sent, quoted = self.trial.sent, self.quoted
         oldest = min(self.messages - MAX_AGE, self.due) - 1
-        recent = {each.number for each in sent[max(oldest, 0) : self.messages_at_end]}.intersection(quoted)
+        recent = {message.number for message in sent[max(oldest, 0) : self.messages_at_end]}.intersection(quoted)
         firsts = {sent[index].number for index in (0, *self.trial.jumps)}.intersection(quoted)
         return any(recent - {first} or (first in recent and quoted.count(first) > 1) for first in firsts)
 
@@ -115,11 +115,11 @@ def find_summaries(trial: Trial) -> tuple[Summary, ...]:
     times = Counter(line.kind for line in trial.lines)
     usual = {kind for kind, count in times.items() if count >= max(3, FREQUENT_SHARE * len(trial.sent))}
     candidates = group_lines((line for line in trial.lines if line.kind not in usual), trial)
-    if complete := _without_break_reports([each for each in candidates if each.is_complete]):
+    if complete := _without_break_reports([candidate for candidate in candidates if candidate.is_complete]):
         found = _with_similar(complete, candidates)
     else:
         everything = group_lines(trial.lines, trial)
-        complete = [each for each in everything if each.messages > 1 and each.is_complete]
+        complete = [group for group in everything if group.messages > 1 and group.is_complete]
         if len(complete) > len(trial.sent) / 4:
             candidates, found = everything, _with_similar(complete, everything)
         else:
@@ -129,8 +129,8 @@ def find_summaries(trial: Trial) -> tuple[Summary, ...]:
 
 def count_complete(trial: Trial) -> int:
     """The number of summaries if they are too frequent to be distinguished from what is logged for every message."""
-    complete = [each for each in group_lines(trial.lines, trial) if each.messages > 1 and each.is_complete]
-    return sum(each.repetitions for each in complete)
+    complete = [group for group in group_lines(trial.lines, trial) if group.messages > 1 and group.is_complete]
+    return sum(summary.repetitions for summary in complete)
 
 
 def summary_kinds(trial: Trial) -> set[tuple[int, str]]:
@@ -143,16 +143,16 @@ def _without_break_reports(complete: Sequence[Summary]) -> list[Summary]:
 
     Their wording differs from that of the summaries, if there are summaries elsewhere.
     """
-    elsewhere = [each for each in complete if not _is_at_break(each)]
-    kinds = {kind for each in elsewhere if each.is_in_time for kind in each.kinds}
-    return [each for each in complete if not kinds or each.kinds & kinds or each in elsewhere]
+    elsewhere = [summary for summary in complete if not _is_at_break(summary)]
+    kinds = {kind for summary in elsewhere if summary.is_in_time for kind in summary.kinds}
+    return [summary for summary in complete if not kinds or summary.kinds & kinds or summary in elsewhere]
 
 
 def _is_at_break(summary: Summary) -> bool:
     """Whether the summary came right after a break, and quotes nothing newer than the message after the break."""
     trial, quoted = summary.trial, summary.quoted
     before = trial.sent[: summary.messages_at_end]
-    newest = max((index for index, each in enumerate(before) if each.number in quoted), default=0)
+    newest = max((index for index, message in enumerate(before) if message.number in quoted), default=0)
     return any(
         newest in (index - 1, index) and 0 <= summary.at - trial.sent[index].at <= trial.summary_limit_s
         for index in trial.jumps
@@ -162,9 +162,9 @@ def _is_at_break(summary: Summary) -> bool:
 def _with_similar(complete: Sequence[Summary], candidates: Iterable[Summary]) -> list[Summary]:
     """The complete summaries, and the candidates with most kinds of lines of one of them."""
     return [
-        each
-        for each in candidates
-        if each in complete or any(2 * len(each.kinds & one.kinds) > len(one.kinds) for one in complete)
+        candidate
+        for candidate in candidates
+        if candidate in complete or any(2 * len(candidate.kinds & one.kinds) > len(one.kinds) for one in complete)
     ]
 
 
@@ -174,8 +174,12 @@ def _without_coincidences(summaries: Sequence[Summary], candidates: Iterable[Sum
     Such kinds of lines also come separately, at times when no summary is due; when one is due, they may be the rest of
     a summary that was split.
     """
-    separate = [each for each in candidates if each not in summaries and each.messages % SUMMARY_EVERY > MAX_AGE]
-    elsewhere = {line.kind for each in separate for line in each.lines}
+    separate = [
+        candidate
+        for candidate in candidates
+        if candidate not in summaries and candidate.messages % SUMMARY_EVERY > MAX_AGE
+    ]
+    elsewhere = {line.kind for candidate in separate for line in candidate.lines}
     return tuple(_without(summary, elsewhere) for summary in summaries)
 
 
@@ -189,11 +193,11 @@ def _find_best_family(candidates: Sequence[Summary]) -> list[Summary]:
     """Choose among incomplete candidates the family that most often states a total or quotes a message when due."""
 
     def score(family: Sequence[Summary]) -> tuple[int, int]:
-        due = [each for each in family if each.is_in_time]
-        telling = [each for each in due if each.quoted or any(map(each.states, possible_totals(each)))]
-        return len({each.due for each in telling}), -len(family)
+        due = [summary for summary in family if summary.is_in_time]
+        telling = [summary for summary in due if summary.quoted or any(map(summary.states, possible_totals(summary)))]
+        return len({summary.due for summary in telling}), -len(family)
 
-    families = [_with_similar([each], candidates) for each in candidates if each.kinds]
+    families = [_with_similar([candidate], candidates) for candidate in candidates if candidate.kinds]
     best = max(families, key=score, default=[])
     return best if best and score(best)[0] else []
 
@@ -226,11 +230,11 @@ def group_lines(lines: Iterable[Line], trial: Trial) -> tuple[Summary, ...]:
         else:
             groups.append([line])
     joined: list[Summary] = []
-    for group in (Summary(tuple(each), trial) for each in groups):
-        if joined and (whole := _join(joined[-1], group)):
+    for part in (Summary(tuple(group), trial) for group in groups):
+        if joined and (whole := _join(joined[-1], part)):
             joined[-1] = whole
         else:
-            joined.append(group)
+            joined.append(part)
     return tuple(joined)
 
 

@@ -8,12 +8,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from tutor.exercise.nouns import Program, Topic
-from tutor.exercise.publishing import PublishingStart, cancel
+from tutor.exercise.publishing_start import PublishingStart, cancel
 from tutor.exercise.rate_probes import ProbeRates
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
 from tutor.judge.trace import Trace
-from tutor.judge.waiting import IDLE_S, MESSAGE_GAP_S, wait_for_message
+from tutor.judge.waiting_for_nodes import IDLE_S, MESSAGE_GAP_S, wait_for_message
 
 MAX_COLLECT_S = 26.0
 """Longest value collection, counted from the first message: enough for a suspicious 1 Hz node to show plenty."""

@@ -12,17 +12,17 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from tutor.exercise.form import Exercise, Form
+from tutor.exercise.node_parameters import DumpSilentNode
 from tutor.exercise.nouns import Program
-from tutor.exercise.parameters import DumpSilentNode
-from tutor.exercise.publishing import cancel
-from tutor.exercise.seen import Seen, look
+from tutor.exercise.publishing_start import cancel
+from tutor.exercise.seen_run import Seen, look
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
-from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Ending, Level, LogRecord, Trace
 from tutor.judge.verdict import Status, Verdict, failed, passed
-from tutor.judge.waiting import wait_until_seen
+from tutor.judge.waiting_for_nodes import wait_until_seen
 from tutor.judge.wording import counted, output_tail
 
 LOG_DELAY_S = 0.5
@@ -42,7 +42,7 @@ class WatchedStart:
 
     @property
     def slowed(self) -> bool:
-        """Whether the machine may have kept the node from what some form has not seen."""
+        """Whether the machine may be to blame for what some form has not seen (see `tutor.judge.bench.was_slowed`)."""
         return any(seen is not None and seen.slowed for seen in self.seen)
 
 
@@ -54,7 +54,7 @@ class Watch:
     forms: tuple[Watching, ...]
 
     async def __call__(self, bench: Bench) -> WatchedStart:
-        return await repeat_if_doubtful(self._run)(bench)
+        return await repeat_chance_failures(self._run)(bench)
 
     async def _run(self, bench: Bench) -> WatchedStart:
         seen: list[Seen | None] = [None] * len(self.forms)

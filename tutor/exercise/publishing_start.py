@@ -10,11 +10,11 @@ from typing import Any
 
 from tutor.exercise.nouns import Program, Topic
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.stuck import is_stuck_for_ever
+from tutor.judge.ending import repeat_chance_failures
+from tutor.judge.stuck_nodes import is_stuck_for_ever
 from tutor.judge.trace import Echo, Ending, Sample, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting import IDLE_S, MESSAGE_GAP_S, RESENT_S, START_S, find_stuck_frames, wait_for_message
+from tutor.judge.waiting_for_nodes import IDLE_S, MESSAGE_GAP_S, RESENT_S, START_S, find_stuck_frames, wait_for_message
 from tutor.ros_model import Graph, Parameter
 
 MATCHED_S = 1.3
@@ -82,7 +82,7 @@ class PublishingStart:
     topic: Topic
 
     async def __call__(self, bench: Bench) -> PublishingRun:
-        return await repeat_if_doubtful(self._run)(bench)
+        return await repeat_chance_failures(self._run)(bench)
 
     async def _run(self, bench: Bench) -> PublishingRun:
         file, topic = self.program.file, self.topic
@@ -107,7 +107,9 @@ class PublishingStart:
                 elif not stuck.is_for_ever():
                     declared = await run.parameters(ANSWER_S)
                 trace = run.trace()
-                sent = tuple(each for each in trace.samples_on(topic.name) if each.source_time >= stuck.restarted_at)
+                sent = tuple(
+                    sample for sample in trace.samples_on(topic.name) if sample.source_time >= stuck.restarted_at
+                )
                 trace = replace(trace, samples={**trace.samples, topic.name: sent})
                 bench.report_progress(0.8, "pressing Ctrl+C")
                 ended = await run.interrupt()
@@ -145,7 +147,7 @@ class PublishingStart:
 
 
 class _StuckNode:
-    """Whether a node that sends and answers nothing is stuck, by the stack of another start.
+    """A node that sends and answers nothing, and is perhaps stuck: the stack of another start shows it.
 
     `restarted_at`: when that start was made, in seconds since the epoch, or 0. A program that joins domains other than
     its own may send a message to its first run from there, so only later ones count.

@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 from tests.checks.builders import FOLDER, trace
-from tutor.judge.stuck import SLOW_ANSWER_S, ask_unless_stuck, waits_for_ever
+from tutor.judge.stuck_nodes import SLOW_ANSWER_S, ask_unless_stuck, waits_for_ever
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
 from tutor.ros_model import Parameter

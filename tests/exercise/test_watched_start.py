@@ -24,8 +24,8 @@ from tests.checks.builders import (
 from tutor.exercise import AtLeast, EndsCleanly, FieldEquals, Form, LogsText, Program, Receives, Topic, check
 from tutor.exercise.nouns import agrees
 from tutor.exercise.receives import Reception, says
-from tutor.exercise.seen import Seen
-from tutor.exercise.watching import WatchedStart
+from tutor.exercise.seen_run import Seen
+from tutor.exercise.watched_start import WatchedStart
 from tutor.judge.check import Check
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import Verdict

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
-from checks.i1_2_message_statistics.reading import Line
-from checks.i1_2_message_statistics.summaries import Summary, find_summaries, last_due_count
+from checks.i1_2_message_statistics.log_lines import Line
+from checks.i1_2_message_statistics.logged_summaries import Summary, find_summaries, last_due_count
 from checks.i1_2_message_statistics.trial import SOON_S, Trial
 from tutor.judge.trace import Level
 from tutor.judge.wording import shape
@@ -34,7 +34,7 @@ def new_lines(trial: Trial, *, since: float, usual: Sequence[Trial], usual_kinds
         if line.kind not in known and not is_longer:
             return True
         same_kind, *others = ([other for other in lines if other.kind == line.kind] for lines in (before, *elsewhere))
-        return _has_new_number(line, in_summaries.get(line), same_kind, [each for each in others if each], trial)
+        return _has_new_number(line, in_summaries.get(line), same_kind, [lines for lines in others if lines], trial)
 
     return [line for line in trial.lines if line.at >= since and is_report(line)]
 
@@ -77,7 +77,7 @@ def _has_new_number(
             return True
         values_before = {other.numbers[place].value for other in before or others}
         usual_values = [{other.numbers[place].value for other in lines} for lines in elsewhere]
-        if any(len(each) > 1 for each in (values_before, *usual_values)):
+        if any(len(values) > 1 for values in (values_before, *usual_values)):
             continue
         (base,) = values_before
         increase = number.value - base
@@ -88,7 +88,9 @@ def _has_new_number(
         elif from_zero and (_is_count_of_jump(increase, missed) or _is_loss_share(increase, missed, trial)):
             is_report = True
         else:
-            is_report = all(each == {base} for each in usual_values) and _reflects_jump(increase, base, missed, trial)
+            is_report = all(values == {base} for values in usual_values) and _reflects_jump(
+                increase, base, missed, trial
+            )
         if is_report:
             return True
     return False
@@ -98,7 +100,7 @@ def _includes_missed(place: int, line: Line, summary: Summary, calm: Iterable[Li
     """Whether a number that equalled the count now also includes missed messages, beside the count itself."""
     due = last_due_count(line.messages)
     followed = all(other.numbers[place].value == last_due_count(other.messages) > 0 for other in calm)
-    greater = line.numbers[place].value - due in [each for each in _missed_totals(missed) if each > 0]
+    greater = line.numbers[place].value - due in [total for total in _missed_totals(missed) if total > 0]
     return followed and greater and summary.states(due)
 
 
@@ -121,7 +123,7 @@ def _is_count_of_missed(increase: float, missed: Sequence[int]) -> bool:
 
 def _reflects_jump(increase: float, base: float, missed: Sequence[int], trial: Trial) -> bool:
     """Whether a number that was `base` reflects the jump: as a run number, missed messages or the share received."""
-    if increase == 1 and any(each < 0 for each in missed):
+    if increase == 1 and any(amount < 0 for amount in missed):
         return True
     delivered = base in (1, 100) and _is_loss_share(-increase, missed, trial, scales=(base,))
     return _is_count_of_missed(increase, missed) or delivered
@@ -129,13 +131,13 @@ def _reflects_jump(increase: float, base: float, missed: Sequence[int], trial: T
 
 def _is_loss_share(increase: float, missed: Sequence[int], trial: Trial, *, scales: Sequence[float] = (1, 100)) -> bool:
     """Whether the increase is the share of lost messages or of jumps, as a fraction or in percent, to two digits."""
-    if any(each < 0 for each in missed) or increase <= 0:
+    if any(amount < 0 for amount in missed) or increase <= 0:
         return False
     jumps, totals = range(1, len(missed) + 1), _missed_totals(missed)
     shares = {
         lost / (whole + more)
         for lost in (*jumps, *totals)
         for whole in range(trial.before_break + 1, len(trial.sent) + 1)
-        for more in (0, *totals, *(-each for each in jumps))
+        for more in (0, *totals, *(-jump for jump in jumps))
     }
     return any(abs(increase - scale * share) <= 0.0051 * scale for share in shares for scale in scales)

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from checks.i2_3_multi_threaded_service.calls import (
+    ALLOWANCE_S,
     CALLS,
-    EXCUSED_S,
     LONGEST_S,
     PROGRAM,
     SERVER,
@@ -18,10 +18,10 @@ from checks.i2_3_multi_threaded_service.calls import (
     CallBatch,
     needs_repeat_at_once,
 )
-from tutor.exercise.parameters import DumpSilentNode
+from tutor.exercise.node_parameters import DumpSilentNode
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import repeat_if_doubtful
-from tutor.judge.stuck import ask_unless_stuck
+from tutor.judge.ending import repeat_chance_failures
+from tutor.judge.stuck_nodes import ask_unless_stuck
 from tutor.judge.tasks import Tasks
 from tutor.judge.trace import CallAnswer, Ending, Trace
 
@@ -51,7 +51,7 @@ dump_silent_node = DumpSilentNode(PROGRAM)
 
 @dataclass(frozen=True)
 class Readiness:
-    """Whether a node spins, and whether it waits for ever instead."""
+    """What is known of a node before it is called: that it spins, or that it waits for ever instead."""
 
     spins: bool = True
     is_stuck: bool = False
@@ -61,7 +61,7 @@ class Readiness:
         """The timeout of a call to it: it may be in the graph long before it spins, and needs time for the work."""
         if self.is_stuck:
             return STUCK_CALL_S
-        return ANSWER_TIMEOUT_S if self.spins else SPIN_S + LONGEST_S + EXCUSED_S
+        return ANSWER_TIMEOUT_S if self.spins else SPIN_S + LONGEST_S + ALLOWANCE_S
 
 
 async def wait_for_service(run: Run) -> bool:
@@ -150,7 +150,7 @@ async def _call_at_once(run: Run, limit_s: float) -> CallBatch:
 class Interrupted:
     """A run with Ctrl+C during a call. `called`: whether there was a service to call.
 
-    `slowed`: the node ended during the call, but not before Ctrl+C was due: a busy machine has delayed that.
+    `slowed`: the node ended during the call, but not before Ctrl+C was due: the machine is to blame for that.
     """
 
     trace: Trace
@@ -159,7 +159,7 @@ class Interrupted:
     slowed: bool = False
 
 
-@repeat_if_doubtful
+@repeat_chance_failures
 async def interrupt_during_call(bench: Bench) -> Interrupted:
     """Press Ctrl+C during a call."""
     async with bench.start(PROGRAM.file, expected_s=2.0) as run, Tasks() as tasks:

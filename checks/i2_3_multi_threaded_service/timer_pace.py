@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import pairwise
 
-from checks.i2_3_multi_threaded_service.calls import BUSY_S, LONGEST_S, Call
+from checks.i2_3_multi_threaded_service.calls import HARDLY_WAITED_S, LONGEST_S, Call
 from checks.i2_3_multi_threaded_service.timer_logs import Series
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import LogRecord
@@ -20,14 +20,15 @@ BLOCKED_SHARE = 0.75
 """A timer that pauses for less than this share of a call is not blocked by the whole call."""
 
 NEGLIGIBLE_S = 0.2
-"""CPU wait, in seconds, that is too short to cast doubt on an observation."""
+"""CPU wait, in seconds, that is too short to slow anything."""
 
-MAX_EXCUSED_PAUSE_S = 1.0
-"""A timer may pause this much longer on a busy machine. With more, one that is blocked for 3 s would pass."""
+MAX_PAUSE_ALLOWANCE_S = 1.0
+"""Maximum allowance for a timer's pause. With more, one that is blocked for 3 s would pass."""
 
 TRIES, MAX_TRIES = 4, 8
-"""How often a call is made that a busy machine may have disturbed: at most `TRIES` times, or `MAX_TRIES` if none of
-them was conclusive. A machine is seldom so busy for half a minute.
+"""How often a call is made that the machine may have slowed: at most `TRIES` times, or `MAX_TRIES` if all were slowed.
+
+A machine is seldom so busy for half a minute.
 """
 
 
@@ -68,16 +69,16 @@ class TimerPace:
 
 
 def measure_timer(
-    series: Series, logs: Sequence[LogRecord], call: Call, most_excused_s: float = MAX_EXCUSED_PAUSE_S
+    series: Series, logs: Sequence[LogRecord], call: Call, max_allowance_s: float = MAX_PAUSE_ALLOWANCE_S
 ) -> TimerPace:
     """Measure the pace of the series during a call.
 
-    A node that waited for the CPU may pause that much longer, `most_excused_s` at most, and tick correspondingly less.
+    A node that waited for a CPU may pause that much longer, at most `max_allowance_s`, and tick correspondingly less.
     """
-    asked_at, answered_at, excused_s = (
+    asked_at, answered_at, allowance_s = (
         call.answer.asked_at,
         call.answer.answered_at,
-        min(call.cpu_wait_s, most_excused_s),
+        min(call.cpu_wait_s, max_allowance_s),
     )
     ticks = [tick for log in sorted(logs, key=lambda log: log.stamp) if (tick := series.key.of(log))]
     before = [tick for tick in ticks if tick.stamp < asked_at][-1:]
@@ -87,13 +88,13 @@ def measure_timer(
     begin, end = [] if before else [asked_at], [] if after else [max(call.until, answered_at)]
     stamps = [*begin, *(tick.stamp for tick in around), *end]
     longest = max(b - a for a, b in pairwise(stamps))
-    allowed = (1 + TOLERANCE) * min(series.longest_s, 2 * series.interval_s) + SLACK_S + excused_s
+    allowed = (1 + TOLERANCE) * min(series.longest_s, 2 * series.interval_s) + SLACK_S + allowance_s
     for_s = call.answer.took_s
-    least = (1 - TOLERANCE) * max(0.0, for_s - excused_s) / series.interval_s - 1
+    least = (1 - TOLERANCE) * max(0.0, for_s - allowance_s) / series.interval_s - 1
     most = (1 + TOLERANCE) * for_s / series.interval_s + 1
     measurable = len(around) > 1 and around[-1].stamp - around[0].stamp >= 0.5 * for_s > 0.5
     hz = series.hz_in(around) if measurable else None
-    running_share = max(0.1, 1 - excused_s / max(for_s, 0.1))
+    running_share = max(0.1, 1 - allowance_s / max(for_s, 0.1))
     fault = None
     if longest > allowed:
         fault = Fault.GAP
@@ -131,30 +132,32 @@ class Watch:
         paces = self.paces(call)
         return bool(paces) and all(pace.fault for pace in paces)
 
-    def is_doubtful(self, call: Call) -> bool:
-        """Whether the timer only counts as undisturbed during this call because the machine was busy."""
+    def passes_by_allowance(self, call: Call) -> bool:
+        """Whether the timer only counts as undisturbed during this call because of the allowance for the machine."""
         if call.cpu_wait_s <= NEGLIGIBLE_S or self.is_disturbed(call):
             return False
         return self.is_disturbed(replace(call, cpu_wait_s=NEGLIGIBLE_S))
 
-    def is_excused(self, call: Call) -> bool:
-        """Whether a busy machine may have disturbed the timer: its pace is acceptable with twice the CPU wait."""
+    def is_slowed(self, call: Call) -> bool:
+        """Whether the machine may be to blame for a disturbed timer: its pace is acceptable with twice the CPU wait."""
         twice_s = 2 * call.cpu_wait_s
         doubled = replace(call, cpu_wait_s=twice_s)
-        return call.busy and any(not measure_timer(each, self.logs, doubled, twice_s).fault for each in self.right)
+        return call.slowed and any(
+            not measure_timer(series, self.logs, doubled, twice_s).fault for series in self.right
+        )
 
     def is_stopped(self, call: Call) -> bool:
         """Whether no timer logs anything during this call, although two messages are due even without the CPU wait."""
         begin, end = call.answer.asked_at + NEGLIGIBLE_S, call.answer.answered_at - NEGLIGIBLE_S
-        if not self.series or 2 * max(each.longest_s for each in self.series) > end - begin - call.cpu_wait_s:
+        if not self.series or 2 * max(series.longest_s for series in self.series) > end - begin - call.cpu_wait_s:
             return False
-        return not any(begin <= log.stamp <= end and each.key.of(log) for log in self.logs for each in self.series)
+        return not any(begin <= log.stamp <= end and series.key.of(log) for log in self.logs for series in self.series)
 
     def needs_repeat(self, calls: Sequence[Call], most: int) -> bool:
         """Whether to call again, to tell effects of the machine, or of the first connection, from the node's own.
 
         A timer that stops for the whole call is the node's. More than `TRIES` calls, up to `most`, are only made if
-        none so far was conclusive.
+        the machine may have slowed all so far.
         """
         call, tried = calls[-1], len(calls)
         if not call.answered:
@@ -162,8 +165,8 @@ class Watch:
         disturbed, late = self.is_disturbed(call), call.answer.took_s > LONGEST_S
         if tried == 1:
             stopped = disturbed and not late and self.is_stopped(call)
-            return not stopped and (disturbed or late or self.is_doubtful(call))
-        excused, late = disturbed and self.is_excused(call), late and call.nearly_in_time
+            return not stopped and (disturbed or late or self.passes_by_allowance(call))
+        slowed, late = disturbed and self.is_slowed(call), late and call.nearly_in_time
         if tried < TRIES:
-            return excused or (late and call.cpu_wait_s > BUSY_S) or self.is_doubtful(call)
-        return tried < most and (excused or (late and all(each.busy for each in calls)))
+            return slowed or (late and call.cpu_wait_s > HARDLY_WAITED_S) or self.passes_by_allowance(call)
+        return tried < most and (slowed or (late and all(call.slowed for call in calls)))

@@ -5,10 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from checks.i1_2_message_statistics.mistakes import comparing
+from checks.i1_2_message_statistics.mistakes import number_comparisons
 from checks.i1_2_message_statistics.mistakes.entries import CATALOGUE
 from checks.i1_2_message_statistics.mistakes.gap_faults import ALARM, UNNOTICED, ZERO
-from checks.i1_2_message_statistics.mistakes.parsing import find_misread
+from checks.i1_2_message_statistics.mistakes.number_parsing import find_misread
 from tutor.judge.symptom import Symptom
 from tutor.mistakes import Case, Found, found
 from tutor.mistakes.examples import in_run
@@ -93,7 +93,7 @@ def count_compared(case: Case) -> Iterator[Found]:
 
     See it: start the subscriber a while after the publisher.
     """
-    for node, counter in comparing.with_the_count(case.program, _callbacks(case, ALARM, UNNOTICED)):
+    for node, counter in number_comparisons.with_the_count(case.program, _callbacks(case, ALARM, UNNOTICED)):
         yield found(case.program.holding(node), node, counter=counter)
 
 
@@ -136,8 +136,8 @@ def out_of_date(case: Case) -> Iterator[Found]:
     See it: log both numbers with each message.
     """
     for function in _callbacks(case, ALARM):
-        for _, last, node in comparing.comparisons(function):
-            if why := comparing.find_missing_update(function, last, case.program.holding(node)):
+        for _, last, node in number_comparisons.comparisons(function):
+            if why := number_comparisons.find_missing_update(function, last, case.program.holding(node)):
                 yield found(case.program.holding(node), node, last=last, why=why)
 
 
@@ -178,10 +178,14 @@ def early_update(case: Case) -> Iterator[Found]:
     See it: log both numbers with each message.
     """
     for function in _callbacks(case, UNNOTICED):
-        for number, last, node in comparing.comparisons(function):
-            for each in (each for each in function.body if isinstance(each, ast.Assign)):
-                if each.lineno < node.lineno and comparing.assigns_to(each, last) and ast.unparse(each.value) == number:
-                    yield found(case.program.holding(node), each, later=node.lineno)
+        for number, last, node in number_comparisons.comparisons(function):
+            for assignment in (statement for statement in function.body if isinstance(statement, ast.Assign)):
+                if (
+                    assignment.lineno < node.lineno
+                    and number_comparisons.assigns_to(assignment, last)
+                    and ast.unparse(assignment.value) == number
+                ):
+                    yield found(case.program.holding(node), assignment, later=node.lineno)
 
 
 @CATALOGUE.mistake(
@@ -222,7 +226,7 @@ def lower_only(case: Case) -> Iterator[Found]:
     See it: publish 1, 2 and 5 by hand.
     """
     for function in _callbacks(case, UNNOTICED):
-        if (node := comparing.find_lower_only(function)) is not None:
+        if (node := number_comparisons.find_lower_only(function)) is not None:
             yield found(case.program.holding(node), node)
 
 
@@ -259,7 +263,7 @@ def tested_for_truth(case: Case) -> Iterator[Found]:
     See it: `python3 -c "print(bool(0))"`.
     """
     for function in _callbacks(case, ZERO):
-        if (tested := comparing.find_truth_test(function, case.program)) is not None:
+        if (tested := number_comparisons.find_truth_test(function, case.program)) is not None:
             yield found(case.program.holding(tested), tested, tested=ast.unparse(tested))
 
 

@@ -140,7 +140,7 @@ def nap(case: Case) -> Iterator[Found]:
     for file in case.files if case.about("late") else ():
         for loop in file.nodes:
             if isinstance(loop, ast.While | ast.For) and calls_in(loop, *_SPINS_ONCE):
-                yield from (found(file, each, late=case.about("late")) for each in calls_in(loop, "sleep"))
+                yield from (found(file, sleep, late=case.about("late")) for sleep in calls_in(loop, "sleep"))
 
 
 @CATALOGUE.mistake(
@@ -178,7 +178,7 @@ def slow_callback(case: Case) -> Iterator[Found]:
     for function in case.program.callbacks("create_subscription") if case.about("late") else ():
         # A sleep inside a loop that waits for something is not the cause of the delay.
         loops = [loop for loop in ast.walk(function) if isinstance(loop, ast.While)]
-        waiting = {each for loop in loops for each in calls_in(loop, "sleep")}
+        waiting = {sleep for loop in loops for sleep in calls_in(loop, "sleep")}
         for call in calls_in(function, "sleep"):
             if call not in waiting:
                 yield found(case.program.holding(call), call, late=case.about("late"))

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
 
-from checks.i2_3_multi_threaded_service.calling import total_cpu_wait_s, wait_until_spinning
+from checks.i2_3_multi_threaded_service.call_scenarios import total_cpu_wait_s, wait_until_spinning
 from checks.i2_3_multi_threaded_service.calls import PROGRAM, SERVER, Call
 from checks.i2_3_multi_threaded_service.timer_logs import HZ, Series, all_series, timer_series
 from tutor.judge.bench import Bench, Run
-from tutor.judge.ending import repeat_if_doubtful
+from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.rates import TOLERANCE
 from tutor.judge.trace import Ending, LogRecord, Trace
-from tutor.judge.waiting import CPU_WAIT_SHARE, IDLE_S, IN_FLIGHT_S, wait_until_seen
+from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE, IDLE_S, IN_FLIGHT_S, wait_until_seen
 
 STARTUP_S = 1.5
 """Messages logged later than this after the first one are not part of the node's startup."""
@@ -33,16 +33,16 @@ class IdleRun:
     """A run without any call: the timer's log messages, and the shutdown of an idle node.
 
     `series`: the possible readings of the timer's log messages: all those of 10 Hz, else the likeliest one of another
-    pace, if any. `excused`: the machine was too busy for the pace to mean anything.
+    pace, if any. `pace_slowed`: the machine may be to blame for that other pace.
     """
 
     trace: Trace
     series: tuple[Series, ...] = ()
-    excused: bool = False
+    pace_slowed: bool = False
     ending: Ending | None = None
 
 
-@repeat_if_doubtful
+@repeat_chance_failures
 async def run_idle(bench: Bench) -> IdleRun:
     """Listen to the idle node, then press Ctrl+C."""
     async with bench.start(PROGRAM.file) as run:  # start first, like `call_singly`, which waits for these facts
@@ -60,8 +60,8 @@ async def run_idle(bench: Bench) -> IdleRun:
             await _listen(run, since, waited_before_s)
         share = (run.node_cpu_wait_s() - cpu_wait_s) / max(0.1, run.now() - listened_at)
         series = timer_series(all_series(logs_since(run.logs, since)))
-        excused = share >= CPU_WAIT_SHARE and any(_may_be_10_hz(each, share) for each in series)
-        idle = IdleRun(run.trace(), series, excused)
+        pace_slowed = share >= CPU_WAIT_SHARE and any(_may_be_10_hz(reading, share) for reading in series)
+        idle = IdleRun(run.trace(), series, pace_slowed)
         bench.report_progress(0.8, "pressing Ctrl+C")
         return replace(idle, ending=await run.interrupt())
 
@@ -125,10 +125,10 @@ async def listen_until_tick(run: Run, series: Sequence[Series], call: Call) -> C
 
     def seen_enough() -> bool:
         late = takewhile(lambda log: log.received_at > answered_at, reversed(run.logs))
-        return any(log.stamp > answered_at and any(each.key.of(log) for each in series) for log in late)
+        return any(log.stamp > answered_at and any(reading.key.of(log) for reading in series) for log in late)
 
     if series:
-        await run.until(seen_enough, 1.3 * min(10.0, max(each.longest_s for each in series)) + 1.0)
+        await run.until(seen_enough, 1.3 * min(10.0, max(reading.longest_s for reading in series)) + 1.0)
         deadline = run.now() + 2 * IN_FLIGHT_S
         await run.until(lambda: run.now() >= deadline, 1.0)
     return replace(call, until=run.now())

@@ -51,7 +51,7 @@ class _Evaluator:
             case ast.Call(func=ast.Attribute(value=inner, attr=name), args=given, keywords=[]) if name in _METHODS:
                 whole = self.value(inner, depth + 1)
                 if isinstance(whole, str):
-                    return getattr(whole, name)(*(self.value(each, depth + 1) for each in given))
+                    return getattr(whole, name)(*(self.value(argument, depth + 1) for argument in given))
             case ast.Call(func=ast.Name(id="int"), args=[inner], keywords=[]):
                 read = self.value(inner, depth + 1)
                 if isinstance(read, str | int):
@@ -69,7 +69,7 @@ class _Evaluator:
         given = values_of(name, self.function)
         if len(given) == 1:
             return self.value(given[0], depth + 1)
-        if not given and name in {each.arg for each in self.function.args.args}:
+        if not given and name in {parameter.arg for parameter in self.function.args.args}:
             return self.text
         raise _Unknown
 
@@ -114,17 +114,17 @@ def _check_example(function: Function, node: ast.Call, text: str) -> Misread | N
 
 def _find_text_expression(function: Function, node: ast.expr, depth: int = 0) -> str | None:
     """The part of the expression with the message's text: msg.data, or a parameter that is subscripted or split."""
-    for each in ast.walk(node):
-        if isinstance(each, ast.Attribute) and each.attr == "data":
-            return ast.unparse(each)
-    arguments = {each.arg for each in function.args.args} - {"self"}
-    for each in ast.walk(node):
-        if not isinstance(each, ast.Name) or each is node or depth > _MAX_DEPTH:
+    for part in ast.walk(node):
+        if isinstance(part, ast.Attribute) and part.attr == "data":
+            return ast.unparse(part)
+    arguments = {parameter.arg for parameter in function.args.args} - {"self"}
+    for part in ast.walk(node):
+        if not isinstance(part, ast.Name) or part is node or depth > _MAX_DEPTH:
             continue
-        given = values_of(each.id, function)
+        given = values_of(part.id, function)
         if len(given) == 1 and (found := _find_text_expression(function, given[0], depth + 1)) is not None:
             return found
         is_taken_apart = any(isinstance(other, ast.Subscript | ast.Attribute) for other in ast.walk(node))
-        if not given and each.id in arguments and is_taken_apart:
-            return each.id
+        if not given and part.id in arguments and is_taken_apart:
+            return part.id
     return None

@@ -15,11 +15,11 @@ def find_truth_test(function: Function, program: Program) -> ast.expr | None:
     """
     inside, counters = list(ast.walk(function)), _find_counters(program)
     used = {
-        ast.unparse(each)
+        ast.unparse(operand)
         for node in inside
         if isinstance(node, ast.Compare) or (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub))
-        for each in ast.iter_child_nodes(node)
-        if isinstance(each, ast.Name | ast.Attribute)
+        for operand in ast.iter_child_nodes(node)
+        if isinstance(operand, ast.Name | ast.Attribute)
     }
     for node in inside:
         tests = [node.test] if isinstance(node, ast.If | ast.IfExp) else []
@@ -46,40 +46,46 @@ def with_the_count(program: Program, functions: Sequence[Function]) -> Iterator[
 def find_missing_update(function: Function, last: str, file: SourceFile) -> str:
     """Why `last` is not the number of the message before, in words that go on from "which"; "" if it is."""
     inside = list(ast.walk(function))
-    counted = next((each for each in inside if isinstance(each, ast.AugAssign) and assigns_to(each, last)), None)
+    counted = next(
+        (statement for statement in inside if isinstance(statement, ast.AugAssign) and assigns_to(statement, last)),
+        None,
+    )
     if counted is not None:
         return f"line {counted.lineno} counts on from before the gap, and never catches up"
-    assignments = [each for each in inside if isinstance(each, ast.Assign) and assigns_to(each, last)]
+    assignments = [
+        statement for statement in inside if isinstance(statement, ast.Assign) and assigns_to(statement, last)
+    ]
     if not assignments:
         return "never gets the number of the message that came last"
-    always = [each for each in assignments if each in function.body]
+    always = [assignment for assignment in assignments if assignment in function.body]
     if not always:
         return f"line {assignments[-1].lineno} sets under a condition only, not for each message"
     ends = [
-        each
-        for each in inside
-        if isinstance(each, ast.Return)
-        and each.lineno < always[-1].lineno
-        and not any(one in assignments for one in file.block_of(each))
+        statement
+        for statement in inside
+        if isinstance(statement, ast.Return)
+        and statement.lineno < always[-1].lineno
+        and not any(one in assignments for one in file.block_of(statement))
     ]
     if not ends:
         return ""
-    handled = [node for each in inside if isinstance(each, ast.ExceptHandler) for node in ast.walk(each)]
-    end = next((each for each in ends if each not in handled), ends[0])  # messages without a number are rare
+    handled = [node for handler in inside if isinstance(handler, ast.ExceptHandler) for node in ast.walk(handler)]
+    # What an exception handler leaves out does not matter: messages without a number are rare.
+    end = next((statement for statement in ends if statement not in handled), ends[0])
     return f"line {always[-1].lineno} does not set where line {end.lineno} returns before it"
 
 
 def find_lower_only(function: Function) -> ast.expr | None:
     """A comparison that finds lower numbers, if none finds higher ones."""
     found = [(last, node) for _, last, node in comparisons(function) if isinstance(node, ast.Compare)]
-    lower = [each for each in found if _uses_operator(each[1], ast.Lt, ast.LtE)]
-    if not lower or any(not _uses_operator(each[1], ast.Lt, ast.LtE, ast.Is, ast.IsNot) for each in found):
+    lower = [(last, node) for last, node in found if _uses_operator(node, ast.Lt, ast.LtE)]
+    if not lower or any(not _uses_operator(node, ast.Lt, ast.LtE, ast.Is, ast.IsNot) for _, node in found):
         return None
     last, node = lower[0]
-    computed = (each for each in ast.walk(function) if isinstance(each, ast.BinOp | ast.Call))
-    if any(last in map(ast.unparse, ast.iter_child_nodes(each)) for each in computed):  # to find the missing ones
-        return None
-    early = any(assigns_to(each, last) for each in function.body if each.lineno < node.lineno)
+    computed = (expression for expression in ast.walk(function) if isinstance(expression, ast.BinOp | ast.Call))
+    if any(last in map(ast.unparse, ast.iter_child_nodes(expression)) for expression in computed):
+        return None  # it computes with the last number, to find the missing ones
+    early = any(assigns_to(statement, last) for statement in function.body if statement.lineno < node.lineno)
     return None if early else node
 
 
@@ -129,7 +135,11 @@ def _find_counters(program: Program) -> set[str]:
 
 def _find_numbers(function: Function) -> set[str]:
     """The local variables and attributes that hold the number of the current message."""
-    found = {each.arg for each in function.args.args if each.arg in ("n", "num", "number", "seq", "index", "counter")}
+    found = {
+        parameter.arg
+        for parameter in function.args.args
+        if parameter.arg in ("n", "num", "number", "seq", "index", "counter")
+    }
     for node in ast.walk(function):
         if isinstance(node, ast.Assign) and _is_made_by_int(node.value):
             found |= {ast.unparse(target) for target in node.targets}
@@ -151,4 +161,4 @@ def _operand_pairs(function: Function) -> Iterator[tuple[ast.expr, ast.expr, ast
             found.append((node.left, node.comparators[0], node))
         elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
             found.append((node.left, node.right, node))
-    yield from sorted(found, key=lambda each: (each[2].lineno, each[2].col_offset))
+    yield from sorted(found, key=lambda pair: (pair[2].lineno, pair[2].col_offset))
