@@ -44,7 +44,8 @@ def judge(bundle: str, home: str) -> int:
     if installed.returncode != 0:
         return 3
     python = os.path.join(home, "venv", "bin", "python")
-    command = [python, "-I", "-B", "-X", "utf8", "-m", "ros_tutor.tutor.run_module", "tutor.grade.autograder", "classroom50"]
+    command = [python, "-I", "-B", "-X", "utf8", "-m", "ros_tutor.tutor.run_module"]
+    command += ["tutor.grade.autograder", "classroom50"]
     command += ["--bundle", bundle, "--submission", os.getcwd()]
     env = {name: os.environ[name] for name in PASSED_ON if name in os.environ}
     judged = subprocess.run(command, cwd=bundle, env=env, stdout=subprocess.PIPE)

@@ -1,0 +1,115 @@
+"""The ways of installing ros-tutor, and the tools that they need."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from places import CLONE, Failed, Place
+
+_IN_PYTHON_TOO_BIG = shutil.ignore_patterns("test", "tests", "__pycache__", "*.a")
+
+
+@dataclass(frozen=True)
+class Tools:
+    """A Python, uv and pipx that every user can run, and the folder that is the index: `env` makes them use it."""
+
+    python: Path
+    bin: Path
+    env: dict[str, str]
+    sdist: Path | None
+
+    @classmethod
+    def make(cls, work: Path, dist: Path) -> Tools:
+        """Prepare the tools and the index in `work`, which needs a network."""
+        python = _public_python(work)
+        bin = work / "bin"
+        bin.mkdir()
+        found = next((f for f in (shutil.which("uv"), CLONE / ".uv-tool/bin/uv") if f and Path(f).exists()), None)
+        if found is None:
+            raise SystemExit("packaging/try_install needs uv: .ci/uv ready makes one")
+        for name in ("uv", "uvx"):
+            shutil.copy(Path(found).resolve().with_name(name), bin)
+        own = work / "tools"
+        subprocess.run([python, "-m", "venv", own], check=True)
+        pip = [own / "bin/python", "-m", "pip", "--quiet", "--disable-pip-version-check"]
+        subprocess.run([*pip, "install", "pipx"], check=True)
+        (bin / "pipx").symlink_to(own / "bin/pipx")
+        tag = f"cp{sys.version_info.major}{sys.version_info.minor}"
+        (wheel,) = dist.glob(f"ros_tutor-*-{tag}-{tag}-*.whl")
+        wheels = work / "wheels"
+        subprocess.run([*pip, "download", "--dest", wheels, wheel, "tutor", "pip", "hatchling"], check=True)
+        env = {"PIP_NO_INDEX": "1", "PIP_FIND_LINKS": str(wheels), "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+        env |= {"UV_NO_INDEX": "1", "UV_FIND_LINKS": str(wheels), "UV_PYTHON": str(python)}
+        return cls(python, bin, env, next(dist.glob("ros_tutor-*.tar.gz"), None))
+
+
+def _public_python(work: Path) -> Path:
+    """Return the path of this Python, or of a copy of it if it is in somebody's home."""
+    name = f"python{sys.version_info.major}.{sys.version_info.minor}"
+    base = Path(sys.base_prefix).resolve()
+    if all(folder.stat().st_mode & 0o005 == 0o005 for folder in (base, *base.parents)):
+        return base / "bin" / name
+    copy = work / "python"
+    shutil.copytree(base, copy, symlinks=True, ignore=_IN_PYTHON_TOO_BIG)
+    return copy / "bin" / name
+
+
+def _pip(place: Place, tools: Tools, *packages: str | Path, **env: str) -> list[str]:
+    venv = place.folder / "venv"
+    place.install(tools.python, "-m", "venv", venv)
+    place.install(venv / "bin/python", "-m", "pip", "install", "--quiet", *packages, **{**tools.env, **env})
+    return [str(venv / "bin/ros-tutor")]
+
+
+def _with_pip(place: Place, tools: Tools) -> list[str]:
+    return _pip(place, tools, "ros-tutor")
+
+
+def _beside_another_tutor(place: Place, tools: Tools) -> list[str]:
+    program = _pip(place, tools, "ros-tutor", "tutor")
+    place.use(Path(program[0]).with_name("tutor"), "--version")
+    return program
+
+
+def _from_sdist(place: Place, tools: Tools) -> list[str]:
+    if tools.sdist is None:
+        raise Failed("there is no sdist")
+    return _pip(place, tools, tools.sdist, PIP_NO_INDEX="0")  # what the build needs is on PyPI alone
+
+
+def _with_pipx(place: Place, tools: Tools) -> list[str]:
+    place.install(tools.bin / "pipx", "install", "--quiet", "--python", tools.python, "ros-tutor", **tools.env)
+    return [str(place.folder / ".local/bin/ros-tutor")]
+
+
+def _as_uv_tool(place: Place, tools: Tools) -> list[str]:
+    place.install(tools.bin / "uv", "tool", "install", "--quiet", "ros-tutor", **tools.env)
+    return [str(place.folder / ".local/bin/ros-tutor")]
+
+
+def _with_uvx(place: Place, tools: Tools) -> list[str]:
+    place.env.update(tools.env)
+    return [str(tools.bin / "uvx"), "ros-tutor"]
+
+
+@dataclass(frozen=True)
+class Way:
+    """A way of installing; it returns the command that starts the program. `builds`: it needs compilers."""
+
+    install: Callable[[Place, Tools], list[str]]
+    builds: bool = False
+
+
+WAYS = {
+    "pip install": Way(_with_pip),
+    "pip install, beside Open edX's tutor": Way(_beside_another_tutor),
+    "pip install, from the sdist": Way(_from_sdist, builds=True),
+    "pipx install": Way(_with_pipx),
+    "uv tool install": Way(_as_uv_tool),
+    "uvx": Way(_with_uvx),
+}
