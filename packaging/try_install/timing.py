@@ -19,11 +19,11 @@ _ON_THE_FIRST_SCREEN = b"Sensor Publisher"
 _SIZE = (40, 120)
 
 
-def times(place: Place, tools: Tools) -> list[tuple[str, str, str]]:
+def times(place: Place, tools: Tools) -> list[tuple[str, ...]]:
     """Return a row for the first screen and one for the first verdict. Cold is with an empty cache of uv."""
     place.env.update(tools.env)
     uvx = str(tools.bin / "uvx")
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for name, measure in (("first screen", _to_first_screen), ("first verdict", _to_first_verdict)):
         shutil.rmtree(place.home / ".cache", ignore_errors=True)
         rows.append((name, *(f"{measure(place, uvx):.1f} s" for _ in ("cold", "warm"))))
