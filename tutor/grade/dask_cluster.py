@@ -42,7 +42,7 @@ from importlib.util import find_spec
 spec = find_spec("ros_tutor")
 sys.path[:0] = [] if spec is None else [each for each in spec.submodule_search_locations if each not in sys.path]
 """
-"""What the scheduler and the workers run before they can import our packages: installed from a wheel, they are on nobody's path."""
+"""What the scheduler and the workers run before they can import our packages, which a wheel puts on nobody's path."""
 
 _LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")
 _MAX_NAMED = 5
