@@ -46,6 +46,7 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     script = root / "bin/ros-tutor"
     (site / f"ros_tutor-{__version__}.data/scripts/ros-tutor").rename(script)
     script.chmod(0o755)
+    (site / "ros_tutor/tutor/__pycache__").mkdir()  # else the first start compiles in the background
     (site / "tutor").mkdir()
     (site / "tutor/__init__.py").write_text("raise ImportError('this is another project')")
     (site / "required.pth").write_text(str(Path(util.find_spec("argcomplete").origin).parents[1]))  # type: ignore[union-attr,arg-type]
