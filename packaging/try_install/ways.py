@@ -13,6 +13,20 @@ from places import CLONE, Failed, Place
 
 _IN_PYTHON_TOO_BIG = shutil.ignore_patterns("test", "tests", "__pycache__", "*.a")
 
+_COURSE = """
+[build-system]
+requires = ["hatchling"]
+build-backend = "hatchling.build"
+
+[project]
+name = "greeting-course"
+version = "1"
+entry-points."ros_tutor.courses".greeting = "greeting_course"
+
+[tool.hatch.build.targets.wheel]
+packages = ["greeting_course"]
+"""
+
 
 @dataclass(frozen=True)
 class Tools:
@@ -43,9 +57,18 @@ class Tools:
         (wheel,) = dist.glob(f"ros_tutor-*-{tag}-{tag}-*.whl")
         wheels = work / "wheels"
         subprocess.run([*pip, "download", "--dest", wheels, wheel, "tutor", "pip", "hatchling"], check=True)
+        subprocess.run([bin / "uv", "build", "--quiet", "--wheel", "--out-dir", wheels, _course(work)], check=True)
         env = {"PIP_NO_INDEX": "1", "PIP_FIND_LINKS": str(wheels), "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
         env |= {"UV_NO_INDEX": "1", "UV_FIND_LINKS": str(wheels), "UV_PYTHON": str(python)}
         return cls(python, bin, env, next(dist.glob("ros_tutor-*.tar.gz"), None))
+
+
+def _course(work: Path) -> Path:
+    """Return the folder of a package that offers a course."""
+    folder = work / "greeting"
+    shutil.copytree(CLONE / "tests/courses/greeting", folder / "greeting_course")
+    (folder / "pyproject.toml").write_text(_COURSE)
+    return folder
 
 
 def _public_python(work: Path) -> Path:
@@ -73,6 +96,12 @@ def _with_pip(place: Place, tools: Tools) -> list[str]:
 def _beside_another_tutor(place: Place, tools: Tools) -> list[str]:
     program = _pip(place, tools, "ros-tutor", "tutor")
     place.use(Path(program[0]).with_name("tutor"), "--version")
+    return program
+
+
+def _with_a_course(place: Place, tools: Tools) -> list[str]:
+    program = _pip(place, tools, "ros-tutor", "greeting-course")
+    place.use(*program, "check", "h1.1", "--solution", "--lessons", "greeting")
     return program
 
 
@@ -108,6 +137,7 @@ class Way:
 WAYS = {
     "pip install": Way(_with_pip),
     "pip install, beside Open edX's tutor": Way(_beside_another_tutor),
+    "pip install, with a course": Way(_with_a_course),
     "pip install, from the sdist": Way(_from_sdist, builds=True),
     "pipx install": Way(_with_pipx),
     "uv tool install": Way(_as_uv_tool),
