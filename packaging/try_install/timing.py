@@ -15,7 +15,7 @@ import time
 from places import LIMIT_S, Failed, Place
 from ways import Tools
 
-_ON_THE_FIRST_SCREEN = b"Sensor Publisher"
+_ON_THE_FIRST_SCREEN = b"Quit"  # in its footer
 _SIZE = (40, 120)
 
 
