@@ -50,17 +50,19 @@ def main() -> int:
 
 
 def _result(way: str, place: Place, tools: Tools) -> str:
-    print(f"{way}, {place.user} ...", file=sys.stderr, flush=True)
+    print(f"{way}, {place.user}: ", end="", file=sys.stderr, flush=True)
+    result = "works"
     try:
         program = WAYS[way].install(place, tools)
         try_program(place, program)
     except Failed as failure:
-        return f"FAILED: {failure}"
+        result = f"FAILED: {failure}"
     finally:
         if place.home.exists():
             subprocess.run(["chmod", "-R", "u+w", place.home], check=False)
             shutil.rmtree(place.home, ignore_errors=True)
-    return "works"
+    print(result, file=sys.stderr, flush=True)
+    return result
 
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

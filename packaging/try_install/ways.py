@@ -50,7 +50,7 @@ class Tools:
             shutil.copy(Path(found).resolve().with_name(name), bin)
         own = work / "tools"
         subprocess.run([python, "-m", "venv", own], check=True)
-        pip: list[str | Path] = [own / "bin/python", "-m", "pip", "--quiet", "--disable-pip-version-check"]
+        pip: list[str | Path] = [own / "bin/python", "-m", "pip", "-qq", "--disable-pip-version-check"]
         subprocess.run([*pip, "install", "pipx"], check=True)
         (bin / "pipx").symlink_to(own / "bin/pipx")
         tag = f"cp{sys.version_info.major}{sys.version_info.minor}"
