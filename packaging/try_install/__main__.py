@@ -58,9 +58,8 @@ def _result(way: str, place: Place, tools: Tools) -> str:
     except Failed as failure:
         result = f"FAILED: {failure}"
     finally:
-        if place.home.exists():
-            subprocess.run(["chmod", "-R", "u+w", place.home], check=False)
-            shutil.rmtree(place.home, ignore_errors=True)
+        subprocess.run(["chmod", "-R", "u+w", place.home], check=True)
+        shutil.rmtree(place.home.parent, ignore_errors=True)
     print(result, file=sys.stderr, flush=True)
     return result
 
