@@ -131,17 +131,17 @@ def _with_uvx(place: Place, tools: Tools) -> list[str]:
 
 @dataclass(frozen=True)
 class Way:
-    """A way of installing; it returns the command that starts the program. `builds`: it needs compilers."""
+    """A way of installing; it returns the command that starts the program. `once`: for one user, who says it all."""
 
     install: Callable[[Place, Tools], list[str]]
-    builds: bool = False
+    once: bool = False
 
 
 WAYS = {
     "pip install": Way(_with_pip),
-    "pip install, beside Open edX's tutor": Way(_beside_another_tutor),
-    "pip install, with a course": Way(_with_a_course),
-    "pip install, from the sdist": Way(_from_sdist, builds=True),
+    "pip install, beside Open edX's tutor": Way(_beside_another_tutor, once=True),
+    "pip install, with a course": Way(_with_a_course, once=True),
+    "pip install, from the sdist": Way(_from_sdist, once=True),
     "pipx install": Way(_with_pipx),
     "uv tool install": Way(_as_uv_tool),
     "uvx": Way(_with_uvx),
