@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -33,6 +34,7 @@ def main() -> int:
     files = sorted([*dist.glob("ros_tutor-*.whl"), *dist.glob("ros_tutor-*.tar.gz")])
     if not files:
         parser.error(f"{dist} has no files of ros-tutor: packaging/build makes them")
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # leaving no account behind
     with tempfile.TemporaryDirectory(prefix="ros-tutor-try-") as name, ExitStack() as stack:
         work = Path(name)
         users = stack.enter_context(Users(work))
