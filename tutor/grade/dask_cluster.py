@@ -82,9 +82,17 @@ def connect(scheduler: str | None, workers: int) -> Iterator[Client]:
                 what, "start one with `dask scheduler`, and workers with `dask worker ADDRESS`"
             ) from error
         stack.callback(client.close)
-        client.run_on_scheduler(partial(exec, _FIND_OUR_PACKAGES))
-        client.register_worker_callbacks(setup=partial(exec, _FIND_OUR_PACKAGES))
+        _find_our_packages(client)
         yield client
+
+
+def _find_our_packages(client: Client) -> None:
+    find = partial(exec, _FIND_OUR_PACKAGES)
+    client.run_on_scheduler(find)
+    try:
+        client.register_worker_callbacks(setup=find)
+    except OSError:  # a worker has just gone: it is registered for new ones, and the others may not have answered yet
+        client.run(find, on_error="ignore")
 
 
 @contextmanager
