@@ -9,6 +9,8 @@ import sys
 from collections.abc import Mapping, Sequence
 from typing import NoReturn
 
+from tutor import run_module
+
 FLAGS = ("-I", "-B", "-X", "utf8")
 """Ignore PYTHON* variables, the current folder and user packages; write no bytecode next to a learner's files."""
 
@@ -19,7 +21,7 @@ a traceback."""
 
 def module_command(module: str, *arguments: str) -> tuple[str, ...]:
     """Return the command that runs one of our modules."""
-    return (sys.executable, *FLAGS, "-m", module, *arguments)
+    return (sys.executable, *FLAGS, run_module.__file__, module, *arguments)
 
 
 def reduce_gc_frequency() -> None:

@@ -7,9 +7,9 @@ import shutil
 import sys
 from pathlib import Path
 
-from tutor.ros import bundled_interfaces
+from tutor.ros import bundled_interfaces, prefixes
 
-_SITE = Path("lib") / "python3.12" / "site-packages"
+_SITE = prefixes.SITE_PACKAGES
 _SYSTEM_PACKAGES = ("numpy", "numpy.libs", "yaml", "_yaml")  # dependencies that a system Python brings along
 
 

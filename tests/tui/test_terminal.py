@@ -12,6 +12,7 @@ from typing import Any
 from tests.benchmarks.terminal import Terminal
 from tests.tui import fakes
 from tests.tui.conftest import is_alive
+from tutor import run_module
 from tutor.content import load_course
 from tutor.tui.terminal.foreground import describe
 from tutor.tui.terminal.pane import TerminalPane
@@ -275,7 +276,7 @@ async def test_the_page_costs_nothing_until_it_is_opened(learner: Any) -> None:
 
 
 def test_a_tab_says_what_runs() -> None:
-    python = ["/usr/bin/python3.12", "-P", "-m", "tutor.bundled_ros.ros2", "topic", "echo", "/chatter"]
+    python = ["/usr/bin/python3.12", "-P", run_module.__file__, "tutor.bundled_ros.ros2", "topic", "echo", "/chatter"]
     assert describe(python) == "ros2 topic echo /chatter"
     assert describe(["-bash"]) == "bash"
     assert describe(["/bin/zsh", "-i"]) == "zsh"

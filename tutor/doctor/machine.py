@@ -11,7 +11,9 @@ from tutor.doctor.finding import Finding
 from tutor.ros import shared_memory
 from tutor.ros.discovery import loopback_multicast_works, require_loopback
 
-_REQUIRED_PYTHON = (3, 12)
+_PYTHONS = ((3, 12), (3, 13))
+"""What ros-tutor is tested with; a ROS 2 Jazzy that is installed and sourced runs on 3.12 alone."""
+
 _BYTES_PER_NODE = 700_000
 """Shared memory of one node, as measured: a segment, and the ports on which it listens."""
 _NODES = 20
@@ -19,12 +21,12 @@ _NODES = 20
 
 
 def python_version(version: tuple[int, int] = sys.version_info[:2], platform_name: str | None = None) -> Finding:
-    """Examine whether this is the Python and the platform that ROS 2 Jazzy is built for."""
+    """Examine whether this is a Python and the platform that ROS 2 Jazzy is built for."""
     where = platform_name or f"{platform.system()} {platform.machine()}"
     text = f"Python {'.'.join(map(str, version))} on {where}"
-    if version != _REQUIRED_PYTHON:
+    if version not in _PYTHONS:
         hint = "Install ros-tutor with Python 3.12, for example: uv tool install --python 3.12 ros-tutor"
-        return Finding("Python", False, f"{text}; ROS 2 Jazzy needs Python 3.12.", hint)
+        return Finding("Python", False, f"{text}; ros-tutor needs Python 3.12 or 3.13.", hint)
     if where != "Linux x86_64":
         hint = "Use Linux on x86-64 (WSL 2 on Windows, or a virtual machine), or install ROS 2 Jazzy and source it."
         return Finding("Python", None, f"{text}; the bundled ROS is built for Linux x86_64 only.", hint)

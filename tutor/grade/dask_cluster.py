@@ -9,6 +9,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +36,14 @@ _SETTINGS = {
     "distributed.deploy.lost-worker-timeout": "10 minutes",  # a worker's restart takes longer than 15 s if we are busy
     "distributed.worker.profile.enabled": False,
 }
+_FIND_OUR_PACKAGES = """
+import sys
+from importlib.util import find_spec
+spec = find_spec("ros_tutor")
+sys.path[:0] = [] if spec is None else [each for each in spec.submodule_search_locations if each not in sys.path]
+"""
+"""What the scheduler and the workers run before they can import our packages, which a wheel puts on nobody's path."""
+
 _LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")
 _MAX_NAMED = 5
 
@@ -73,7 +82,17 @@ def connect(scheduler: str | None, workers: int) -> Iterator[Client]:
                 what, "start one with `dask scheduler`, and workers with `dask worker ADDRESS`"
             ) from error
         stack.callback(client.close)
+        _find_our_packages(client)
         yield client
+
+
+def _find_our_packages(client: Client) -> None:
+    find = partial(exec, _FIND_OUR_PACKAGES)
+    client.run_on_scheduler(find)
+    try:
+        client.register_worker_callbacks(setup=find)
+    except OSError:  # a worker has just gone: it is registered for new ones, and the others may not have answered yet
+        client.run(find, on_error="ignore")
 
 
 @contextmanager

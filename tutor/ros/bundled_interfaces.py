@@ -14,6 +14,9 @@ from pathlib import Path
 
 from tutor.errors import InterfacesNotBuiltError
 
+PYTHON = f"python{sys.version_info.major}.{sys.version_info.minor}"
+"""The Python that runs us: what is compiled for another one cannot be imported."""
+
 _PACKAGE = "example_interfaces"
 
 
@@ -24,7 +27,7 @@ def prefix() -> Path:
 
 def site_packages() -> Path:
     """Return the folder to put on `PYTHONPATH`."""
-    return library_dir() / "python3.12" / "site-packages"
+    return library_dir() / PYTHON / "site-packages"
 
 
 def library_dir() -> Path:

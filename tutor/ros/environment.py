@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Literal
 
 from tutor import __version__
 from tutor.ros import bundled_interfaces, prefixes
+from tutor.ros.bundled_interfaces import PYTHON
 from tutor.ros.discovery import PROFILE, isolated_discovery, loopback_multicast_works, prompt_discovery
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ def detect(environ: Mapping[str, str] = os.environ) -> RosEnvironment:
     home = next(prefix for prefix in sourced if prefixes.rclpy_site(prefix))
     python = _system_python(home, environ)
     if python is None:
-        text = f"ROS 2 {DISTRO} is sourced ({home}), but no Python 3.12 was found to run it with."
+        text = f"ROS 2 {DISTRO} is sourced ({home}), but no {PYTHON} was found to run it with."
         return RosEnvironment("bundled", DISTRO, bundled, RMW, (text,))
     return RosEnvironment("system", DISTRO, python, RMW)
 
@@ -157,9 +158,9 @@ def _problems(environ: Mapping[str, str], distro: str, sourced: list[Path]) -> t
         return (f"More than one ROS is sourced: {DISTRO} and {', '.join(others)}.",)
     homes = [prefix for prefix in sourced if prefixes.rclpy_site(prefix)]
     if not homes:
-        return (f"ROS_DISTRO is {DISTRO}, but no folder of AMENT_PREFIX_PATH holds rclpy for Python 3.12.",)
+        return (f"ROS_DISTRO is {DISTRO}, but no folder of AMENT_PREFIX_PATH holds rclpy for {PYTHON}.",)
     site = prefixes.rclpy_site(homes[0])
-    own_python = (homes[0] / "bin" / "python3.12").exists()  # it finds its own folders, as in a conda environment
+    own_python = (homes[0] / "bin" / PYTHON).exists()  # it finds its own folders, as in a conda environment
     if not own_python and str(site) not in prefixes.entries(environ, "PYTHONPATH"):
         return (f"ROS is only partly sourced: {site} is not in PYTHONPATH.",)
     if not own_python and str(homes[0] / "lib") not in prefixes.entries(environ, "LD_LIBRARY_PATH"):
@@ -175,9 +176,9 @@ def _distro_of(path: Path) -> str:
 
 
 def _system_python(home: Path, environ: Mapping[str, str]) -> Path | None:
-    own = [home / "bin" / "python3.12", Path("/usr/bin/python3.12"), Path("/usr/local/bin/python3.12")]
+    own = [home / "bin" / PYTHON, Path("/usr/bin", PYTHON), Path("/usr/local/bin", PYTHON)]
     base = Path(getattr(sys, "_base_executable", ""))
-    found = shutil.which("python3.12", path=prefixes.join_entries(prefixes.without_bundled(environ, "PATH")))
+    found = shutil.which(PYTHON, path=prefixes.join_entries(prefixes.without_bundled(environ, "PATH")))
     candidates = [*own, base, *([Path(found)] if found else [])]
     return next((python for python in candidates if python.is_file() and not prefixes.is_bundled(python)), None)
 

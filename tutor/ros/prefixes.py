@@ -8,8 +8,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from tutor.ros import bundled_interfaces
+from tutor.ros.bundled_interfaces import PYTHON
 
-SITE_PACKAGES = Path("lib") / "python3.12" / "site-packages"
+SITE_PACKAGES = Path("lib") / PYTHON / "site-packages"
 _INDEX = Path("share") / "ament_index" / "resource_index"
 PACKAGE_INDEX, INTERFACE_INDEX = _INDEX / "packages", _INDEX / "rosidl_interfaces"
 """The folders of an ament prefix with a file for each of its packages, and for each of those that have types."""
@@ -52,7 +53,7 @@ def is_foreign_ros(entry: str | Path) -> bool:
         return False
     if path.is_relative_to("/opt/ros"):
         return True
-    # The deepest entry is <prefix>/lib/python3.12/site-packages.
+    # The deepest entry is <prefix>/lib/python3.N/site-packages.
     return any((parent / _INDEX).is_dir() for parent in (path, *path.parents[:4]))
 
 
@@ -73,9 +74,9 @@ def bundled_libraries() -> list[Path]:
 
 
 def rclpy_site(prefix: Path) -> Path | None:
-    """Return the folder in an ament prefix with an rclpy for CPython 3.12; None if there is none."""
-    for site in (SITE_PACKAGES, Path("local") / "lib" / "python3.12" / "dist-packages"):
-        if any((prefix / site / "rclpy").glob("_rclpy_pybind11.cpython-312-*.so")):
+    """Return the folder in an ament prefix with an rclpy for our Python; None if there is none."""
+    for site in (SITE_PACKAGES, Path("local") / "lib" / PYTHON / "dist-packages"):
+        if any((prefix / site / "rclpy").glob(f"_rclpy_pybind11.{sys.implementation.cache_tag}-*.so")):
             return prefix / site
     return None
 

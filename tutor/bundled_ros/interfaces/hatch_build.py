@@ -16,9 +16,13 @@ from pathlib import Path
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from packaging.specifiers import SpecifierSet
 
 PACKAGE = "example_interfaces"
 STAMP = ".stamp"
+
+GLIBC = (2, 28)
+"""The oldest GNU C library that the wheels of ROS 2 run with."""
 
 REQUIREMENTS = [
     "cmake>=3.28,<5",
@@ -43,12 +47,14 @@ REQUIREMENTS = [
     "ros-jazzy-rmw-fastrtps-cpp>=8.4,<9",
 ]
 
+SITE_PACKAGES = f"lib/python{sys.version_info.major}.{sys.version_info.minor}/site-packages"
+
 # What a running node needs of an installed interface package. The headers, the CMake files and the record of the build
 # machine's own prefix stay behind.
 RUNTIME_FILES = [
     "lib/*.so",
-    "lib/python3.12/site-packages/example_interfaces/**/*.py",
-    "lib/python3.12/site-packages/example_interfaces/*.so",
+    f"{SITE_PACKAGES}/example_interfaces/**/*.py",
+    f"{SITE_PACKAGES}/example_interfaces/*.so",
     "share/ament_index/resource_index/packages/*",
     "share/ament_index/resource_index/package_run_dependencies/*",
     "share/ament_index/resource_index/rosidl_interfaces/*",
@@ -66,6 +72,8 @@ class InterfacesBuildHook(BuildHookInterface[Any]):
 
     def dependencies(self) -> list[str]:
         """The requirements of the build: none where the prefix is up to date."""
+        if problem := why_not_here(self.metadata.core.requires_python):
+            sys.exit(f"ros-tutor: {problem}")
         if self._up_to_date():
             return []
         _require_toolchain()
@@ -111,6 +119,27 @@ class InterfacesBuildHook(BuildHookInterface[Any]):
             (fresh / STAMP).write_text(self._fingerprint())
             shutil.rmtree(self._prefix, ignore_errors=True)
             fresh.rename(self._prefix)
+
+
+def why_not_here(requires_python: str) -> str:
+    """Return why this machine or Python cannot be served, and what to do, in one sentence; "" if it can."""
+    machine = f"{platform.system()} on {platform.machine()}"
+    name, release = platform.libc_ver()
+    if machine == "Linux on x86_64" and (name != "glibc" or tuple(map(int, release.split(".")[:2])) < GLIBC):
+        machine += f" with {f'{name} {release}'.strip() or 'another C library'}"
+    if machine != "Linux on x86_64":
+        return (
+            "ROS 2 is on PyPI only for Linux on x86-64 with glibc 2.28 or later (as in Ubuntu 20.04 and Debian 10), and"
+            f" this is {machine}: use a container or a virtual machine, such as docker run -it python:3.12"
+        )
+    served = [f"3.{minor}" for minor in range(100) if SpecifierSet(requires_python).contains(f"3.{minor}")]
+    version = f"{sys.version_info.major}.{sys.version_info.minor}"
+    if platform.python_implementation() == "CPython" and version in served:
+        return ""
+    return (
+        f"it needs CPython {' or '.join(served)}, and this is {platform.python_implementation()} {version}:"
+        f" install it with another one, as uv tool install --python {served[0]} ros-tutor does"
+    )
 
 
 def _require_toolchain() -> None:

@@ -1,4 +1,4 @@
-"""`python -m tutor.bundled_ros.ros2`."""
+"""The bundled `ros2`: see `starting.ros2_command`."""
 
 import signal
 import sys

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from tutor import interpreter, private_folders
 from tutor.bundled_ros.ros2 import absent, sources
+from tutor.bundled_ros.ros2.starting import ros2_command
 from tutor.ros.environment import RosEnvironment, learner_env, system_env
 from tutor.ros.prefixes import PACKAGE_INDEX, SITE_PACKAGES, entries, is_bundled, join_entries
 
@@ -105,8 +106,7 @@ def _write_programs(folder: Path, ros: RosEnvironment, *, with_ros2: bool) -> No
     python = shlex.quote(str(ros.python))
     programs = {"python3": f"{python}", "python": f"{python}"}
     if with_ros2:
-        # -P: a module in the learner's folder must not shadow one of ours.
-        programs["ros2"] = f"{interpreter.BLOCK_SIGINT_PREFIX} {python} -P -m tutor.bundled_ros.ros2"
+        programs["ros2"] = f"{interpreter.BLOCK_SIGINT_PREFIX} {shlex.join(ros2_command(ros, {}))}"
     programs["ros-tutor"] = f"{interpreter.BLOCK_SIGINT_PREFIX} {shlex.join(interpreter.module_command('tutor'))}"
     for name, command in programs.items():
         path = folder / name

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tutor import run_module
 from tutor.errors import CommandError
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ def ros2_command(ros: RosEnvironment, env: Mapping[str, str]) -> list[str]:
     """
     if ros.kind == "bundled":
         # -P: a module in the learner's folder must not shadow one of ours.
-        return [str(ros.python), "-P", "-m", "tutor.bundled_ros.ros2"]
+        return [str(ros.python), "-P", run_module.__file__, "tutor.bundled_ros.ros2"]
     real = shutil.which("ros2", path=env.get("PATH", ""))
     if real is None:
         raise CommandError("the sourced ROS 2 has no ros2 command (install ros-jazzy-ros2cli and ros-jazzy-ros2launch)")

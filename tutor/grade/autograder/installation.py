@@ -6,6 +6,7 @@ import base64
 import platform
 import re
 import stat
+import sys
 import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -19,8 +20,9 @@ from tutor.content.loader import BUNDLED
 from tutor.errors import EngineError
 
 _NAME = "ros-tutor"
+_FOLDER = "ros_tutor"
 _PACKAGES = ("tutor", "checks", "lessons")
-_TAG = "cp312-cp312-linux_{machine}"
+_CPYTHON = f"cp{sys.version_info.major}{sys.version_info.minor}"
 _REQUIREMENT = re.compile(r"[A-Za-z0-9._-]+")
 _NOT_NEEDED = Path("tutor", "bundled_ros", "interfaces")  # sources of what is in tutor/bundled_ros/prefix
 _EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -39,10 +41,10 @@ def wheel() -> Wheel:
 
     Installed from one or run from a clone, it makes no difference. Raises EngineError and OSError.
     """
-    tag = _TAG.format(machine=platform.machine())
+    tag = f"{_CPYTHON}-{_CPYTHON}-linux_{platform.machine()}"
     record = f"ros_tutor-{__version__}.dist-info"
     files = {
-        path.relative_to(BUNDLED).as_posix(): path.read_bytes()
+        f"{_FOLDER}/{path.relative_to(BUNDLED).as_posix()}": path.read_bytes()
         for name in _PACKAGES
         for path in files_below(BUNDLED / name)
         if not path.relative_to(BUNDLED).is_relative_to(_NOT_NEEDED)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from pathlib import PurePath
 
+from tutor import run_module
 from tutor.terminal_text import strip_ansi
 
 _MAX_BYTES = 4096
+_RUN_MODULE = PurePath(run_module.__file__).name
 _INTERPRETER = re.compile(r"python[\d.]*|-?(?:ba|z|da)?sh")
 
 
@@ -24,7 +26,7 @@ def describe_foreground(group: int) -> str:
 def describe(words: list[str]) -> str:
     """Return a command line without its paths and its interpreter.
 
-    >>> describe(["/usr/bin/python3", "-P", "-m", "tutor.bundled_ros.ros2", "topic", "list"])
+    >>> describe(["/usr/bin/python3", "-P", "/opt/tutor/run_module.py", "tutor.bundled_ros.ros2", "topic", "list"])
     'ros2 topic list'
     >>> describe(["/bin/sh", "/tmp/bin/ros2", "topic"]), describe(["/bin/bash", "--rcfile", "rc", "-i"])
     ('ros2 topic', 'bash')
@@ -34,7 +36,7 @@ def describe(words: list[str]) -> str:
     if not _INTERPRETER.fullmatch(PurePath(program).name):
         return " ".join([name, *rest])
     for index, word in enumerate(rest):
-        if word == "-m" and rest[index + 1 :]:
+        if (word == "-m" or PurePath(word).name == _RUN_MODULE) and rest[index + 1 :]:
             return " ".join([rest[index + 1].rpartition(".")[2], *rest[index + 2 :]])
         if word in ("-c", "--rcfile"):
             break

@@ -1,7 +1,7 @@
 """Judges the submission in the current folder with ros-tutor, as Classroom 50 runs it. Made by `ros-tutor autograder`.
 
 It belongs in CLASSROOM/autograders/ASSIGNMENT/autograder.py, works with Python 3.9 and later, and needs a network: uv,
-CPython 3.12 and ROS 2 are fetched where they are missing. It writes result.json and release-body.md. Exit code 0: the
+CPython and ROS 2 are fetched where they are missing. It writes result.json and release-body.md. Exit code 0: the
 submission was judged, whatever the verdict; else something kept ros-tutor from it, and the last lines printed say what.
 """
 
@@ -44,7 +44,8 @@ def judge(bundle: str, home: str) -> int:
     if installed.returncode != 0:
         return 3
     python = os.path.join(home, "venv", "bin", "python")
-    command = [python, "-I", "-B", "-X", "utf8", "-m", "tutor.grade.autograder", "classroom50"]
+    command = [python, "-I", "-B", "-X", "utf8", "-m", "ros_tutor.tutor.run_module"]
+    command += ["tutor.grade.autograder", "classroom50"]
     command += ["--bundle", bundle, "--submission", os.getcwd()]
     env = {name: os.environ[name] for name in PASSED_ON if name in os.environ}
     judged = subprocess.run(command, cwd=bundle, env=env, stdout=subprocess.PIPE)

@@ -1,7 +1,7 @@
 """Installs ros-tutor from the files beside this one: `python3 install.py HOME` makes HOME/venv/bin/python.
 
-It needs Python 3.8 or later, a network, and nothing else: uv gets CPython 3.12 if there is none. The uv on PATH is
-used, or else one from PyPI.
+It needs Python 3.8 or later, a network, and nothing else: uv gets the CPython that the wheel is for if there is none.
+The uv on PATH is used, or else one from PyPI.
 """
 
 from __future__ import annotations
@@ -31,10 +31,11 @@ def main() -> int:
         print("ros-tutor: uv is not installed, and cannot be got from PyPI with this python3", file=sys.stderr)
         return 1
     (wheel,) = glob.glob(os.path.join(HERE, "ros_tutor-*.whl"))
+    version = os.path.basename(wheel).split("-")[2].replace("cp3", "3.")  # such as cp312
     install = ["pip", "install", "--python", os.path.join(venv, "bin", "python")]
     install += ["--constraint", os.path.join(HERE, "constraints.txt"), wheel]
     # Not in the current folder, which may be a submission with settings for uv.
-    for command in (["venv", "--python", "3.12", venv], install):
+    for command in (["venv", "--python", version, venv], install):
         done = subprocess.run([uv, command[0], "--quiet", *command[1:]], cwd=home, env=environment(home))
         if done.returncode != 0:
             print("ros-tutor: cannot be installed, for the reason above", file=sys.stderr)
