@@ -201,8 +201,8 @@ class Sandbox:
         self._logs = disk / "logs"
         self._given = disk / "given"
         copy, tmp, shm = disk / "submission", disk / "tmp", disk / "shm"
-        for each in (self._logs, self._given, tmp, tmp / TEMPORARY.relative_to("/tmp"), shm):
-            each.mkdir()
+        for new_folder in (self._logs, self._given, tmp, tmp / TEMPORARY.relative_to("/tmp"), shm):
+            new_folder.mkdir()
         _copy_submission(folder, copy)
         env = node_env(ros, 0, Path(os.devnull), None)
         readable = [*readable_folders(env), tools, self._given]
@@ -282,14 +282,14 @@ def _copy_submission(submission: Path, copy: Path) -> None:
     def find_special(folder: str, names: list[str]) -> list[str]:
         nonlocal count, size
         stats = {name: os.lstat(os.path.join(folder, name)) for name in names}
-        count, size = count + len(names), size + sum(each.st_size for each in stats.values())
+        count, size = count + len(names), size + sum(status.st_size for status in stats.values())
         if count > _MAX_FILES or size > _MAX_MB << 20:
             raise EngineError(
                 f"{submission} is too large to copy: more than {_MAX_FILES} files or {_MAX_MB} MB",
                 "put the submission into a folder of its own",
             )
         copied = (stat.S_IFREG, stat.S_IFDIR, stat.S_IFLNK)
-        return [name for name, each in stats.items() if stat.S_IFMT(each.st_mode) not in copied]
+        return [name for name, status in stats.items() if stat.S_IFMT(status.st_mode) not in copied]
 
     try:
         shutil.copytree(submission, copy, symlinks=True, ignore=find_special)

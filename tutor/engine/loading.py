@@ -106,14 +106,14 @@ def enter_checks(folder: Path) -> None:
     """Let `checks` be the package of this course; of our own, only what has another name is left in it."""
     import checks
 
-    for name in [each for each in sys.modules if each.startswith("checks.")]:
+    for name in [full_name for full_name in sys.modules if full_name.startswith("checks.")]:
         module = sys.modules.pop(name)
-        home = next((each for each in Path(module.__file__ or "").parents if each.name == "checks"), folder)
+        home = next((parent for parent in Path(module.__file__ or "").parents if parent.name == "checks"), folder)
         _imported.setdefault(home, {})[name] = module
         vars(checks).pop(name.removeprefix("checks."), None)
     ours = (BUNDLED / "checks").resolve()
-    own_names = {each.stem for each in folder.iterdir()} if folder.is_dir() and folder != ours else set()
-    kept = {name: each for name, each in _imported.get(ours, {}).items() if name.split(".")[1] not in own_names}
+    own_names = {entry.stem for entry in folder.iterdir()} if folder.is_dir() and folder != ours else set()
+    kept = {name: module for name, module in _imported.get(ours, {}).items() if name.split(".")[1] not in own_names}
     for name, module in {**kept, **_imported.get(folder, {})}.items():
         sys.modules[name] = module
         if name.count(".") == 1:

@@ -132,27 +132,31 @@ def _describe_missing(seen: RunSnapshot, requested: LiveView) -> Iterator[str]:
     """
     trace, up = seen.trace, partial(_describe_nodes, seen.trace)
     for topic in _silent_topics(seen):
-        has_publisher = any(each.topic == topic for each in trace.graph.publishers)
+        has_publisher = any(publisher.topic == topic for publisher in trace.graph.publishers)
         yield f"{'nothing published' if has_publisher else 'no publisher'} on {topic} yet, {up()}"
     if seen.awaits_response:
         yield f"no answer to a request yet, {up()}"
     graph = trace.graph
-    offered = [each.name for each in graph.servers if not each.is_standard]
-    lacking = [each for each in requested.services if not _is_found(each, offered)]
-    if lacking and all(each.is_standard for each in graph.clients):
+    offered = [server.name for server in graph.servers if not server.is_standard]
+    lacking = [service for service in requested.services if not _is_found(service, offered)]
+    if lacking and all(client.is_standard for client in graph.clients):
         yield f"no service {_join_names(lacking) if offered else 'or client'} yet, {up()}"
-    endpoint_topics = [each.topic for each in (*graph.publishers, *graph.subscriptions)]
+    endpoint_topics = [endpoint.topic for endpoint in (*graph.publishers, *graph.subscriptions)]
     for wanted in requested.topics:
         if not _is_found(wanted.name, endpoint_topics):
             yield f"no publisher or subscription on {wanted.name} yet, {up()}"
-    heard = [each.topic for each in graph.subscriptions if each.topic in [topic.name for topic in requested.topics]]
+    heard = [
+        subscription.topic
+        for subscription in graph.subscriptions
+        if subscription.topic in [topic.name for topic in requested.topics]
+    ]
     if heard and not trace.logs:
         yield f"nothing logged yet, {up()} and subscribed to {heard[0]}"
 
 
 def _is_found(wanted: str, found: Sequence[str]) -> bool:
     """Whether `found` has this name in any namespace: the exercise may require one."""
-    return any(each.endswith(wanted) for each in found)
+    return any(name.endswith(wanted) for name in found)
 
 
 def _silent_topics(seen: RunSnapshot) -> list[str]:
@@ -216,8 +220,8 @@ class ScenarioProgress:
             await asyncio.sleep(max(UPDATE_INTERVAL_S, self._since + QUIET_WAIT_S - time.monotonic()))
             if time.monotonic() < self._since + QUIET_WAIT_S:
                 continue
-            found = [each.describe(self._requested, self._published) for each in self._followed]
-            self._update(max(found, key=lambda each: each.weight, default=NOTHING))
+            found = [followed.describe(self._requested, self._published) for followed in self._followed]
+            self._update(max(found, key=lambda so_far: so_far.weight, default=NOTHING))
 
     def _update(self, so_far: SoFar) -> None:
         # The text may contain output of the program.

@@ -121,7 +121,7 @@ class RosRun:
     def watch(self, topic: str, type: str) -> bool:
         if topic in self._observer.samples:
             return True
-        offered = echo_qos(each.qos for each in self.graph.publishers if each.topic == topic)
+        offered = echo_qos(publisher.qos for publisher in self.graph.publishers if publisher.topic == topic)
         # Samples published before we subscribed are delivered only by a transient-local publisher.
         requested = offered if offered.durability == "transient_local" else ANY_PUBLISHER
         try:
@@ -261,8 +261,8 @@ class RosRun:
     def has_launched_all(self) -> bool:
         if next_wake([self._process.pid]).at != math.inf:  # first, as it does not read the whole process table
             return False
-        children = [each.command for each in self._process.survivors() if each.pid != self._process.pid]
-        return len(children) <= len(self.graph.nodes) and all(ROS_ARGUMENTS in each.split() for each in children)
+        children = [survivor.command for survivor in self._process.survivors() if survivor.pid != self._process.pid]
+        return len(children) <= len(self.graph.nodes) and all(ROS_ARGUMENTS in command.split() for command in children)
 
     async def dump_stacks(self) -> tuple[Frame, ...]:
         return await ending.dump_stacks(self._process)

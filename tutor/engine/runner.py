@@ -106,7 +106,7 @@ class Runner:
     def _remarks(self, sources: Mapping[str, str], results: Sequence[CriterionResult]) -> tuple[Remark, ...]:
         from tutor.mistakes import remarks  # late, as in `explain`
 
-        return remarks(sources, self._check, [each.verdict.mistake for each in results])
+        return remarks(sources, self._check, [result.verdict.mistake for result in results])
 
     async def _judge_shown(self) -> tuple[Sequence[CriterionResult], tuple[str, ...]]:
         """Judge the criteria to show; return their results, and the ids of those skipped at the first failure."""
@@ -114,9 +114,12 @@ class Runner:
             return await asyncio.gather(*(self._result_of(criterion) for criterion in self._shown)), ()
         judged, failure = await judge_until_failure(self._shown, self._result_of)
         unjudged = [criterion for criterion in self._shown if criterion.id not in judged]
-        skipped = {each.id: self._emit_verdict(each, skipped_verdict(each, judged, failure)) for each in unjudged}
+        skipped = {
+            criterion.id: self._emit_verdict(criterion, skipped_verdict(criterion, judged, failure))
+            for criterion in unjudged
+        }
         results = {**judged, **skipped}
-        return [results[criterion.id] for criterion in self._shown], tuple(each.id for each in unjudged)
+        return [results[criterion.id] for criterion in self._shown], tuple(criterion.id for criterion in unjudged)
 
     def _announce(self) -> None:
         if not self._announced:

@@ -57,7 +57,11 @@ def launch_arguments(path: Path) -> tuple[str, ...]:
     for call in calls:
         if ast.unparse(call.func).endswith("DeclareLaunchArgument"):
             given = [*call.args[:1], *(keyword.value for keyword in call.keywords if keyword.arg == "name")]
-            names += [each.value for each in given if isinstance(each, ast.Constant) and isinstance(each.value, str)]
+            names += [
+                argument.value
+                for argument in given
+                if isinstance(argument, ast.Constant) and isinstance(argument.value, str)
+            ]
     return tuple(names)
 
 
