@@ -83,7 +83,8 @@ class CpuMeter:
                 self._per_process.setdefault(process.pid, _ProcessMeter(process.pid))
         found = [(pid, meter.read()) for pid, meter in self._per_process.items()]
         readings = [
-            astuple(each if pid == self._session else replace(each, main_waited_s=each.waited_s)) for pid, each in found
+            astuple(cpu_time if pid == self._session else replace(cpu_time, main_waited_s=cpu_time.waited_s))
+            for pid, cpu_time in found
         ]
         return CpuTime(*(sum(values) for values in zip(*readings, strict=True)))
 
@@ -103,7 +104,7 @@ def estimate_unblocked_s(elapsed_s: float, cpu_waits_s: Iterable[float]) -> floa
 
     `cpu_waits_s` holds how long each one waited; their waits are taken as independent of each other.
     """
-    return elapsed_s * math.prod(max(0.0, 1 - each / elapsed_s) for each in cpu_waits_s) if elapsed_s > 0 else 0.0
+    return elapsed_s * math.prod(max(0.0, 1 - wait_s / elapsed_s) for wait_s in cpu_waits_s) if elapsed_s > 0 else 0.0
 
 
 def recent_processes(pid: int) -> dict[int, Process]:

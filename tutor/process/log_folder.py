@@ -74,10 +74,10 @@ def keep_small(folder: int, max_bytes: int = MAX_BYTES) -> None:
     """Truncate the log files in an open folder and its direct subfolders if they use more than `max_bytes` on disk."""
     with contextlib.ExitStack() as opened, contextlib.suppress(OSError):
         folders = [folder, *_open_all(folder, _largest(folder, folders=True), _FOLDER_FLAGS, opened)]
-        logs = [(each, _largest(each)) for each in folders]
+        logs = [(log_folder, _largest(log_folder)) for log_folder in folders]
         if _disk_bytes(blocks for _, found in logs for blocks, _ in found) <= max_bytes:
             return  # the usual case: no file is opened
-        files = [file for each, found in logs for file in _open_all(each, found, _FILE_FLAGS, opened)]
+        files = [file for log_folder, found in logs for file in _open_all(log_folder, found, _FILE_FLAGS, opened)]
         if _disk_bytes(os.fstat(file).st_blocks for file in files) > max_bytes:
             for file in files:
                 os.ftruncate(file, 0)  # loggers open it for appending, so they continue at the new end
@@ -158,12 +158,12 @@ def _remove_one(name: str, folder: int) -> None:
     os.chmod(name, 0o700, dir_fd=folder)
     inner = os.open(name, _FOLDER_FLAGS, dir_fd=folder)
     try:
-        for each in os.listdir(inner):
-            if stat.S_ISDIR(os.stat(each, dir_fd=inner, follow_symlinks=False).st_mode):
-                os.chmod(each, 0o700, dir_fd=inner)
-                os.rename(each, uuid4().hex, src_dir_fd=inner, dst_dir_fd=folder)
+        for entry in os.listdir(inner):
+            if stat.S_ISDIR(os.stat(entry, dir_fd=inner, follow_symlinks=False).st_mode):
+                os.chmod(entry, 0o700, dir_fd=inner)
+                os.rename(entry, uuid4().hex, src_dir_fd=inner, dst_dir_fd=folder)
             else:
-                os.unlink(each, dir_fd=inner)
+                os.unlink(entry, dir_fd=inner)
     finally:
         os.close(inner)
     os.rmdir(name, dir_fd=folder)

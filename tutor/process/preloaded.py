@@ -67,7 +67,7 @@ class Preloaded:
         while todo:
             current = todo.pop()
             yield current
-            imported = {known for each in self._imports.get(current, ()) for known in _with_parents(each)}
+            imported = {known for dependency in self._imports.get(current, ()) for known in _with_parents(dependency)}
             more = imported & self.modules.keys()
             todo += sorted(more - seen, reverse=True)
             seen |= more
@@ -126,7 +126,9 @@ def _imports_recorded() -> Iterator[dict[str, set[str]]]:
             package = (globals or {}).get("__package__") or importer.rpartition(".")[0]
             full = importlib.util.resolve_name("." * level + name, package) if level else name
             submodules = (f"{full}.{child}" for child in fromlist or ())
-            imports.setdefault(importer, set()).update([full, *(each for each in submodules if each in sys.modules)])
+            imports.setdefault(importer, set()).update(
+                [full, *(submodule for submodule in submodules if submodule in sys.modules)]
+            )
         return module
 
     builtins.__import__ = record

@@ -56,7 +56,7 @@ def next_wake(pids: Iterable[int], by: float = 0.0) -> NextWake:
         found.append(_process_wake(pid, by))
         if found[-1].at <= by:
             break
-    return NextWake(min((each.at for each in found), default=0.0), sum(each.timeslices for each in found))
+    return NextWake(min((wake.at for wake in found), default=0.0), sum(wake.timeslices for wake in found))
 
 
 def _process_wake(pid: int, by: float) -> NextWake:
@@ -116,7 +116,7 @@ def _drop_flusher(pid: int, background: list[_ThreadWake]) -> list[_ThreadWake]:
 
     Should that be another one, it is the flusher's own wake-up that counts, and the process is not idle.
     """
-    due = sorted(each for each in background if 0.0 < each[0] <= time.time() + _FLUSH_INTERVAL_S)
+    due = sorted(thread_wake for thread_wake in background if 0.0 < thread_wake[0] <= time.time() + _FLUSH_INTERVAL_S)
     if due and _FLUSHING_LIBRARY in _read_file(f"/proc/{pid}/maps"):
         background.remove(due[-1])
     return background
