@@ -49,7 +49,7 @@ def _write_array(name: str, values: Any, indent: str, max_length: int | None, li
     if None in written:
         return False
     lines.append(f"{indent}{name}:\n")
-    lines += [f"{indent}- {each}\n" for each in written]
+    lines += [f"{indent}- {item}\n" for item in written]
     if len(shown) < len(values):
         lines.append(f"{indent}- '...'\n")
     return True

@@ -51,13 +51,13 @@ class ManualPublisher:
         if self._node is None:
             return 0
         found = self._node.get_subscriptions_info_by_topic(topic)
-        return sum(not each.node_name.startswith(OUR_PREFIX) for each in found)
+        return sum(not subscription.node_name.startswith(OUR_PREFIX) for subscription in found)
 
     def is_connected(self, topic: str, ours: bool) -> bool:
         """Return whether every known subscription is matched and, with `ours`, one of them is our own."""
         publisher, _ = self._publishers[topic]
         known = self._node.get_subscriptions_info_by_topic(topic) if self._node is not None else []
-        has_ours = any(each.node_name.startswith(OUR_PREFIX) for each in known)
+        has_ours = any(subscription.node_name.startswith(OUR_PREFIX) for subscription in known)
         return 0 < len(known) <= publisher.get_subscription_count() and (has_ours or not ours)
 
     def remove(self, topic: str) -> None:

@@ -90,7 +90,7 @@ class Observer:
             stamp = message.stamp.sec + message.stamp.nanosec * 1e-9
             level = message.level if isinstance(message.level, int) else message.level[0]
             text, name, function = (
-                truncate(each, LINE_CHARACTERS) for each in (message.msg, message.name, message.function)
+                truncate(field, LINE_CHARACTERS) for field in (message.msg, message.name, message.function)
             )
             self._call_on_loop(self._add_log, LogRecord(level, name, text, stamp, time.time(), function))
             return kept_bytes(message.msg, text)
