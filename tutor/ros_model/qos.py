@@ -67,9 +67,9 @@ def incompatible_policies(offered: QoS, requested: QoS) -> Iterator[QoSMismatch]
 def echo_qos(offered: Iterable[QoS]) -> QoS:
     """Return what `ros2 topic echo` requests: reliable and transient local only if every publisher offers it."""
     offers = list(offered)
-    is_transient_local = bool(offers) and all(each.durability == "transient_local" for each in offers)
+    is_transient_local = bool(offers) and all(offer.durability == "transient_local" for offer in offers)
     return QoS(
-        reliability="reliable" if all(each.reliability == "reliable" for each in offers) else "best_effort",
+        reliability="reliable" if all(offer.reliability == "reliable" for offer in offers) else "best_effort",
         durability="transient_local" if is_transient_local else "volatile",
     )
 
