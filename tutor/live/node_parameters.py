@@ -93,7 +93,7 @@ class ParameterWatch:
             self._retry_at.pop(node, None)
             if found is None:
                 self._retry_at[node] = time.monotonic() + RETRY_S
-            parameters = tuple(replace(each, value=plain_value(each.value)) for each in found or ())
+            parameters = tuple(replace(parameter, value=plain_value(parameter.value)) for parameter in found or ())
             self._send(NodeParameters(node, found is not None, parameters))
         finally:
             del self._refreshing[node]

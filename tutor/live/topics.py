@@ -150,7 +150,7 @@ class FollowedTopics:
             followed.stale = False
         followed.reported_at = now
         text, fields = self._format_newest(followed, newest, now)
-        readable = [each for each in samples if followed.path and len(each[1]) <= MAX_BYTES]
+        readable = [sample for sample in samples if followed.path and len(sample[1]) <= MAX_BYTES]
         points = [
             (stamp, value)
             for stamp, raw in readable
