@@ -157,8 +157,8 @@ class Domain:
             for info in node.get_publishers_info_by_topic("/rosout")
             if info.node_name == node.get_name()
         )
-        host = next((each[:_HOST_BYTES] for each in own), b"")
-        return {each for each in senders & readers if each.startswith(host)}
+        host = next((participant[:_HOST_BYTES] for participant in own), b"")
+        return {participant for participant in senders & readers if participant.startswith(host)}
 
     def _all_nodes_have_names(self, participants: set[bytes]) -> bool:
         """Whether the node of each endpoint is known, and that of at least one endpoint of each participant.

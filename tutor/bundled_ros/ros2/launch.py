@@ -103,7 +103,7 @@ def _find_in_package(package: str, name: str) -> Path:
 
 def _files_below(share: Path) -> Iterator[Path]:
     for folder, below, files in os.walk(share, followlinks=True):  # a package that is not built is made of links
-        below[:] = [each for each in below if not each.startswith((".", "__"))]
+        below[:] = [subfolder for subfolder in below if not subfolder.startswith((".", "__"))]
         yield from (Path(folder) / name for name in files)
 
 

@@ -71,7 +71,7 @@ def make_overlay(
     prefixes = ament_prefixes(environ)
     added: set[str] = set()
     for package in _source_packages(near, environ):
-        if package.name in added or any(holds_package(each, package.name) for each in prefixes):
+        if package.name in added or any(holds_package(ament_prefix, package.name) for ament_prefix in prefixes):
             continue
         if package.name in _DEMO_PACKAGES and not package.programs:
             continue  # its C++ programs are not built; ours do the same
@@ -87,7 +87,7 @@ def make_overlay(
         elif (package.modules[0] / "__init__.py").is_file():
             _append(environ, "PYTHONPATH", package.modules[0].parent)
     for name in _DEMO_PACKAGES:
-        if name not in added and not any(holds_package(each, name) for each in prefixes):
+        if name not in added and not any(holds_package(ament_prefix, name) for ament_prefix in prefixes):
             for program in ("talker", "listener"):
                 script = _DEMO_SCRIPT.format(python=python, name=name, program=program, nodes=str(_DEMO / "nodes.py"))
                 _write_program(prefix / "lib" / name / program, script)
@@ -137,7 +137,7 @@ def _add_modules(folder: Path, package: SourcePackage) -> None:
     """Make a package whose modules are in several folders importable by its name."""
     init = folder / package.name / "__init__.py"
     init.parent.mkdir(parents=True, exist_ok=True)
-    init.write_text(f"__path__ = {[str(each) for each in package.modules]!r}\n", encoding="utf-8")
+    init.write_text(f"__path__ = {[str(module_folder) for module_folder in package.modules]!r}\n", encoding="utf-8")
 
 
 def _write_program(path: Path, text: str) -> None:

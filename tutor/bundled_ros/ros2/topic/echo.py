@@ -60,7 +60,7 @@ def _print_all(
 ) -> None:
     deadline = None if arguments.timeout is None else time.monotonic() + arguments.timeout
     for batch in batches:
-        texts = [text for one in batch if (text := format_one(one)) is not None]
+        texts = [text for received in batch if (text := format_one(received)) is not None]
         if arguments.once and texts:
             sys.stdout.write(texts[0])
             return
@@ -114,9 +114,9 @@ def _qos(domain: Domain, arguments: argparse.Namespace) -> QoSProfile:
             chosen = echo_qos(offered)
             profile.reliability = ReliabilityPolicy.get_from_short_key(chosen.reliability)
             profile.durability = DurabilityPolicy.get_from_short_key(chosen.durability)
-            if chosen.reliability == "best_effort" and any(each.reliability == "reliable" for each in offered):
+            if chosen.reliability == "best_effort" and any(qos.reliability == "reliable" for qos in offered):
                 _print_fallback("QoSReliabilityPolicy.RELIABLE", "QoSReliabilityPolicy.BEST_EFFORT")
-            if chosen.durability == "volatile" and any(each.durability == "transient_local" for each in offered):
+            if chosen.durability == "volatile" and any(qos.durability == "transient_local" for qos in offered):
                 _print_fallback("QoSDurabilityPolicy.TRANSIENT_LOCAL", "QoSDurabilityPolicy.VOLATILE")
     if arguments.qos_depth is None and profile.durability != DurabilityPolicy.TRANSIENT_LOCAL:
         profile.depth = DEPTH  # so that a burst is not lost
