@@ -165,7 +165,7 @@ class Runner:
             await _cancel([full])
 
     async def _judge_fully(self, criterion: Criterion) -> Verdict:
-        """Judge a criterion, and repeat its scenarios if the machine may be why it is not met, or skipped."""
+        """Judge a criterion, and repeat its scenarios while it is undecided, or failed or skipped by slowed facts."""
         while True:
             runs = [self._scenarios.task_of(scenario) for scenario in criterion.facts]
             facts = [await asyncio.shield(run) for run in runs]

@@ -1,4 +1,4 @@
-"""Run the scenarios of a check for their facts: all at once, each for whichever criteria ask, and again if in doubt."""
+"""Run the scenarios of a check for their facts: all at once, each for whichever criteria ask, and again if slowed."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tutor.judge.bench import Scenario
 from tutor.judge.submission import Submission
 
 MAX_REPEATS = 2
-"""Maximum repetitions of a scenario because of a busy machine."""
+"""Maximum repetitions of a scenario that the machine slowed (see `tutor.judge.bench.was_slowed`)."""
 
 REPEAT_WITHIN_S = 60.0
 """No repetition starts after this much of the check: the machine, or the node itself, is not going to calm down."""
@@ -92,7 +92,7 @@ class Scenarios:
             return await asyncio.shield(self.task_of(scenario))
 
     async def _gather_facts(self, scenario: Scenario[Any], *, alone: bool = False) -> Any:
-        """Run a scenario for its facts, and repeat it alone if the machine was too busy to let the node run."""
+        """Run a scenario for its facts, and repeat it alone if it raises MachineTooBusy."""
         for _ in range(MAX_REPEATS):
             try:
                 return await self._run(scenario, alone=alone)

@@ -36,7 +36,7 @@ IDLE_POLL_S = 0.1
 TOO_BUSY = "this machine is too busy: the node, or the process that observes it, did not get to run"
 
 LITTLE_CPU_S = 0.5
-"""A node that got less CPU time than this during a wait may have been starved by the machine."""
+"""A node that got less CPU time than this during a wait may have been slowed too much to do anything."""
 
 ENOUGH_CPU_S = 2.0
 """Nothing that is waited for takes a process more CPU time than this: a node's start, for example, takes 0.3 s."""
@@ -117,8 +117,8 @@ class Waits:
             meanwhile()
             return self._process.exit is not None or given_up()
 
-        # Of the program's threads, only the main one's wait for a CPU excuses a late exit: others may wait while it
-        # sleeps. A delay of ours changes nothing, since an exit that we see late still has its own time.
+        # Of the program's threads, only the main one's wait for a CPU extends the limit for its exit: others may wait
+        # while it sleeps. A delay of ours changes nothing, since an exit that we see late still has its own time.
         idle = self._idle_detector(RESENT_S)
         await self._until(ended, limit_s, lambda: (self.cpu_time().main_waited_s,), idle, all_sent)
         return self._process.exit is not None
@@ -203,7 +203,7 @@ class Waits:
                 return False
             if now >= deadline:
                 enough_s = ENOUGH_CPU_S * self._meter.process_count
-                if self.cpu_time().ran_s - ran_before_s >= enough_s:  # it was not starved
+                if self.cpu_time().ran_s - ran_before_s >= enough_s:  # it was not slowed too much
                     return False
                 cpu_waits_s = [after - before for after, before in zip(waited_s(), waited_before_s, strict=True)]
                 max_extension_s = MAX_EXTENSION_FACTOR * limit_s
@@ -212,8 +212,8 @@ class Waits:
                     # With a limit below 1 s, no verdict depends on the result; with enough CPU time, the node did run.
                     ran_enough = limit_s < 1.0 or self.cpu_time().ran_s - ran_before_s >= LITTLE_CPU_S
                     unblocked_s = estimate_unblocked_s(now - began, cpu_waits_s)
-                    starved = sum(cpu_waits_s) > max_extension_s and unblocked_s < limit_s
-                    if not ran_enough and starved:
+                    slowed_too_much = sum(cpu_waits_s) > max_extension_s and unblocked_s < limit_s
+                    if not ran_enough and slowed_too_much:
                         raise MachineTooBusy(TOO_BUSY)
                     return False
                 deadline, extended_by_s = deadline + extension_s, extended_by_s + extension_s
