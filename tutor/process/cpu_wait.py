@@ -1,4 +1,4 @@
-"""CPU time that a learner's processes got and waited for, to tell slow programs from a busy machine."""
+"""CPU time that a learner's processes got and waited for, to tell a slow program from one that the machine slowed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether the kernel has dropped datagrams. What it did not drop has arrived, and need not be sent again.
+"""Counts the datagrams that the kernel has dropped. What it did not drop has arrived, and need not be sent again.
 
 Nodes under observation use UDP on the loopback interface only. A datagram is lost there if the receiver's socket buffer
 or the queue of a CPU is full, and the kernel counts that (`/proc/net/snmp`, `/proc/net/softnet_stat`).
