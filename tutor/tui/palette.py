@@ -75,7 +75,7 @@ def _find_lines(lessons: tuple[Lesson, ...], query: str, first: Lesson) -> Itera
     wanted = query.strip().casefold()
     if len(wanted) < MIN_QUERY_LENGTH:
         return
-    for lesson in sorted(lessons, key=lambda each: each is not first):
+    for lesson in sorted(lessons, key=lambda lesson: lesson is not first):
         for number, text in plain_lines(lesson.body):
             if wanted in text.casefold():
                 yield lesson, number, text

@@ -61,7 +61,9 @@ class Records:
             if finding.verdict is not None and finding.verdict.status is Status.FAILED
         ]
         wanted = self._host.chosen_criterion if self._host.chosen_criterion in failed else next(iter(failed), "")
-        return next((each for each in model.lesson.criteria if each.id == wanted and each.hint), None)
+        return next(
+            (criterion for criterion in model.lesson.criteria if criterion.id == wanted and criterion.hint), None
+        )
 
     def _show_hints(self, count: int, failed: CriterionText | None) -> None:
         from tutor.tui.dialogs.simple import HintScreen

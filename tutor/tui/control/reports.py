@@ -48,7 +48,7 @@ class Reports:
         """Offer an explanation while the lesson's check has named a mistake, or remarked on one."""
         found = self._found
         remarked = found.result is not None and bool(found.result.remarks)
-        named = remarked or any(each.verdict is not None and each.verdict.mistake for each in found.criteria)
+        named = remarked or any(finding.verdict is not None and finding.verdict.mistake for finding in found.criteria)
         if named != self._had_mistakes:
             self._had_mistakes = named
             self._host.refresh_bindings()
@@ -85,12 +85,12 @@ class Reports:
 
     def _to_explain(self) -> Sequence[str]:
         found = self._found
-        failed = [each for each in found.criteria if each.verdict is not None and each.verdict.mistake]
-        chosen = [each for each in failed if each.id == self._host.chosen_criterion]
+        failed = [finding for finding in found.criteria if finding.verdict is not None and finding.verdict.mistake]
+        chosen = [finding for finding in failed if finding.id == self._host.chosen_criterion]
         if not chosen and found.result is not None and found.result.verdict is Status.PASSED and found.result.remarks:
             return [remark.mistake for remark in found.result.remarks]
-        first = chosen or sorted(failed, key=lambda each: each.bonus)
-        return [each.verdict.mistake for each in first[:1] if each.verdict is not None]
+        first = chosen or sorted(failed, key=lambda finding: finding.bonus)
+        return [finding.verdict.mistake for finding in first[:1] if finding.verdict is not None]
 
     async def _open(self, mistakes: Sequence[str], note: str = "") -> None:
         session = self._host.model.session

@@ -96,8 +96,8 @@ def _example_heading(heading: str) -> Content:
 
 def _example(section: Section, sections: Sequence[Section]) -> WrappedText:
     """An example, with a mark beside the lines that are not in the other one."""
-    other = [each.text for each in sections if each.code and each.heading != section.heading]
-    changed = _lines_only_in(section.text, other[0]) if other else set()
+    others = [other.text for other in sections if other.code and other.heading != section.heading]
+    changed = _lines_only_in(section.text, others[0]) if others else set()
     colour = _EXAMPLES.get(section.heading, ("", "$accent"))[1]
     lines = [
         Content.assemble(

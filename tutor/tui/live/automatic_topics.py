@@ -48,6 +48,6 @@ class AutomaticTopics:
 
     def unfollow_stale_topics(self, panel: TopicsPanel) -> None:
         """Unfollow topics of earlier lessons that no longer have a publisher."""
-        for name in [each for each in self._stale if not self._state.is_published(each)]:
+        for name in [name for name in self._stale if not self._state.is_published(name)]:
             self._stale.discard(name)
             panel.unfollow(name)

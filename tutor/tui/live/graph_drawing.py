@@ -57,19 +57,19 @@ def _drawn_topic(topic: Topic) -> DrawnTopic:
 
 def draw_graph(topics: Sequence[Topic], width: int) -> list[Row]:
     """Draw the topics; those that only one node publishes share one box of that node."""
-    drawn = sorted(map(_drawn_topic, topics), key=lambda each: (each.publishers, each.name))
+    drawn = sorted(map(_drawn_topic, topics), key=lambda topic: (topic.publishers, topic.name))
     widths = _column_widths(drawn, width)
     rows: list[Row] = []
-    for publishers, group in itertools.groupby(drawn, key=lambda each: each.publishers):
+    for publishers, group in itertools.groupby(drawn, key=lambda topic: topic.publishers):
         rows += _block(publishers, list(group), widths)
     return rows
 
 
 def _column_widths(drawn: Sequence[DrawnTopic], width: int) -> tuple[int, int, int]:
     """Return the widths of the three columns, borders included; the widest shrinks first if there is no room."""
-    lefts = [cell_len(name) + 4 for each in drawn for name in each.publishers or (_NOBODY,)]
-    middles = [max(cell_len(each.name) + 4, cell_len(each.type) + 7) for each in drawn]
-    rights = [cell_len(name) + 4 for each in drawn for name, _ in each.listeners] or [cell_len(_NO_LISTENERS)]
+    lefts = [cell_len(name) + 4 for topic in drawn for name in topic.publishers or (_NOBODY,)]
+    middles = [max(cell_len(topic.name) + 4, cell_len(topic.type) + 7) for topic in drawn]
+    rights = [cell_len(name) + 4 for topic in drawn for name, _ in topic.listeners] or [cell_len(_NO_LISTENERS)]
     columns = [max(widths, default=_MIN_COLUMN_CELLS) for widths in (lefts, middles, rights)]
     while sum(columns) + 2 * _ARROW_CELLS + 2 > width and max(columns) > _MIN_COLUMN_CELLS:
         columns[columns.index(max(columns))] -= 1
@@ -80,13 +80,13 @@ def _block(publishers: tuple[str, ...], group: Sequence[DrawnTopic], widths: tup
     """Draw topics with the same publishers: one box for a single node, or a stack of boxes per topic."""
     left, _, _ = widths
     if len(publishers) > 1:
-        for each in group:
-            rights = list(_topic_rows(each, widths))
+        for topic in group:
+            rights = list(_topic_rows(topic, widths))
             height = max(len(rights), _BOX_ROWS * len(publishers))
             yield from _join_columns(_publisher_stack(publishers, left, height), rights, height)
         return
-    rights = [row for each in group for row in _topic_rows(each, widths)]
-    outlets = list(itertools.accumulate((len(list(_topic_rows(each, widths))) for each in group), initial=0))[:-1]
+    rights = [row for topic in group for row in _topic_rows(topic, widths)]
+    outlets = list(itertools.accumulate((len(list(_topic_rows(topic, widths))) for topic in group), initial=0))[:-1]
     yield from _join_columns(
         _publisher_box(publishers, left, [at + 1 for at in outlets], len(rights)), rights, len(rights)
     )
@@ -150,25 +150,25 @@ def _publisher_stack(publishers: tuple[str, ...], width: int, height: int) -> li
     return rows
 
 
-def _topic_rows(each: DrawnTopic, widths: tuple[int, int, int]) -> Iterator[Row]:
+def _topic_rows(topic: DrawnTopic, widths: tuple[int, int, int]) -> Iterator[Row]:
     """Draw a topic and its listeners."""
     _, middle, right = widths
-    last_joint = _BOX_ROWS * (len(each.listeners) - 1) + 1
-    for y in range(max(_BOX_ROWS, _BOX_ROWS * len(each.listeners))):
+    last_joint = _BOX_ROWS * (len(topic.listeners) - 1) + 1
+    for y in range(max(_BOX_ROWS, _BOX_ROWS * len(topic.listeners))):
         index, line = divmod(y, _BOX_ROWS)
-        topic = " " * middle
+        topic_box = " " * middle
         if y < _BOX_ROWS:
-            kind = f" {_fit(each.type, middle - 7).rstrip()} "
-            topic = (
+            kind = f" {_fit(topic.type, middle - 7).rstrip()} "
+            topic_box = (
                 "┏" + "━" * (middle - 2) + "┓",
-                f"┃ {_fit(each.name, middle - 4)} ┃",
+                f"┃ {_fit(topic.name, middle - 4)} ┃",
                 "┗━" + kind + "━" * (middle - 3 - cell_len(kind)) + "┛",
             )[y]
-        head: Piece = (topic, "topic")
-        if not each.listeners:
+        head: Piece = (topic_box, "topic")
+        if not topic.listeners:
             yield (head, (f"  {_NO_LISTENERS}" if y == 1 else "", "quiet"))
             continue
-        node, connected = each.listeners[index]
+        node, connected = topic.listeners[index]
         box = (
             "╭" + "─" * (right - 2) + "╮",
             f"│ {_fit(node, right - 4)} │",

@@ -74,18 +74,18 @@ class ParametersPanel(Vertical):
         """Show the current parameters of all nodes."""
         listed = tuple(self.state.listed_parameters(self.show_all))
         table = self.table
-        if [_key(each) for each in listed] != [_key(each) for each in self._listed]:
+        if [_key(parameter) for parameter in listed] != [_key(parameter) for parameter in self._listed]:
             selected = self._parameter_under_cursor()
             table.clear()
-            for each in listed:
-                table.add_row(*self._cells(each), key=_key(each))
+            for parameter in listed:
+                table.add_row(*self._cells(parameter), key=_key(parameter))
             if selected is not None and _key(selected) in table.rows:
                 table.move_cursor(row=table.get_row_index(_key(selected)))
         elif listed != self._listed:
-            for each in listed:
-                for name, cell in zip(_COLUMNS, self._cells(each), strict=True):
-                    if table.get_cell(_key(each), name) != cell:
-                        table.update_cell(_key(each), name, cell, update_width=True)
+            for parameter in listed:
+                for name, cell in zip(_COLUMNS, self._cells(parameter), strict=True):
+                    if table.get_cell(_key(parameter), name) != cell:
+                        table.update_cell(_key(parameter), name, cell, update_width=True)
         self._listed = listed
         if self.editing is not None and _key(self.editing) not in table.rows:
             self.action_leave()
@@ -112,11 +112,17 @@ class ParametersPanel(Vertical):
         idle = (("Enter", "Set", "edit"), ("R", "Refresh", "refresh"), toggle)
         self.query_one("#parameter-actions", ActionBar).actions = idle if self.editing is None else _EDITING_ACTIONS
 
-    def _cells(self, each: Parameter) -> tuple[Text, ...]:
-        value = format_value(each.value) if each.value is not None else "(not set)"
+    def _cells(self, parameter: Parameter) -> tuple[Text, ...]:
+        value = format_value(parameter.value) if parameter.value is not None else "(not set)"
         if len(value) > _MAX_VALUE_CHARS:
             value = f"{value[:_MAX_VALUE_CHARS]}..."
-        return (Text(each.node), Text(each.name), Text(value), Text(each.type), Text(wording.allowed(each)))
+        return (
+            Text(parameter.node),
+            Text(parameter.name),
+            Text(value),
+            Text(parameter.type),
+            Text(wording.allowed(parameter)),
+        )
 
     def _parameter_under_cursor(self) -> Parameter | None:
         row = self.table.cursor_row

@@ -74,16 +74,16 @@ class ServicesPanel(Vertical):
     def show_list(self) -> None:
         """Show the services in the current graph."""
         services = self.state.graph.services if self.state.graph else ()
-        listed = tuple(each for each in services if self.show_all or not each.is_standard)
+        listed = tuple(service for service in services if self.show_all or not service.is_standard)
         if listed == self._listed:
             return
         self._listed = listed
         chosen = self.chosen.name if self.chosen else ""
         table = self.table
         table.clear()
-        for each in listed:
-            types = " and ".join(wording.short_type(name) for name in each.types)
-            table.add_row(Text(each.name), Text(types), Text(", ".join(each.nodes)), key=each.name)
+        for service in listed:
+            types = " and ".join(wording.short_type(name) for name in service.types)
+            table.add_row(Text(service.name), Text(types), Text(", ".join(service.nodes)), key=service.name)
         if chosen in table.rows:
             table.move_cursor(row=table.get_row_index(chosen))
         self._show_actions()

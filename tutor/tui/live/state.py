@@ -188,11 +188,11 @@ class LiveState:
         Those that every node has, and those of nodes that were started with another lesson, only if `everything`.
         """
         return [
-            each
+            parameter
             for node in sorted(self.parameters)
             if everything or self.is_of_lesson(node)
-            for each in sorted(self.parameters[node].parameters, key=lambda parameter: parameter.name)
-            if everything or not is_standard_parameter(each.name)
+            for parameter in sorted(self.parameters[node].parameters, key=lambda parameter: parameter.name)
+            if everything or not is_standard_parameter(parameter.name)
         ]
 
     def is_of_lesson(self, node: str) -> bool:

@@ -151,7 +151,7 @@ class MainScreen(HostScreen):
     def _count_passed(self) -> None:
         model = self.model
         lessons = model.session.lessons
-        passed = {each.id for each in lessons if model.progress.of(each.id).is_passed}
+        passed = {lesson.id for lesson in lessons if model.progress.of(lesson.id).is_passed}
         others = len(lessons) - len(passed | {model.lesson.id})
         # After the last pass the panel points to the checklist, if the course has one.
         self.query_one(CriteriaPanel).others_open = others if self.can(commands.CHECKLIST) else max(1, others)
@@ -227,14 +227,13 @@ class MainScreen(HostScreen):
     def _progress_read(self, message: messages.ProgressRead) -> None:
         model = self.model
         model.progress, model.versions = message.progress, message.versions
-        for each in model.session.lessons:
-            model.findings[each.id] = model.findings[each.id].with_last_check(message.progress.of(each.id))
+        for lesson in model.session.lessons:
+            model.findings[lesson.id] = model.findings[lesson.id].with_last_check(message.progress.of(lesson.id))
         self.query_one(CriteriaPanel).show_findings(model.findings[model.lesson.id])
         self._count_passed()
         self.query_one(LessonList).show_states(model.session.states(message.progress))
         self.checklist.show()
-        lesson = model.lesson
-        self.query_one(CriteriaPanel).show_attempts(lesson, message.progress.of(lesson.id))
+        self.query_one(CriteriaPanel).show_attempts(model.lesson, message.progress.of(model.lesson.id))
 
     @on(messages.LastChecksRead)
     def _last_checks_read(self, message: messages.LastChecksRead) -> None:

@@ -28,8 +28,10 @@ def bar(ticked: int, total: int, width: int = _BAR_CELLS) -> Content:
 
 def _evidence_lines(item: AssessedItem) -> list[tuple[str, str]]:
     """Return (text, colour) of what checks show of an item now, and showed before; else which exercises could."""
-    now = describe_evidence([each for each in item.evidence if each.holds], near_day, max_items=_MAX_EXERCISES)
-    before = describe_evidence([each for each in item.evidence if not each.holds], near_day, max_items=_MAX_EXERCISES)
+    now = describe_evidence([piece for piece in item.evidence if piece.holds], near_day, max_items=_MAX_EXERCISES)
+    before = describe_evidence(
+        [piece for piece in item.evidence if not piece.holds], near_day, max_items=_MAX_EXERCISES
+    )
     lines = [(f"✓ {' · '.join(now)}", "$good")] if now else []
     lines += [(f"○ {' · '.join(before)}", "$quiet")] if before else []
     if lines:

@@ -43,9 +43,9 @@ class CodeBody(Container, can_focus=True):
         Binding("end", "scroll_edge(True)", show=False),
         Binding("escape", "release", "Commands", key_display="Esc"),
         *(
-            Binding(key, f"do('{each.name}')", each.label, key_display=key_label(key))
-            for each in (RUN, RESTART, STOP, CHECK, CANCEL)
-            for key in each.keys
+            Binding(key, f"do('{command.name}')", command.label, key_display=key_label(key))
+            for command in (RUN, RESTART, STOP, CHECK, CANCEL)
+            for key in command.keys
             if key.startswith("f")
         ),
     ]

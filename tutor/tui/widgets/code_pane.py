@@ -282,23 +282,23 @@ class CodePane(Vertical):
         """Update the two head lines: file names, whether all is saved, and the view that is shown."""
         if not self._paths:
             return
-        path = self._paths[self._chosen]
+        shown = self._paths[self._chosen]
         parts: list[Content | str | tuple[str, str]] = []
-        for index, each in enumerate(self._paths):
-            mark = "● " if self.is_unsaved(each) else ""
+        for index, path in enumerate(self._paths):
+            mark = "● " if self.is_unsaved(path) else ""
             if index == self._chosen:
-                parts += [Content.styled(mark + each.name, "bold $primary"), "  "]
+                parts += [Content.styled(mark + path.name, "bold $primary"), "  "]
             else:
                 parts += [
                     mark,
-                    Content.from_markup(f"[@click=screen.show_file({index})]$name[/]", name=each.name),
+                    Content.from_markup(f"[@click=screen.show_file({index})]$name[/]", name=path.name),
                     "  ",
                 ]
         if len(self._paths) > 1 and not self._typing and not self.guarded:
             parts.append(("f: other file  ", "$quiet"))
         if self.editor is not None:
             parts.append(("not saved yet  ", "$warn") if self.editor.changed else ("✓ saved  ", "$good"))
-        parts.append((short_path(path.parent), "$quiet"))
+        parts.append((short_path(shown.parent), "$quiet"))
         self.query_one("#code-head", Static).update(Content.assemble(*parts), layout=False)
         self.query_one("#code-looks", Static).update(self._view_links(), layout=False)
 

@@ -34,9 +34,9 @@ class BriefLine(Widget, can_focus=True):
     def render(self) -> Content:
         """The criteria's ids, or only their number in a narrow terminal, and the key that opens the panel."""
         found = self._findings.criteria if self._findings else ()
-        required, bonus = [each for each in found if not each.bonus], sum(each.bonus for each in found)
+        required, bonus = [finding for finding in found if not finding.bonus], sum(finding.bonus for finding in found)
         more = [f"{bonus} bonus"] if bonus else []
-        named = ", ".join([*(f"{'✓ ' if each.before else ''}{each.id}" for each in required), *more])
+        named = ", ".join([*(f"{'✓ ' if finding.before else ''}{finding.id}" for finding in required), *more])
         counted = ", ".join([f"{len(required)} to meet", *more])
         head, key = Content.styled("○ Criteria  ", "bold"), Content.assemble("  ", ("5", "bold $accent"), " opens")
         room = self.content_size.width - head.cell_length - key.cell_length

@@ -61,7 +61,7 @@ class LessonView(VerticalScroll):
     def on_click(self, event: events.Click) -> None:
         """Run a clicked command of an example in the terminal."""
         above = self.screen.get_widget_at(*event.screen_offset)[0].ancestors_with_self
-        fence = next((each for each in above if isinstance(each, MarkdownFence)), None)
+        fence = next((widget for widget in above if isinstance(widget, MarkdownFence)), None)
         if fence is None or fence.lexer.partition(" ")[0] not in LANGUAGES:
             return
         text = fence.query_one("#code-content", Label).content_region
