@@ -69,7 +69,7 @@ def differences(expected: Versions, found: Versions) -> str:
     if found["python"] != expected["python"]:
         parts.append(f"Python {found['python']} instead of {expected['python']}")
     here, there = expected["lessons"], found["lessons"]
-    if exercises := [each for each in sorted({*here, *there}) if here.get(each) != there.get(each)]:
+    if exercises := [exercise for exercise in sorted({*here, *there}) if here.get(exercise) != there.get(exercise)]:
         parts.append(f"another lesson or check for {', '.join(exercises)}")
     return ", ".join(parts)
 

@@ -107,7 +107,7 @@ class Points:
             unknown = status is Status.ERROR and not judged.missing and (worth > 0 or not criterion.bonus)
             score = None if unknown else worth if status is Status.PASSED else 0.0
             scores.append(CriterionScore(criterion.id, score, worth, criterion.bonus))
-        known = [each.score for each in scores if each.score is not None]
+        known = [scored.score for scored in scores if scored.score is not None]
         # As sums of thirds are not whole.
         total = round(sum(known), _DIGITS) if len(known) == len(scores) else None
         return Score(total, rule.points, tuple(scores))

@@ -23,7 +23,7 @@ def fault_of(result: Result) -> str:
         return one_line(result.report.message)
     if judged.missing:
         return ""
-    return next((one_line(each.verdict.cause) for each in judged.criteria if _is_unjudged(each)), "")
+    return next((one_line(criterion.verdict.cause) for criterion in judged.criteria if _is_unjudged(criterion)), "")
 
 
 def _is_unjudged(criterion: CriterionResult) -> bool:

@@ -25,7 +25,10 @@ def render(gradebook: Gradebook, template: str | None = None) -> str:
                 "id": lesson.id,
                 "title": lesson.title,
                 "max_score": points(gradebook.max_score(lesson)),
-                "criteria": [{"id": each.id, "text": each.text, "bonus": each.bonus} for each in lesson.criteria],
+                "criteria": [
+                    {"id": criterion.id, "text": criterion.text, "bonus": criterion.bonus}
+                    for criterion in lesson.criteria
+                ],
                 "mistakes": [
                     {"id": mistake, "name": printable(name), "learners": count}
                     for mistake, name, count in gradebook.mistakes(lesson)

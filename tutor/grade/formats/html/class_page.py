@@ -142,7 +142,7 @@ def _mistakes(gradebook: Gradebook, explanations: Explanations) -> Html:
             data_page=id,
         )
         for id, exercises in sorted(
-            _mistakes_made(gradebook).items(), key=lambda each: explanations.title(each[0]).casefold()
+            _mistakes_made(gradebook).items(), key=lambda pair: explanations.title(pair[0]).casefold()
         )
         if id in explanations
     ]

@@ -64,7 +64,7 @@ def remarks(exercise: ExerciseResult) -> Sequence[tuple[Remark, str]]:
 def points_of(score: Score | None, criterion: str) -> str:
     """Return the points of a criterion, such as "0 of 2.5"; empty if it is worth none."""
     found: CriterionScore | None = next(
-        (each for each in score.criteria if each.id == criterion) if score is not None else iter(()), None
+        (scored for scored in score.criteria if scored.id == criterion) if score is not None else iter(()), None
     )
     if found is None or not found.max_score:
         return ""

@@ -40,7 +40,9 @@ def render(gradebook: Gradebook, learner: Learner, explanations: Explanations) -
         element("p", _opening([result for _, result, _ in found]), class_="opening"),
     )
     overview = [_overview(gradebook, learner, found)] if len(found) > 1 else []
-    sections = (_exercise(*each, explanations, steps=gradebook.steps) for each in found)
+    sections = (
+        _exercise(lesson, result, score, explanations, steps=gradebook.steps) for lesson, result, score in found
+    )
     body = (top, element("main", *overview, *sections))
     title = f"Feedback for {learner.name}"
     return document(title, body, styles=("common.css", "feedback.css"))
@@ -71,7 +73,7 @@ def _overview(gradebook: Gradebook, learner: Learner, found: list[tuple[Lesson, 
         element("th", "Criteria", scope="col", class_="number criteria"),
         element("th", "Points", scope="col", class_="number"),
     )
-    rows = [_overview_row(*each) for each in found]
+    rows = [_overview_row(lesson, result, score) for lesson, result, score in found]
     total = gradebook.total(learner)
     label = element("th", "Total" if total.complete else "So far", scope="row", colspan=2)
     tally = element("td", _tally([result.judged for _, result, _ in found]), class_="number criteria")
@@ -98,8 +100,10 @@ def _status(result: Result) -> Html:
 
 def _tally(exercises: Iterable[ExerciseResult | None]) -> str:
     """Return how many of the required criteria passed; "" if none could be judged."""
-    required = [each for judged in exercises if judged is not None for each in judged.criteria if not each.bonus]
-    return f"{sum(each.verdict.passed for each in required)} of {len(required)}" if required else ""
+    required = [
+        criterion for judged in exercises if judged is not None for criterion in judged.criteria if not criterion.bonus
+    ]
+    return f"{sum(criterion.verdict.passed for criterion in required)} of {len(required)}" if required else ""
 
 
 def _points(score: Score) -> str:

@@ -36,7 +36,7 @@ def criterion_state(result: Result | None, criterion: str) -> tuple[str, str, st
         return "error", WORDS["error"], ""
     if judged.missing:
         return "missing", WORDS["missing"], ""
-    verdict = next((each.verdict for each in judged.criteria if each.id == criterion), None)
+    verdict = next((outcome.verdict for outcome in judged.criteria if outcome.id == criterion), None)
     if verdict is None:
         return "none", "not graded", ""
     if verdict.status is Status.ERROR:
