@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _choose(arguments: argparse.Namespace, course: Course, own: Courses) -> _Chosen:
     if arguments.exercises:
-        names = [each.partition("/")[::2] for each in arguments.exercises]
+        names = [name.partition("/")[::2] for name in arguments.exercises]
         lessons = list(dict.fromkeys(course.find(exercise) for exercise, _ in names))
         submissions = tuple(f"{course.find(exercise).id}/{rest}" for exercise, rest in names if rest)
         return _Chosen(lessons, submissions)

@@ -77,7 +77,7 @@ def _check_options(arguments: argparse.Namespace) -> None:
 
 
 def _require_known(item: str, checklist: Checklist) -> None:
-    known = [each.id for each in checklist.items]
+    known = [entry.id for entry in checklist.items]
     if item in known:
         return
     near = get_close_matches(item.lower(), known, n=1)

@@ -197,7 +197,7 @@ def _run(
 
 
 def _announce(plan: Plan, estimate: str) -> None:
-    keys = [(each.learner.id, each.exercise) for part in (plan.todo, plan.missing, plan.kept) for each in part]
+    keys = [(entry.learner.id, entry.exercise) for part in (plan.todo, plan.missing, plan.kept) for entry in part]
     learners, exercises = counted(len({learner for learner, _ in keys}), "learner"), {exercise for _, exercise in keys}
     already = f", {len(plan.kept)} of them judged before" if plan.kept else ""
     missing = f", {len(plan.missing)} without files" if plan.missing else ""

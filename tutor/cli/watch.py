@@ -60,7 +60,7 @@ def _read_sources(folders: set[Path], own: set[Path], others: set[str]) -> dict[
             paths = [path for path in folder.iterdir() if path.suffix in _SOURCE_SUFFIXES and path.name not in others]
         except OSError:
             continue
-        for path in {*paths, *(each for each in own if each.parent == folder)}:
+        for path in {*paths, *(path for path in own if path.parent == folder)}:
             try:
                 found[path] = path.read_bytes()
             except OSError:
