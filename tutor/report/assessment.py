@@ -55,7 +55,7 @@ class AssessedItem:
     @property
     def shown(self) -> bool:
         """Whether the checks of the files as they are now show it."""
-        return any(each.holds for each in self.evidence)
+        return any(piece.holds for piece in self.evidence)
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,8 +170,8 @@ def _assess_item(item: ChecklistItem, course: Course, progress: Progress, versio
         elif left_open := tuple(criterion.id for criterion in criteria if criterion.open):
             sources.append(Source(lesson.id, left_open))
         found += [_evidence_of_criterion(item, lesson, criterion, own, version) for criterion in criteria]
-    evidence = [each for each in found if each is not None]
-    evidence.sort(key=lambda each: (each.holds, each.at), reverse=True)  # stable: otherwise in the lesson's order
+    evidence = [piece for piece in found if piece is not None]
+    evidence.sort(key=lambda piece: (piece.holds, piece.at), reverse=True)  # stable: otherwise in the lesson's order
     return AssessedItem(item.id, item.text, progress.ticks.get(item.id), tuple(evidence), tuple(sources))
 
 

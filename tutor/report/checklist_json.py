@@ -42,13 +42,13 @@ def _item(item: AssessedItem) -> dict[str, Any]:
         "ticked_at": item.ticked_at,
         "evidence": [
             {
-                "exercise": each.exercise,
-                "criterion": each.criterion or None,
-                "passed_at": each.at or None,
-                "since_changed": each.changed,
-                "help": each.help,
+                "exercise": piece.exercise,
+                "criterion": piece.criterion or None,
+                "passed_at": piece.at or None,
+                "since_changed": piece.changed,
+                "help": piece.help,
             }
-            for each in item.evidence
+            for piece in item.evidence
         ],
     }
 

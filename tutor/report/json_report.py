@@ -25,7 +25,7 @@ def render(report: Report) -> str:
         "exercises": [_exercise(exercise) for exercise in report.exercises],
     }
     if report.isolation:
-        document["walls"] = [asdict(each) for each in report.isolation]
+        document["walls"] = [asdict(wall) for wall in report.isolation]
     return json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
 
 
@@ -85,8 +85,8 @@ def _exercise(exercise: ExerciseResult) -> dict[str, Any]:
         **({"missing": _missing(exercise)} if exercise.missing else {}),
         "criteria": [_criterion(criterion) for criterion in exercise.criteria],
         "remarks": [
-            {"mistake": each.mistake, "text": printable(each.text), "file": each.file, "line": each.line}
-            for each in exercise.remarks
+            {"mistake": remark.mistake, "text": printable(remark.text), "file": remark.file, "line": remark.line}
+            for remark in exercise.remarks
         ],
     }
 

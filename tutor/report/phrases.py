@@ -35,8 +35,8 @@ def describe_evidence(evidence: Sequence[Evidence], day: Day, max_items: int | N
     return the first `max_items`, followed by "N more".
     """
     together: dict[tuple[str, str], list[str]] = {}
-    for each in evidence:
-        together.setdefault((each.exercise, _describe_pass(each, day)), []).append(each.criterion)
+    for piece in evidence:
+        together.setdefault((piece.exercise, _describe_pass(piece, day)), []).append(piece.criterion)
     phrases = [f"{_join_names(exercise, criteria)} {passed}" for (exercise, passed), criteria in together.items()]
     if max_items is None or len(phrases) <= max_items:
         return phrases
