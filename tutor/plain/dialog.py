@@ -96,7 +96,7 @@ class Dialog:
             self._say(str(error))
 
     def _find_command(self, name: str) -> DialogCommand:
-        commands = {each: command for command in self._commands for each in (command.name, *command.aliases)}
+        commands = {word: command for command in self._commands for word in (command.name, *command.aliases)}
         if name in commands:
             return commands[name]
         close_matches = get_close_matches(name, commands, n=1)

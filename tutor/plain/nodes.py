@@ -56,7 +56,7 @@ class Nodes:
             command = await asyncio.to_thread(session.node_command, file, session.app_state().run_of(lesson.id))
         except (CommandError, OSError) as error:
             raise CommandRefused(f"The node cannot be started: {error}") from error
-        await self._stop_others({session.path(each) for each in lesson.files})
+        await self._stop_others({session.path(lesson_file) for lesson_file in lesson.files})
         node = Node(command, self._on_state)
         self._nodes[path] = self._latest = node
         task = asyncio.create_task(node.run())
