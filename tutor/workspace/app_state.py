@@ -57,7 +57,7 @@ class AppState:
 
 def encode(state: AppState) -> str:
     """Encode the state as JSON."""
-    return write_document(SCHEMA, **{each.name: getattr(state, each.name) for each in fields(state)})
+    return write_document(SCHEMA, **{attribute.name: getattr(state, attribute.name) for attribute in fields(state)})
 
 
 def decode(text: str) -> AppState:

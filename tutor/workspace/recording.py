@@ -23,7 +23,9 @@ def record(
     The findings of a check of some criteria only are not kept: they would hide those of the last whole check. Raises
     StorageError.
     """
-    whole = {result.id for result in results if set(criteria[result.id]) <= {each.id for each in result.criteria}}
+    whole = {
+        result.id for result in results if set(criteria[result.id]) <= {criterion.id for criterion in result.criteria}
+    }
 
     def add(progress: Progress) -> Progress:
         for result in results:
