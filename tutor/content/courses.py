@@ -52,7 +52,7 @@ class Courses:
     @classmethod
     def find(cls, given: Iterable[str | Path], *, only: bool = False) -> Courses:
         """Find the courses named. Raises UsageError for one that is not there."""
-        texts = [str(each) for each in given]
+        texts = [str(name) for name in given]
         folders = tuple(find_course(text) for text in texts)
         return cls(folders, only, tuple(_absolute(text) for text in texts))
 

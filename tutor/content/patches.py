@@ -43,7 +43,7 @@ class Change:
 
 def read_changes(fields: Fields, source: Path) -> tuple[Change, ...]:
     """Take the field `change`; empty if absent. Raises ContentError."""
-    return tuple(_read_change(each, source) for each in fields.mappings("change", optional=True))
+    return tuple(_read_change(change, source) for change in fields.mappings("change", optional=True))
 
 
 def _read_change(fields: Fields, source: Path) -> Change:
