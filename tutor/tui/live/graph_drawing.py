@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from rich.cells import cell_len
 
 from tutor.ros_model import Topic, connections
-from tutor.tui.live.wording import short_type
+from tutor.tui.live.formatting import short_type
 from tutor.tui.widgets.line_view import Piece, Row
 
 _BOX_ROWS = 3

@@ -11,7 +11,7 @@ from textual import events
 
 from tutor.live.updates import CallOutcome, SetOutcome
 from tutor.ros_model.values import format_value
-from tutor.tui.live.wording import period
+from tutor.tui.live.formatting import period
 from tutor.tui.widgets.line_view import LineView, Row
 
 _MAX_VALUE_CHARS = 60

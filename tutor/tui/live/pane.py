@@ -21,7 +21,7 @@ from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, Reque
 from tutor.ros_model import Graph
 from tutor.tui import messages
 from tutor.tui.key_latency import reduce_key_latency
-from tutor.tui.live import wording
+from tutor.tui.live import formatting
 from tutor.tui.live.automatic_topics import AutomaticTopics
 from tutor.tui.live.graph_panel import GraphPanel
 from tutor.tui.live.parameters_panel import ParametersPanel
@@ -216,7 +216,7 @@ class LivePane(Vertical):
         self.app.push_screen(PublishScreen(topic, self.state.type_of, self._watcher.send), answered)
 
     def _show_publishing(self) -> None:
-        text = "\n".join(wording.publishing(held) for held in self.state.published.values())
+        text = "\n".join(formatting.publishing(held) for held in self.state.published.values())
         self.set_class(bool(text), "-publishing")
         self.query_one("#live-publishing", Static).update(text)
 

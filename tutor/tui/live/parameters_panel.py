@@ -16,7 +16,7 @@ from textual.widgets import DataTable, Input, Static
 from tutor.live.protocol import Refresh, SetParameter
 from tutor.ros_model import Parameter
 from tutor.ros_model.values import format_value, parse_parameter
-from tutor.tui.live import wording
+from tutor.tui.live import formatting
 from tutor.tui.live.history import HistoryView, set_rows
 from tutor.tui.live.row_table import RowTable
 from tutor.tui.live.state import LiveState
@@ -121,7 +121,7 @@ class ParametersPanel(Vertical):
             Text(parameter.name),
             Text(value),
             Text(parameter.type),
-            Text(wording.allowed(parameter)),
+            Text(formatting.allowed(parameter)),
         )
 
     def _parameter_under_cursor(self) -> Parameter | None:

@@ -16,7 +16,7 @@ from textual.widgets import DataTable, Static
 
 from tutor.live.protocol import Call, Cancel, Describe
 from tutor.ros_model import Service
-from tutor.tui.live import wording
+from tutor.tui.live import formatting
 from tutor.tui.live.history import HistoryView, call_rows, waiting_row
 from tutor.tui.live.request_form import ServiceForm
 from tutor.tui.live.row_table import RowTable
@@ -82,7 +82,7 @@ class ServicesPanel(Vertical):
         table = self.table
         table.clear()
         for service in listed:
-            types = " and ".join(wording.short_type(name) for name in service.types)
+            types = " and ".join(formatting.short_type(name) for name in service.types)
             table.add_row(Text(service.name), Text(types), Text(", ".join(service.nodes)), key=service.name)
         if chosen in table.rows:
             table.move_cursor(row=table.get_row_index(chosen))
@@ -129,7 +129,7 @@ class ServicesPanel(Vertical):
             nothing = "These nodes offer only the services that every node has."
             head.update("Choose a service and press Enter: its form opens here." if self._listed else nothing)
         else:
-            types = " and ".join(wording.short_type(name) for name in self.chosen.types)
+            types = " and ".join(formatting.short_type(name) for name in self.chosen.types)
             head.update(Content.assemble((self.chosen.name, "bold"), (f"  {types}", "$quiet")))
 
     # --- actions ---

@@ -8,7 +8,7 @@ from rich.text import Text
 from textual.content import Content
 
 from tutor.ros_model import Topic
-from tutor.tui.live import wording
+from tutor.tui.live import formatting
 from tutor.tui.live.state import LiveState, TopicView
 
 
@@ -37,7 +37,7 @@ def topic_head(state: LiveState, chosen: str, view: TopicView | None, now: float
     update = view.snapshot.update if view.snapshot is not None else view.update
     if update is None:
         return Content.assemble(name, ("\n◐ subscribing", "$quiet"))
-    facts = f"  {wording.short_type(update.type)} · {update.qos}" if update.type else ""
+    facts = f"  {formatting.short_type(update.type)} · {update.qos}" if update.type else ""
     first = Content.assemble(name, (facts, "$quiet"))
     if update.problem:
         return Content.assemble(first, (f"\n✗ {update.problem}", "$bad"))
@@ -47,11 +47,11 @@ def topic_head(state: LiveState, chosen: str, view: TopicView | None, now: float
         reason = "nobody publishes yet: press M, or run a node that does" if no_publisher else "no message yet"
         return Content.assemble(first, (f"\n◐ {reason}", "$warn" if no_publisher else "$quiet"))
     since = 0.0 if view.snapshot is not None else max(0.0, now - view.updated_at)
-    numbers = wording.numbers(update, since)
+    numbers = formatting.numbers(update, since)
     if view.snapshot is not None and view.update is not None:
         more = view.update.count - update.count
         return Content.assemble(first, (f"\n▮▮ paused (+{more:,}) ", "bold $warn"), numbers)
-    mark, colour = ("■", "$quiet") if wording.is_silent(update, since) else ("●", "$good")
+    mark, colour = ("■", "$quiet") if formatting.is_silent(update, since) else ("●", "$good")
     return Content.assemble(first, "\n", (f"{mark} ", colour), numbers)
 
 
@@ -60,17 +60,19 @@ def cells(state: LiveState, topic: Topic) -> tuple[Text, ...]:
     view = state.topics.get(topic.name)
     update = view.update if view else None
     silent = (
-        update is not None and view is not None and wording.is_silent(update, max(0.0, time.time() - view.updated_at))
+        update is not None
+        and view is not None
+        and formatting.is_silent(update, max(0.0, time.time() - view.updated_at))
     )
     timing = update.timing if update and not silent else None
-    types = [wording.short_type(name) for name in topic.types]
+    types = [formatting.short_type(name) for name in topic.types]
     if topic.is_standard:  # their types are long, and well known
         types = [name.rpartition("/")[2] for name in types]
     pub, sub = len(topic.publishers), len(topic.subscriptions)
     return (
         Text("●" if view else " "),
         Text(topic.name, style="bold" if state.is_lesson_topic(topic.name) else ""),
-        Text(wording.rate(timing.rate_hz) if timing else "silent" if silent else "", justify="right"),
+        Text(formatting.rate(timing.rate_hz) if timing else "silent" if silent else "", justify="right"),
         Text(f"{update.count:,}" if update else "", justify="right"),
         Text(str(pub), justify="right"),
         Text(str(sub), justify="right"),

@@ -15,7 +15,7 @@ from textual.widgets.data_table import ColumnKey
 
 from tutor.live.protocol import Clear, Follow, Plot, Unfollow, WatcherRequest
 from tutor.ros_model import Topic
-from tutor.tui.live import wording
+from tutor.tui.live import formatting
 from tutor.tui.live.echo_view import EchoView
 from tutor.tui.live.plot_view import PlotView
 from tutor.tui.live.row_table import RowTable
@@ -141,7 +141,7 @@ class TopicsPanel(Vertical):
             plot.show(snapshot.points, now, "paused", band)
             echo.show_lines(view.topic, snapshot.lines, snapshot.line_count)
         else:
-            if points and view.update and wording.is_silent(view.update, max(0.0, now - view.updated_at)):
+            if points and view.update and formatting.is_silent(view.update, max(0.0, now - view.updated_at)):
                 plot.show(tuple(points), points[-1][0], "the last one", band)
             else:
                 plot.show(tuple(points), max(now, points[-1][0]) if points else now, band=band)
