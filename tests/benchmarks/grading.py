@@ -28,7 +28,7 @@ from tests.grade.classes import MadeClass, make_class
 from tests.grade.grade_process import GradeProcess
 from tutor.content import load_course
 from tutor.engine.loading import load_check
-from tutor.grade.machine import COSTS, DEFAULT_COST, cores, estimate_s
+from tutor.grade.capacity import COSTS, DEFAULT_COST, cores, estimate_s
 from tutor.grade.results import Result, ResultFolder
 
 ALLOWED_RATIO = 1.25

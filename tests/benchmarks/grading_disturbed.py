@@ -22,8 +22,8 @@ from pathlib import Path
 
 from tests.grade.dask_processes import Processes, is_checking, processes
 from tests.grade.grade_process import GradeProcess
+from tutor.grade.capacity import COSTS, checks_at_once, cores, estimate_s
 from tutor.grade.dask_cluster import connect
-from tutor.grade.machine import COSTS, checks_at_once, cores, estimate_s
 from tutor.grade.results import Result, ResultFolder
 
 Words = Sequence[str | Path]

@@ -19,7 +19,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from tutor.content import load_course
-from tutor.grade.machine import CHECKS_PER_CORE, COSTS, DEFAULT_COST
+from tutor.grade.capacity import CHECKS_PER_CORE, COSTS, DEFAULT_COST
 
 HANGING = 4.0
 

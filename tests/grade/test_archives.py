@@ -19,7 +19,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tutor.grade.archives import WHOLE_CLASS, BadArchive, Limits, is_archive, stem, unpack
-from tutor.grade.packing import digest_of, files_below, is_own_file, pack, unpack_packed
+from tutor.grade.submission_files import digest_of, files_below, is_own_file, pack, unpack_packed
 
 SMALL = Limits(20, 2 << 20)
 

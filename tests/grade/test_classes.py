@@ -8,7 +8,7 @@ from pathlib import Path
 from tests.grade.classes import EMPTY, KINDS, MISNAMED, make_class
 from tutor.content import load_course
 from tutor.grade.roster import Roster
-from tutor.grade.submissions import find_work
+from tutor.grade.work import find_work
 
 
 def test_every_submission_is_found_and_complete(tmp_path: Path) -> None:

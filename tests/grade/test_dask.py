@@ -23,10 +23,10 @@ from tutor.cli import main
 from tutor.content import load_course
 from tutor.errors import EngineError
 from tutor.grade.grading import Executor, Grading, LocalExecutor, Options
-from tutor.grade.packing import pack
 from tutor.grade.results import Result, ResultFolder, encode
-from tutor.grade.submissions import Work, find_work
+from tutor.grade.submission_files import pack
 from tutor.grade.unit import Outcome, Unit
+from tutor.grade.work import Work, find_work
 from tutor.interpreter import module_command
 from tutor.judge.events import Event, Progress
 

@@ -16,12 +16,12 @@ from tests.grade.made import ENVIRONMENT, FAULT, RATE
 from tests.waiting import wait_for
 from tutor.content import Course, load_course
 from tutor.errors import StorageError
+from tutor.grade.capacity import Cost
 from tutor.grade.grading import Grading, LocalExecutor, Options, Plan, course_digest
-from tutor.grade.machine import Cost
 from tutor.grade.results import Result, ResultFolder, encode
 from tutor.grade.roster import Roster
-from tutor.grade.submissions import Work, find_work
 from tutor.grade.unit import OnEvent, Outcome, Unit
+from tutor.grade.work import Work, find_work
 from tutor.judge.events import CheckFinished
 from tutor.judge.result import CriterionResult, ExerciseResult, Report
 from tutor.judge.verdict import Verdict, passed

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from tutor.grade.grading import Executor, Options, Plan
     from tutor.grade.points import Points
     from tutor.grade.results import Result, ResultFolder
-    from tutor.grade.submissions import Work
+    from tutor.grade.work import Work
 
 _FORMATS = ("text", "csv", "json", "junit", "html", "canvas", "moodle", "gradescope", "classroom50", "check50")
 _STEPS = ("none", "words")
@@ -146,7 +146,7 @@ def _grade(
     """
     from tutor import private_folders
     from tutor.grade.roster import Roster
-    from tutor.grade.submissions import find_work
+    from tutor.grade.work import find_work
 
     roster = Roster.read(arguments.roster) if arguments.roster else None
     with private_folders.temporary("class") as scratch:
@@ -174,8 +174,8 @@ def _run(
 
     from tutor.cli.grade_display import display_for
     from tutor.cli.judging import interruptible
+    from tutor.grade.capacity import costs_from, estimate_s, words_for
     from tutor.grade.grading import Grading, Options
-    from tutor.grade.machine import costs_from, estimate_s, words_for
     from tutor.grade.unit import DEFAULT_LIMIT_S
 
     folder.sweep()
@@ -216,8 +216,8 @@ class _Place(NamedTuple):
 
 @contextmanager
 def _open_place(arguments: argparse.Namespace, plan: Plan, options: Options) -> Iterator[_Place]:
+    from tutor.grade.capacity import checks_at_once, cores
     from tutor.grade.grading import LocalExecutor
-    from tutor.grade.machine import checks_at_once, cores
     from tutor.process.isolation_support import try_isolation
 
     if arguments.executor == "local" or not plan.todo:
@@ -263,7 +263,7 @@ def _report(
     results: Sequence[Result], arguments: argparse.Namespace, course: Course, points: Points, folder: ResultFolder
 ) -> int:
     from tutor.grade import formats
-    from tutor.grade.formats.feedback import fault_of
+    from tutor.grade.formats.feedback_text import fault_of
     from tutor.grade.gradebook import Gradebook
 
     gradebook = Gradebook.of(results, course, points, steps=arguments.steps == "words", title=_title(arguments, folder))

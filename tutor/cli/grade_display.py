@@ -17,12 +17,12 @@ from rich.text import Text
 from tutor.cli import terminal
 from tutor.cli.judging import Display
 from tutor.cli.live_console import live, stderr_console
+from tutor.grade.capacity import Cost, estimate_s, words_for
 from tutor.grade.formats.text import STYLES
 from tutor.grade.grading import Plan, Watcher
-from tutor.grade.machine import Cost, estimate_s, words_for
 from tutor.grade.results import Result
-from tutor.grade.submissions import Work
 from tutor.grade.unit import OnEvent
+from tutor.grade.work import Work
 from tutor.judge.events import Event, Progress
 from tutor.report.plain import seconds
 from tutor.terminal_text import printable

@@ -15,8 +15,8 @@ from distributed import Worker, get_worker
 from tutor import __version__
 from tutor.content import load_course
 from tutor.errors import TutorError
+from tutor.grade.capacity import cores
 from tutor.grade.grading import course_digest
-from tutor.grade.machine import cores
 from tutor.grade.unit import Outcome, Unit, run_unit
 from tutor.process.isolation_support import try_isolation
 

@@ -11,11 +11,11 @@ from typing import Protocol
 
 from tutor import __version__
 from tutor.content import Course, Lesson
-from tutor.grade.machine import COSTS, DEFAULT_COST, Cost
-from tutor.grade.packing import digest_of, pack
+from tutor.grade.capacity import COSTS, DEFAULT_COST, Cost
 from tutor.grade.results import Result, ResultFolder, Version, encode
-from tutor.grade.submissions import Work
+from tutor.grade.submission_files import digest_of, pack
 from tutor.grade.unit import DEFAULT_LIMIT_S, OnEvent, Outcome, Unit, run_unit
+from tutor.grade.work import Work
 from tutor.judge.result import Environment, Report
 from tutor.judge.verdict import Status
 from tutor.ros.environment import detect

@@ -11,7 +11,7 @@ from pathlib import Path
 from tutor.errors import StorageError, UsageError
 from tutor.grade.archives import ONE_SUBMISSION, WHOLE_CLASS, BadArchive, Limits, is_archive, is_skipped, stem, unpack
 from tutor.grade.learners import Learner
-from tutor.grade.packing import is_own_file
+from tutor.grade.submission_files import is_own_file
 
 _MAX_DEPTH, _MAX_FOLDERS = 6, 5000
 _MAX_NESTED, _NESTED_DEPTH = 10, 2

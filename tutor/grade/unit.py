@@ -10,7 +10,7 @@ from pathlib import Path
 
 from tutor import interpreter, private_folders
 from tutor.grade import private_paths
-from tutor.grade.packing import unpack_packed
+from tutor.grade.submission_files import unpack_packed
 from tutor.judge.events import WAITING, CheckFinished, Event, Progress, ResourcesUsed
 from tutor.judge.result import Report
 from tutor.session.engine_process import EngineChild

@@ -19,7 +19,7 @@ from tutor.errors import EngineError, TutorError
 from tutor.grade.autograder import COURSE, POINTS, SETTINGS, Settings
 from tutor.grade.autograder.judging import judge, say
 from tutor.grade.formats.classroom50 import result_document
-from tutor.grade.formats.feedback import fault_of
+from tutor.grade.formats.feedback_text import fault_of
 from tutor.grade.formats.gradescope import results_document
 from tutor.grade.points import Points
 from tutor.grade.results import Result

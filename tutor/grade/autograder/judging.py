@@ -11,11 +11,11 @@ from pathlib import Path
 from tutor import __version__, private_folders
 from tutor.content import Course
 from tutor.grade.autograder import Settings
+from tutor.grade.capacity import checks_at_once
 from tutor.grade.grading import Grading, LocalExecutor, Options
-from tutor.grade.machine import checks_at_once
 from tutor.grade.results import Result, ResultFolder, Version
-from tutor.grade.submissions import Work, find_work
 from tutor.grade.unit import DEFAULT_LIMIT_S, OnEvent
+from tutor.grade.work import Work, find_work
 from tutor.judge.result import Environment, Report
 from tutor.process.isolation_support import try_isolation
 from tutor.stop_signals import run_until_stopped

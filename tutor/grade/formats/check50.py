@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from tutor.grade.formats.feedback import fault_of
+from tutor.grade.formats.feedback_text import fault_of
 from tutor.grade.formats.json_document import points
 from tutor.grade.gradebook import Gradebook
 from tutor.grade.points import CriterionScore, Score

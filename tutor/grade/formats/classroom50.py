@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from typing import Any
 
 from tutor.errors import UsageError
-from tutor.grade.formats.feedback import criterion_text
+from tutor.grade.formats.feedback_text import criterion_text
 from tutor.grade.gradebook import Gradebook
 from tutor.grade.learners import Learner
 from tutor.grade.points import CriterionScore, Points, Score

@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from typing import Any
 
-from tutor.grade.formats.feedback import FAULT, criterion_text, exercise_text, fault_of
+from tutor.grade.formats.feedback_text import FAULT, criterion_text, exercise_text, fault_of
 from tutor.grade.gradebook import Gradebook
 from tutor.grade.points import CriterionScore, Points
 from tutor.grade.results import Result

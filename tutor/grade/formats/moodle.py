@@ -14,7 +14,7 @@ from io import StringIO
 
 from tutor.errors import UsageError
 from tutor.grade.formats.csv_table import as_text, number
-from tutor.grade.formats.feedback import exercise_text
+from tutor.grade.formats.feedback_text import exercise_text
 from tutor.grade.formats.matching import Finder, name_keys, names_of, number_is_from
 from tutor.grade.formats.template import Template, to_number
 from tutor.grade.gradebook import Gradebook

@@ -17,7 +17,7 @@ from tutor.content import Course, load_course
 from tutor.errors import UnknownExercise, UsageError
 from tutor.grade.layout_pattern import LayoutPattern
 from tutor.grade.roster import Roster
-from tutor.grade.submissions import Work, find_work
+from tutor.grade.work import Work, find_work
 
 PUBLISHER, STATS, LAUNCH = "temperature_publisher.py", "message_stats.py", "my_launch.py"
 SERVER, CLIENT = "calculator_server.py", "calculator_client.py"

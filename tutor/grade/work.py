@@ -13,8 +13,8 @@ from tutor.errors import UsageError
 from tutor.grade.handed_in import HandedIn, Opener
 from tutor.grade.layouts import Layouts
 from tutor.grade.learners import Learner, with_unique_ids
-from tutor.grade.packing import digest_of, files_below, is_own_file
 from tutor.grade.roster import Roster
+from tutor.grade.submission_files import digest_of, files_below, is_own_file
 from tutor.judge.result import Lookup
 
 _MAX_LISTED = 20

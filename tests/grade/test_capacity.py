@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from tests.grade.made import ADA, BRIAN, CHLOE, failing, missing, passing, unjudged
-from tutor.grade import machine
-from tutor.grade.machine import (
+from tutor.grade import capacity
+from tutor.grade.capacity import (
     COSTS,
     DEFAULT_COST,
     Cost,
@@ -24,7 +24,7 @@ from tutor.grade.machine import (
 
 @pytest.fixture
 def cgroup(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr(machine, "_CGROUP", tmp_path)
+    monkeypatch.setattr(capacity, "_CGROUP", tmp_path)
     monkeypatch.setattr("os.sched_getaffinity", lambda pid: set(range(8)))
     return tmp_path
 
@@ -49,13 +49,13 @@ def test_memory(cgroup: Path) -> None:
 
 
 def test_checks_at_once_keep_to_cores_and_memory(cgroup: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(machine, "memory_mb", lambda: 1e6)
+    monkeypatch.setattr(capacity, "memory_mb", lambda: 1e6)
     assert checks_at_once() == 16
     (cgroup / "cpu.max").write_text("150000 100000\n")
     assert checks_at_once() == 3
-    monkeypatch.setattr(machine, "memory_mb", lambda: 2000.0)
+    monkeypatch.setattr(capacity, "memory_mb", lambda: 2000.0)
     assert checks_at_once() == 2
-    monkeypatch.setattr(machine, "memory_mb", lambda: -5.0)
+    monkeypatch.setattr(capacity, "memory_mb", lambda: -5.0)
     assert checks_at_once() == 1
 
 
