@@ -23,7 +23,7 @@ from pathlib import Path
 from tutor.content import load_course
 from tutor.engine import run_check
 from tutor.ros import domain
-from tutor.workspace.submissions import find_submission
+from tutor.workspace.submission_lookup import find_submission
 
 domain._queue = deque(domain.IDS)  # each start's domain is the next one after the last start's
 course = load_course()

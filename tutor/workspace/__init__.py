@@ -13,7 +13,7 @@ from tutor.workspace.progress_file import ProgressFile
 from tutor.workspace.recording import record
 from tutor.workspace.saving import Saved, back_up_file, overwrite_file, read_source
 from tutor.workspace.starting import TEMPLATE, Started, start, start_in
-from tutor.workspace.submissions import (
+from tutor.workspace.submission_lookup import (
     NOT_STARTED,
     find_submission,
     is_own,

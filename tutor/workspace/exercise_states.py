@@ -11,7 +11,7 @@ from tutor.content import Lesson
 from tutor.workspace.digests import digests_of, version_of
 from tutor.workspace.layout import Workspace
 from tutor.workspace.progress import ExerciseProgress, Progress
-from tutor.workspace.submissions import is_started
+from tutor.workspace.submission_lookup import is_started
 
 
 class State(Enum):
