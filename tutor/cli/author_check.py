@@ -156,7 +156,7 @@ def _prove(
 ) -> Sequence[Proof] | None:
     """Run everything; return None if interrupted."""
     from tutor import private_folders
-    from tutor.cli.judging import NoDisplay, interruptible
+    from tutor.cli.interruptible_run import NoDisplay, interruptible
     from tutor.engine.verification import jobs_of_lessons, prove
 
     def report_progress(proof: Proof) -> None:

@@ -14,7 +14,7 @@ from tutor.cli.errors import FAULT, INTERRUPTED, NOT_PASSED, PASSED
 from tutor.errors import UsageError
 
 if TYPE_CHECKING:
-    from tutor.cli.judging import Engine
+    from tutor.cli.interruptible_run import Engine
     from tutor.content import Course
     from tutor.judge.result import ExerciseResult, Report
     from tutor.judge.submission import Submission
@@ -48,7 +48,7 @@ def add_first(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace, engine: Engine | None = None) -> int:
     """Judge, write the report, and save the result if the workspace's own files were judged."""
     from tutor.cli.choosing import ALL, choose_lessons, choose_submissions, with_missing
-    from tutor.cli.judging import display_for, judge
+    from tutor.cli.interruptible_run import display_for, judge
     from tutor.report import renderer_of
     from tutor.workspace import find_submission, solution
 

@@ -173,7 +173,7 @@ def _run(
     from dataclasses import replace
 
     from tutor.cli.grade_display import display_for
-    from tutor.cli.judging import interruptible
+    from tutor.cli.interruptible_run import interruptible
     from tutor.grade.capacity import costs_from, estimate_s, words_for
     from tutor.grade.grading import Grading, Options
     from tutor.grade.unit import DEFAULT_LIMIT_S

@@ -15,7 +15,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tutor.cli import terminal
-from tutor.cli.judging import Display
+from tutor.cli.interruptible_run import Display
 from tutor.cli.live_console import live, stderr_console
 from tutor.grade.capacity import Cost, estimate_s, words_for
 from tutor.grade.formats.text import STYLES

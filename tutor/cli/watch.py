@@ -11,7 +11,7 @@ from tutor.cli import check, context, terminal
 from tutor.cli.errors import INTERRUPTED
 
 if TYPE_CHECKING:
-    from tutor.cli.judging import Engine
+    from tutor.cli.interruptible_run import Engine
 
 _POLL_INTERVAL_S = 0.3
 _SOURCE_SUFFIXES = (".py", ".xml", ".yaml", ".yml")
