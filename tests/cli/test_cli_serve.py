@@ -280,8 +280,8 @@ def test_host_names_that_other_machines_may_use(host: str, ours: bool) -> None:
 async def test_the_size_of_a_page_is_limited_to_what_an_app_can_draw(
     width: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    from tutor.serve.page_session import Session
     from tutor.serve.server import HIGHEST, WIDEST, AppServer
-    from tutor.serve.session import Session
 
     sizes: list[tuple[int, int]] = []
 

@@ -12,7 +12,7 @@ from aiohttp import web
 from textual_serve.server import Server, to_int
 
 from tutor.serve import guard
-from tutor.serve.session import Session
+from tutor.serve.page_session import Session
 
 PAGE = Path(__file__).parent / "page"
 
