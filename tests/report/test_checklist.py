@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from tutor.content import Checklist, ChecklistGroup, ChecklistItem, Course, CriterionText, Difficulty, Lesson
 from tutor.judge.verdict import Status
 from tutor.report.assessment import Assessment, Evidence, Source, assess
-from tutor.report.checklist import FORMATS, format_of, render_checklist
+from tutor.report.checklist_formats import FORMATS, format_of, render_checklist
 from tutor.report.phrases import calendar_day, describe_evidence, describe_sources, near_day
 from tutor.workspace import Attempt, ExerciseProgress, Help, Progress
 

@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _check_options(arguments: argparse.Namespace) -> None:
-    from tutor.report.checklist import SUFFIXES, format_of
+    from tutor.report.checklist_formats import SUFFIXES, format_of
 
     takes_items = arguments.action in ("tick", "untick")
     if takes_items and not arguments.items:
@@ -115,7 +115,7 @@ def _wrap_lines(text: str) -> list[str]:
 
 
 def _export(assessment: Assessment, format: str | None, output: Path | None) -> None:
-    from tutor.report.checklist import format_of, render_checklist
+    from tutor.report.checklist_formats import format_of, render_checklist
     from tutor.workspace import write_atomically
     from tutor.workspace.progress import now
 

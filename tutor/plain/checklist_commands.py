@@ -7,7 +7,7 @@ from pathlib import Path
 from tutor.errors import CommandRefused
 from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.report.assessment import AssessedItem, Assessment
-from tutor.report.checklist import FORMATS, SUFFIXES
+from tutor.report.checklist_formats import FORMATS, SUFFIXES
 from tutor.report.phrases import describe_evidence, near_day
 from tutor.session.paths import short_path
 

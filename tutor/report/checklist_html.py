@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from html import escape as escape_html
 
 from tutor.report.assessment import AssessedExercise, AssessedGroup, AssessedItem, Assessment
-from tutor.report.checklist import TITLE
+from tutor.report.checklist_formats import TITLE
 from tutor.report.phrases import calendar_day, describe_evidence, describe_help
 from tutor.terminal_text import printable
 

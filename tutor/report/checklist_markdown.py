@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tutor.report.assessment import AssessedExercise, AssessedItem, Assessment
-from tutor.report.checklist import TITLE
+from tutor.report.checklist_formats import TITLE
 from tutor.report.markdown import escape
 from tutor.report.phrases import calendar_day, describe_evidence, describe_status
 

@@ -188,7 +188,7 @@ class Session:
 
         Raises StorageError.
         """
-        from tutor.report.checklist import render_checklist
+        from tutor.report.checklist_formats import render_checklist
 
         if os.path.exists(path) and not replace:  # Path.exists raises PermissionError
             return False

@@ -13,7 +13,7 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import Button, Input, Static
 
-from tutor.report.checklist import FORMATS, SUFFIXES, format_of
+from tutor.report.checklist_formats import FORMATS, SUFFIXES, format_of
 from tutor.session.paths import short_path
 from tutor.tui.dialogs.dialog import Dialog
 
