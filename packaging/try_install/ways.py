@@ -126,6 +126,8 @@ def _as_uv_tool(place: Place, tools: Tools) -> list[str]:
 
 def _with_uvx(place: Place, tools: Tools) -> list[str]:
     place.env.update(tools.env)
+    if cache := place.env.get("UV_CACHE_DIR"):  # uvx asks for both where a home cannot be written
+        place.env["UV_TOOL_DIR"] = f"{cache}/tools"
     return [str(tools.bin / "uvx"), "ros-tutor"]
 
 
