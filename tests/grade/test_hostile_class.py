@@ -174,7 +174,9 @@ def test_isolated_hostile_submissions_change_no_verdict_but_their_own(tmp_path: 
     graded = a_class.grade()
     statuses = {learner: graded.status(learner) for learner in graded.results}
     assert statuses.pop("kills") == "error", "it ended what looks after it: twice, alone the second time"
-    assert statuses == {"ada": "passed", "zoe": "passed", **dict.fromkeys(hostile.keys() - {"kills"}, "failed")}
+    assert statuses.pop("turns") in ("failed", "error"), "it can take the domains that its own check needs next"
+    others = hostile.keys() - {"kills", "turns"}
+    assert statuses == {"ada": "passed", "zoe": "passed", **dict.fromkeys(others, "failed")}
     assert graded.exit == 3
     assert set(graded.criteria("ada").values()) == set(graded.criteria("zoe").values()) == {"passed"}
     assert {path: path.read_bytes() for path in a_class.folder.rglob("*.py")} == before

@@ -12,6 +12,7 @@ from tutor.content.places import find_word
 from tutor.content.problem import Problem
 from tutor.content.submissions import EXPECT, PATCH, RIGHT, WRONG, Case, read_case
 from tutor.errors import ContentError
+from tutor.invocation import command
 
 _EXCLUSIVE = ("fails", "bonus_failed")
 """Keys whose criteria may be named in no other key: they fail, so no other expectation can hold for them."""
@@ -90,7 +91,7 @@ def _find_unknown_mistakes(case: Case, known: Collection[str]) -> Iterator[Probl
     for name in dict.fromkeys(name for names in case.expected.mistakes.values() for name in names):
         if name not in known:
             near = get_close_matches(name, known, n=1)
-            hint = f"did you mean {near[0]}?" if near else "`ros-tutor explain` lists all"
+            hint = f"did you mean {near[0]}?" if near else f"`{command('explain')}` lists all"
             yield Problem(case.source, f"mistake: there is no {name!r}", hint, line=find_word(case.source, name))
 
 
