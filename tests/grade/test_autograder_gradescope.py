@@ -47,6 +47,8 @@ def lay_out(archive: Path, folder: Path) -> Path:
 
 
 COMPILE = """
+import ros_tutor, sys
+sys.path[:0] = ros_tutor.__path__
 from tutor.ros.bytecode import compile_ros_modules
 from tutor.ros.environment import detect
 compile_ros_modules(detect())

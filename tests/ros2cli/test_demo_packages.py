@@ -9,15 +9,12 @@ from __future__ import annotations
 import os
 import subprocess
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from tests.ros.ordinary_domain import ordinary_domain
 from tests.ros2cli.bench import Bench, Ran
-from tests.ros2cli.test_shell import TUTOR, user_env
-from tutor.ros.discovery import PROFILE
+from tests.ros2cli.users import TUTOR, on_an_ordinary_domain, user_env
 
 SETUP = """
 from setuptools import find_packages, setup
@@ -271,11 +268,8 @@ def main(args=None):
 
 @pytest.fixture(scope="module")
 def bench(module_bench: Bench) -> Iterator[Bench]:
-    profile = module_bench.folder / "profile.xml"
-    profile.write_bytes(PROFILE.read_bytes())
-    own_profile = {name: str(profile) for name, value in module_bench.env.items() if value == str(PROFILE)}
-    with ordinary_domain() as domain:
-        yield replace(module_bench, env={**module_bench.env, **own_profile, "ROS_DOMAIN_ID": str(domain)})
+    with on_an_ordinary_domain(module_bench) as bench:
+        yield bench
 
 
 @pytest.fixture(scope="module")

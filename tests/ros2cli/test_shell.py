@@ -6,20 +6,16 @@ import os
 import shutil
 import signal
 import subprocess
-import sys
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from tests.ros.ordinary_domain import ordinary_domain
 from tests.ros2cli.bench import TALKER, Bench, Ran
 from tests.ros2cli.pseudo_terminal import terminal
+from tests.ros2cli.users import TUTOR, on_an_ordinary_domain, user_env
 from tutor.bundled_ros.ros2.absent import ABSENT
-from tutor.ros.discovery import PROFILE
 
-TUTOR = [sys.executable, "-P", "-c", "import sys; from tutor.cli import main; sys.exit(main())"]
 NODE = """
 import rclpy
 def main():
@@ -28,18 +24,6 @@ def main():
 if __name__ == "__main__":
     main()
 """
-
-
-def user_env(bench: Bench, **more: str) -> dict[str, str]:
-    """The environment of a user's terminal, on the bench's domain."""
-    names = ("PATH", "LANG", "ROS_DOMAIN_ID", "HOME", "TMPDIR")
-    kept = {name: bench.env[name] for name in names if name in bench.env}
-    discovery = {
-        name: value
-        for name, value in bench.env.items()
-        if name.startswith(("FAST", "ROS_AUTOMATIC", "ROS_TUTOR_GROUP"))
-    }
-    return {**kept, **discovery, "SHELL": shutil.which("bash") or "", "TERM": "dumb", **more}
 
 
 def run_tutor(bench: Bench, *words: str, env: dict[str, str]) -> Ran:
@@ -51,15 +35,8 @@ def run_tutor(bench: Bench, *words: str, env: dict[str, str]) -> Ran:
 
 @pytest.fixture(scope="module")
 def bench(module_bench: Bench) -> Iterator[Bench]:
-    """A bench on an ordinary ROS domain, such as users have.
-
-    A DDS profile of the user's keeps the traffic within the tests.
-    """
-    profile = module_bench.folder / "profile.xml"
-    profile.write_bytes(PROFILE.read_bytes())
-    own_profile = {name: str(profile) for name, value in module_bench.env.items() if value == str(PROFILE)}
-    with ordinary_domain() as domain:
-        yield replace(module_bench, env={**module_bench.env, **own_profile, "ROS_DOMAIN_ID": str(domain)})
+    with on_an_ordinary_domain(module_bench) as bench:
+        yield bench
 
 
 @pytest.fixture(scope="module")

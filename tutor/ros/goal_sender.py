@@ -7,9 +7,11 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
+from uuid import uuid4
 
 from rclpy.action.client import ActionClient
 from rclpy.qos import QoSProfile
+from unique_identifier_msgs.msg import UUID
 
 from tutor.judge.trace import GoalAnswer, Sample
 from tutor.ros.fields import assign
@@ -41,7 +43,15 @@ class GoalSender(Observer):
             self._type,
             action,
             callback_group=self._gate,
-            feedback_sub_qos_profile=QoSProfile(depth=MAX_FEEDBACK),
+        )
+        self._goal_id = b""
+        # Not through the client: the result may overtake feedback, and rclpy drops what comes after it.
+        self.node.create_subscription(
+            self._type.Impl.FeedbackMessage,
+            f"{action}/_action/feedback",
+            self._take_feedback,
+            QoSProfile(depth=MAX_FEEDBACK),
+            callback_group=self._gate,
         )
         self._executor.wake()
 
@@ -69,7 +79,9 @@ class GoalSender(Observer):
         self._client.destroy()
 
     def _send(self, goal: Any) -> None:
-        self._client.send_goal_async(goal, self._take_feedback).add_done_callback(self._take_answer)
+        self._goal_id = uuid4().bytes
+        goal_id = UUID(uuid=list(self._goal_id))
+        self._client.send_goal_async(goal, goal_uuid=goal_id).add_done_callback(self._take_answer)
 
     def _take_answer(self, done: Any) -> None:
         self._handle = done.result()
@@ -78,6 +90,8 @@ class GoalSender(Observer):
             self._handle.get_result_async().add_done_callback(self._take_result)
 
     def _take_feedback(self, message: Any) -> None:
+        if bytes(message.goal_id.uuid) != self._goal_id:  # another client's
+            return
         now = time.time()
         self._call_on_loop(self._add_feedback, Sample(self._action, to_plain(message.feedback), now, now))
 
