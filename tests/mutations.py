@@ -163,7 +163,9 @@ def main() -> None:
         def judge(mutant: Mutant) -> str:
             tree = trees.pop()
             try:
-                return killed_by(mutant, tree, recordings, replayed)
+                killer = killed_by(mutant, tree, recordings, replayed)
+                print(f"{killer or 'survived':9} {mutant.file}:{mutant.line}", file=sys.stderr)
+                return killer
             finally:
                 trees.append(tree)
 

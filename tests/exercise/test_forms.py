@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -233,7 +234,9 @@ def test_one_value_where_several_are_to_be_given_is_refused() -> None:
 
 
 def test_a_function_that_awaits_nothing_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"line \d+ awaits nothing: write `await node.rejects\(...\)`"):
+    lines = Path(__file__).read_text().splitlines()
+    line = next(number for number, text in enumerate(lines, start=1) if text.strip().startswith("node.rejects("))
+    with pytest.raises(ValueError, match=rf"line {line} awaits nothing: write `await node.rejects\(...\)`"):
 
         @criterion("limits", "bad values are rejected")
         async def limits(node: Node) -> None:
