@@ -46,7 +46,7 @@ class GoalSender(Observer):
         )
         self._goal_id = b""
         # Not through the client: the result may overtake feedback, and rclpy drops what comes after it.
-        self.node.create_subscription(
+        self._feedback = self.node.create_subscription(
             self._type.Impl.FeedbackMessage,
             f"{action}/_action/feedback",
             self._take_feedback,
@@ -73,6 +73,7 @@ class GoalSender(Observer):
     def drop_received(self) -> None:
         with contextlib.suppress(AttributeError):  # the executor has been shut down meanwhile
             self._executor.create_task(self._client.destroy)
+            self._executor.create_task(self.node.destroy_subscription, self._feedback)
 
     def close(self) -> None:
         super().close()
