@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from difflib import get_close_matches
 from pathlib import Path
 
 from tutor.content.model import Course, Lesson
@@ -88,10 +87,12 @@ def _lint_case(case: Case, lesson: Lesson) -> Iterator[Problem]:
 
 
 def _find_unknown_mistakes(case: Case, known: Collection[str]) -> Iterator[Problem]:
+    from tutor.mistakes.pages import nearest  # late, as the catalogue
+
     for name in dict.fromkeys(name for names in case.expected.mistakes.values() for name in names):
         if name not in known:
-            near = get_close_matches(name, known, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"`{command('explain')}` lists all"
+            near = nearest(name, known)
+            hint = f"did you mean {' or '.join(near)}?" if near else f"`{command('explain')}` lists all"
             yield Problem(case.source, f"mistake: there is no {name!r}", hint, line=find_word(case.source, name))
 
 

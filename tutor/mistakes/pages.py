@@ -66,9 +66,9 @@ def search(words: str, mistakes: Iterable[Mistake]) -> list[Mistake]:
     return [entry for at, entry in sorted(ranked, key=lambda pair: pair[0]) if at < 3]
 
 
-def nearest(id: str, mistakes: Mapping[str, Mistake]) -> list[str]:
-    """The ids that are spelled nearly like this one."""
-    return difflib.get_close_matches(id.lower().replace(" ", "-"), mistakes, n=3)
+def nearest(id: str, mistakes: Iterable[str]) -> list[str]:
+    """Of the ids of these mistakes, those that are spelled nearly like this one."""
+    return difflib.get_close_matches(id.lower().replace(" ", "-"), list(mistakes), n=3)
 
 
 def text_of(entry: Mistake) -> str:

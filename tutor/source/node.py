@@ -83,17 +83,6 @@ class NodeFile(SourceFile):
         reached = (inner for callback in given if callback is not None for inner in self.reachable_from(callback))
         return list(dict.fromkeys(reached))
 
-    def imported_name(self, name: str, module: str) -> str | None:
-        """The name under which the file imports something from a module; None if it does not."""
-        for statement, alias in self.imports:
-            if isinstance(statement, ast.ImportFrom) and (statement.module, alias.name) == (module, name):
-                return alias.asname or name
-            if isinstance(statement, ast.ImportFrom) and f"{statement.module}.{alias.name}" == module:
-                return f"{alias.asname or alias.name}.{name}"
-            if isinstance(statement, ast.Import) and alias.name == module:
-                return f"{alias.asname or module}.{name}"
-        return None
-
 
 @lru_cache(maxsize=32)
 def node_file(text: str, name: str = "") -> NodeFile:

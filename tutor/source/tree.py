@@ -13,12 +13,6 @@ def parse(text: str) -> ast.Module:
         return ast.parse(text)
 
 
-def compile_quietly(text: str) -> None:
-    """Compile Python code, to see whether that raises SyntaxError, without Python's warnings."""
-    with warnings.catch_warnings(action="ignore", category=SyntaxWarning):
-        compile(text, "<learner>", "exec", dont_inherit=True)
-
-
 class _WithoutAnnotations(ast.NodeTransformer):
     """Turns each annotated assignment in a function into a plain one, which is all that it is when it runs."""
 
