@@ -19,7 +19,7 @@ from tutor.judge.check import Check, Criterion
 from tutor.judge.events import Event
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
-from tutor.judge.verdict import Verdict, passed
+from tutor.judge.verdict import Status, Verdict, passed
 from tutor.process.supervisor import processes
 from tutor.ros import domain
 
@@ -160,6 +160,14 @@ def lesson(check: Check) -> Lesson:
 def criterion(name: str, *facts: Scenario[Any], judge: Callable[..., Verdict] | None = None, **more: Any) -> Criterion:
     """Return a criterion that passes unless `judge` says otherwise."""
     return Criterion(name, judge or (lambda *facts: passed("all", str(facts))), facts, **more)
+
+
+def assert_failed_for(result: ExerciseResult, mistake: str, words: str) -> None:
+    """Assert that the only criterion failed for this mistake, and that the words are in what was observed, or why."""
+    (judged,) = result.criteria
+    assert judged.verdict.status is Status.FAILED, judged.verdict
+    assert words in f"{judged.verdict.observed} | {judged.verdict.cause}", judged.verdict
+    assert judged.verdict.mistake == mistake, judged.verdict
 
 
 def statuses(result: ExerciseResult) -> Mapping[str, str]:

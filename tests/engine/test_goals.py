@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.engine.helpers import NODE, Scene, statuses
+from tests.engine.helpers import NODE, Scene, assert_failed_for, statuses
 from tutor.exercise import Action, HandlesGoal, Node, Program, check, criterion
-from tutor.judge.verdict import Status
 
 COUNT = Action("/count", "example_interfaces/action/Fibonacci")
 
@@ -121,7 +120,4 @@ async def test_a_wrong_server_fails_what_it_breaks(
     scene: Scene, change: str, criterion: str, mistake: str, words: str
 ) -> None:
     result = await scene.judge(*CHECK.criteria, source=server(change), only=frozenset({criterion}))
-    (judged,) = result.criteria
-    assert judged.verdict.status is Status.FAILED, judged.verdict
-    assert words in f"{judged.verdict.observed} | {judged.verdict.cause}", judged.verdict
-    assert judged.verdict.mistake == mistake, judged.verdict
+    assert_failed_for(result, mistake, words)

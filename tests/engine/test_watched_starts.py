@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from tests.engine.helpers import NODE, Scene, statuses
+from tests.engine.helpers import NODE, Scene, assert_failed_for, statuses
 from tutor.exercise import (
     AtLeast,
     EndsCleanly,
@@ -20,7 +20,6 @@ from tutor.exercise import (
     check,
     criterion,
 )
-from tutor.judge.verdict import Status
 
 COMMAND = Topic("/command", "geometry_msgs/msg/Twist", "linear.x")
 DOUBLED = Topic("/doubled", "std_msgs/msg/Float32")
@@ -133,7 +132,4 @@ async def test_a_wrong_node_fails_what_it_breaks(
 ) -> None:
     alone = check("t1", Program("node.py"), *(form for form in FORMS if form.id == criterion))
     result = await scene.judge(*alone.criteria, source=robot(change))
-    (judged,) = result.criteria
-    assert judged.verdict.status is Status.FAILED, judged.verdict
-    assert words in f"{judged.verdict.observed} | {judged.verdict.cause}", judged.verdict
-    assert judged.verdict.mistake == mistake, judged.verdict
+    assert_failed_for(result, mistake, words)

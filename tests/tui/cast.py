@@ -24,7 +24,6 @@ from tutor.tui.themes import DARK
 
 SIZE = (120, 34)
 RIGHT, WRONG = "create_timer(1.0 / rate,", "create_timer(rate,"
-EXERCISE = 0
 
 
 class Cast:
@@ -72,7 +71,7 @@ async def begin(cast: Cast, session: Session) -> None:
 
 async def learn(cast: Cast, session: Session) -> None:
     """The lesson, the node as it runs, a check that fails, why, and one that passes."""
-    lesson = session.lessons[EXERCISE]
+    lesson = session.lessons[0]
     node = session.path(lesson.files[0])
     node.write_text(node.read_text().replace(RIGHT, WRONG))
     app = TutorApp(session)
