@@ -5,13 +5,17 @@ from __future__ import annotations
 import asyncio
 import os
 import sys
+import tempfile
 import time
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from tutor.content import load_course
 from tutor.content.expectations import Error, find_deviations
-from tutor.content.submissions import EXPECT, Case, read_case
+from tutor.content.patches import write_patched
+from tutor.content.submissions import EXPECT, PATCH, Case, read_case
 from tutor.engine.leftovers import find_leftovers
 from tutor.errors import ContentError
 from tutor.judge.events import ExerciseJudged, decode
@@ -41,9 +45,10 @@ def find_cases(wanted: Sequence[str] = ()) -> tuple[list[Case], list[ContentErro
     """Return the cases whose names start with one of `wanted` (all if empty), and the errors of unreadable ones."""
     cases: list[Case] = []
     broken: list[ContentError] = []
-    for file in sorted(ROOT.glob(f"*/*/*/{EXPECT}")):
+    folders = [file.parent for file in ROOT.glob(f"*/*/*/{EXPECT}")]
+    for path in sorted([*folders, *ROOT.glob(f"*/*/*{PATCH}")]):
         try:
-            cases.append(read_case(file.parent))
+            cases.append(read_case(path))
         except ContentError as error:
             broken.append(error)
     return [case for case in cases if not wanted or any(str(case).startswith(prefix) for prefix in wanted)], broken
@@ -54,6 +59,18 @@ def holds_here(case: Case) -> bool:
     from tutor.ros.environment import detect
 
     return case.expected.ros in ("", detect().kind)
+
+
+@contextmanager
+def laid_out(case: Case) -> Iterator[Case]:
+    """The case with all its files in a folder: what a patch makes of the solution is written into a temporary one."""
+    if not case.changes:
+        yield case
+        return
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch) / case.folder.stem
+        write_patched(load_course().find(case.exercise), case.changes, folder)
+        yield replace(case, folder=folder, changes=())
 
 
 class NoVerdict(Exception):
@@ -68,7 +85,8 @@ async def judge(case: Case, only: Sequence[str] = (), record: Path | None = None
     started = time.monotonic()
     engine = ("tests.recordings.engine", str(record), str(case)) if record else ("tutor.engine",)
     try:
-        result, stderr = await run_engine(case.exercise, case.folder, only, engine=engine)
+        with laid_out(case) as files:
+            result, stderr = await run_engine(case.exercise, files.folder, only, engine=engine)
     except NoVerdict as error:
         return Outcome(case, [str(error)], took_s=time.monotonic() - started)
     took = time.monotonic() - started

@@ -12,10 +12,10 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
-from tests.judging import LIMIT_S, NoVerdict, run_engine, run_to_end
+from tests.judging import LIMIT_S, NoVerdict, laid_out, run_engine, run_to_end
 from tutor.content.submissions import Case
 from tutor.judge.result import ExerciseResult
 
@@ -41,6 +41,11 @@ class JudgedRun:
 
 async def judge_in_turn(case: Case, number: int, criteria: Sequence[str]) -> JudgedRun:
     """Judge a submission for the `number`th time (from 0), in the way that is next; `criteria`: the exercise's."""
+    with laid_out(case) as files:
+        return replace(await _judge_files(files, number, criteria), case=case)
+
+
+async def _judge_files(case: Case, number: int, criteria: Sequence[str]) -> JudgedRun:
     rounds, place = divmod(number, len(Way))
     way = list(Way)[place]
     try:

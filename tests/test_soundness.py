@@ -24,11 +24,11 @@ import pytest
 
 from tests import soundness
 from tests.hostile import find_hostile
-from tests.judging import ROOT, Outcome, compare, find_cases, holds_here, judge
+from tests.judging import ROOT, Outcome, compare, find_cases, holds_here, judge, laid_out
 from tests.sameness import JudgedRun, Way, variations
 from tests.sampling import changed, judged_criteria, sample, shows
 from tutor.content import load_course
-from tutor.content.submissions import Case, Expected
+from tutor.content.submissions import Case, Expected, read_case
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
 
@@ -60,8 +60,10 @@ def outcomes(request: pytest.FixtureRequest) -> Iterator[dict[str, Future[Outcom
     async def judge_one(case: Case) -> None:
         try:
             with tempfile.TemporaryDirectory() as folder:  # a copy: some submissions change or remove their own files
-                copy = shutil.copytree(case.folder, Path(folder) / case.folder.name)
-                outcome = await judge(replace(case, folder=copy), judged_criteria(case, FIRST[case.exercise]))
+                own = case
+                if not case.changes:
+                    own = replace(case, folder=shutil.copytree(case.folder, Path(folder) / case.folder.name))
+                outcome = await judge(own, judged_criteria(case, FIRST[case.exercise]))
                 futures[str(case)].set_result(outcome)
         except Exception as error:
             futures[str(case)].set_exception(error)  # raised in that case's test; the others continue
@@ -126,6 +128,18 @@ def _case(name: str = "a", kind: str = "wrong", exercise: str = "x1.1", **keys: 
 
 def test_every_expect_file_can_be_read() -> None:
     assert [str(error) for error in BROKEN] == []
+
+
+def test_a_patch_is_judged_as_the_solution_with_its_changes(tmp_path: Path) -> None:
+    patch = tmp_path / "i1_1/wrong/other-topic.yaml"
+    patch.parent.mkdir(parents=True)
+    patch.write_text(
+        "says: another topic\nchange: [{from: '\"/sensor/temperature\"', to: '\"/warmth\"'}]\nfails: [publishes]\n"
+    )
+    with laid_out(read_case(patch)) as case:
+        (file,) = case.folder.iterdir()
+        assert '"/warmth"' in file.read_text()
+    assert not file.exists()
 
 
 def test_false_passes_and_false_failures_are_detected() -> None:

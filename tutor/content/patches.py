@@ -76,6 +76,14 @@ def patched(lesson: Lesson, changes: Sequence[Change]) -> Mapping[str, str]:
     return sources
 
 
+def write_patched(lesson: Lesson, changes: Sequence[Change], folder: Path) -> None:
+    """Write the solution's files with these changes into a folder, which is made. Raises ContentError and OSError."""
+    folder.mkdir(parents=True)
+    for name, source in patched(lesson, changes).items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(source, encoding="utf-8")
+
+
 def _apply(change: Change, name: str, source: str) -> str:
     by_lines = "\n" in change.old or "\n" in change.new
     found = list(_by_lines(change, source) if by_lines else _by_words(change, source))

@@ -10,7 +10,7 @@ from enum import StrEnum
 from pathlib import Path
 
 from tutor.content import Course, Lesson
-from tutor.content.patches import patched
+from tutor.content.patches import write_patched
 from tutor.content.submissions import Case, Expected
 from tutor.engine.check import run_check
 from tutor.engine.leftovers import find_leftovers
@@ -75,9 +75,7 @@ def job_of_case(lesson: Lesson, case: Case, scratch: Path) -> Job | None:
     folder = case.folder
     if case.changes:
         folder = scratch / lesson.folder.name / case.kind / case.folder.stem
-        folder.mkdir(parents=True)
-        for name, source in patched(lesson, case.changes).items():
-            (folder / name).write_text(source, encoding="utf-8")
+        write_patched(lesson, case.changes, folder)
     try:
         return Job(lesson, Kind.SUBMISSION, find_submission(lesson, folder, None), case)
     except SubmissionError:
