@@ -41,7 +41,7 @@ gc.set_threshold(50_000, 20, 50)
 
 TESTS = Path(__file__).parent
 ENGINE_TESTS = TESTS / "engine"
-QUICK = {"checks", "exercise", "judge", "mistakes", "report", "ros_model", "source"}
+QUICK = {"checks", "exercise", "judge", "mistakes", "recordings", "report", "ros_model", "source"}
 LONGEST_FIRST = [
     "tui/test_lessons_live.py",
     "tui/test_whole_lessons.py",

@@ -1,10 +1,10 @@
 """How strong the tests of judges, forms, checks and mistakes are: change one operator at a time, and see who notices.
 
-    uv run python -m tests.mutations RECORDINGS [--mutants 100] [--seed 1] [--jobs 2]
+    uv run python -m tests.mutations [--mutants 100] [--seed 1] [--jobs 2]
 
 Each mutant is a copy of the code in which one comparison, `and`, `not`, sum or number is another. It is killed if the
-replay of RECORDINGS (see `tests.recordings.replay`) prints something else, or if one of the tests that start no process
-fails. Prints each survivor with its line, to be looked at: it is equivalent, or a test is missing. Not for CI.
+replay of the recordings (see `tests.recordings.replay`) prints something else, or if one of the tests that start no
+process fails. Prints each survivor with its line, to be looked at: it is equivalent, or a test is missing. Not for CI.
 """
 
 from __future__ import annotations
@@ -127,14 +127,14 @@ def run(tree: Path, *words: str) -> subprocess.CompletedProcess[str]:
         return subprocess.CompletedProcess(command, 1, "too slow", "")
 
 
-def killed_by(mutant: Mutant, tree: Path, recordings: Path, replayed: str) -> str:
+def killed_by(mutant: Mutant, tree: Path, replayed: str) -> str:
     """What notices the mutant: "replay", "tests", or "" if nothing does."""
     file = tree / mutant.file
     text = file.read_text()
     file.unlink()  # a hard link to ours
     file.write_text(mutant.applied(text))
     try:
-        replay = run(tree, "tests.recordings.replay", str(recordings))
+        replay = run(tree, "tests.recordings.replay")
         if (replay.stdout, replay.stderr) != (replayed, ""):
             return "replay"
         chosen = next(tests for folder, tests in TESTS_OF.items() if mutant.file.startswith(folder))
@@ -147,23 +147,21 @@ def killed_by(mutant: Mutant, tree: Path, recordings: Path, replayed: str) -> st
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("recordings", type=Path)
     parser.add_argument("--mutants", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     arguments = parser.parse_args()
-    recordings = arguments.recordings.resolve()
     files = [file for folder in TESTS_OF for file in sorted((ROOT / folder).rglob("*.py"))]
     every = [mutant for file in files for mutant in mutants_of(file)]
     chosen = random.Random(arguments.seed).sample(every, min(arguments.mutants, len(every)))
     with tempfile.TemporaryDirectory() as scratch:
         trees = [copy_of_the_tree(Path(tempfile.mkdtemp(dir=scratch))) for _ in range(arguments.jobs)]
-        replayed = run(trees[0], "tests.recordings.replay", str(recordings)).stdout
+        replayed = run(trees[0], "tests.recordings.replay").stdout
 
         def judge(mutant: Mutant) -> str:
             tree = trees.pop()
             try:
-                killer = killed_by(mutant, tree, recordings, replayed)
+                killer = killed_by(mutant, tree, replayed)
                 print(f"{killer or 'survived':9} {mutant.file}:{mutant.line}", file=sys.stderr)
                 return killer
             finally:

@@ -1,14 +1,16 @@
 """A recording: the calls of judges that led to the verdicts on one submission, with the facts that they got.
 
 Judges are pure functions of facts, so the same calls show what a changed judge, or a changed catalogue of mistakes,
-makes of the same facts. Stored as compressed MessagePack, which keeps NaN and bytes.
+makes of the same facts. Stored as MessagePack, which keeps NaN and bytes, compressed. The submissions of this course
+are recorded in `KEPT`, a file for each exercise; where the code has another name for a class of facts, or for a field,
+`python -m tests.recordings.rename` says so in these files.
 """
 
 from __future__ import annotations
 
 import importlib
-import zlib
-from collections.abc import Iterable, Mapping
+import lzma
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -17,7 +19,8 @@ import msgspec
 
 from tutor.judge.verdict import Verdict
 
-SUFFIX = ".recording"
+SUFFIX = ".recordings"
+KEPT = Path(__file__).parent / "kept"
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,19 @@ class Recording:
 
 
 def write(recording: Recording, folder: Path) -> Path:
-    """Write a recording into a folder; facts that several calls share are stored once. Return the file."""
+    """Write a recording into a folder, as a file of its own. Return the file."""
+    folder.mkdir(parents=True, exist_ok=True)
+    return write_documents([to_document(recording)], folder / f"{recording.case.replace('/', '.')}{SUFFIX}")
+
+
+def write_documents(documents: Sequence[Mapping[str, Any]], file: Path) -> Path:
+    """Write recordings, as documents, into one file: together they take half the space. Return the file."""
+    file.write_bytes(lzma.compress(msgspec.msgpack.encode(documents), preset=6))
+    return file
+
+
+def to_document(recording: Recording) -> dict[str, Any]:
+    """The recording as it is stored: facts that several calls share are stored once."""
     objects: list[Any] = []
     places: dict[int, int] = {}
 
@@ -74,22 +89,23 @@ def write(recording: Recording, folder: Path) -> Path:
         return places[id(facts)]
 
     calls = [(call.criterion, call.scenario, [place(facts) for facts in call.facts]) for call in recording.calls]
-    document = {
+    return {
         "case": recording.case,
         "calls": calls,
         "outcomes": recording.outcomes,
-        "facts": [(_type_name(each), each) for each in objects],
+        "facts": [(_type_name(facts), facts) for facts in objects],
     }
-    file = folder / f"{recording.case.replace('/', '.')}{SUFFIX}"
-    folder.mkdir(parents=True, exist_ok=True)
-    file.write_bytes(zlib.compress(msgspec.msgpack.encode(document), 9))
-    return file
 
 
-def read(file: Path, moved: Mapping[str, str] | None = None) -> Recording:
-    """Read a recording. `moved`: where classes of facts are now, "module:Class" to "module:Class"."""
-    document = msgspec.msgpack.decode(zlib.decompress(file.read_bytes()))
-    facts = [_facts(name, value, moved or {}) for name, value in document["facts"]]
+def read_documents(file: Path) -> list[dict[str, Any]]:
+    """The recordings in a file, as they are stored."""
+    documents: list[dict[str, Any]] = msgspec.msgpack.decode(lzma.decompress(file.read_bytes()))
+    return documents
+
+
+def from_document(document: Mapping[str, Any]) -> Recording:
+    """A recording of what is stored."""
+    facts = [_facts(name, value) for name, value in document["facts"]]
     calls = (
         JudgeCall(criterion, scenario, tuple(facts[at] for at in used))
         for criterion, scenario, used in document["calls"]
@@ -97,14 +113,23 @@ def read(file: Path, moved: Mapping[str, str] | None = None) -> Recording:
     return Recording(document["case"], tuple(calls), msgspec.convert(document["outcomes"], dict[str, Outcome]))
 
 
-def read_all(folder: Path, wanted: Iterable[str] = ()) -> list[Recording]:
-    """Read the recordings whose cases start with one of `wanted` (all if empty), in order."""
-    prefixes = tuple(wanted)
-    files = sorted(folder.glob(f"*{SUFFIX}"))
-    chosen = [
-        each for each in files if not prefixes or each.name.startswith(tuple(p.replace("/", ".") for p in prefixes))
-    ]
-    return [read(each) for each in chosen]
+def read(folder: Path, wanted: Iterable[str] = ()) -> Iterator[Recording]:
+    """Yield the recordings in a folder whose cases start with one of `wanted` (all if empty), in order of the files."""
+    prefixes = tuple(wanted) or ("",)
+    for file in sorted(folder.glob(f"*{SUFFIX}")):
+        if file.name.startswith(tuple(prefix.replace("/", ".") for prefix in prefixes)) or any(
+            prefix.startswith(file.name.removesuffix(SUFFIX)) for prefix in prefixes
+        ):
+            for document in read_documents(file):
+                if document["case"].startswith(prefixes):
+                    yield from_document(document)
+
+
+def accept(folder: Path, outcomes: Mapping[str, Mapping[str, Outcome]]) -> None:
+    """Write other outcomes, by case, into the recordings in a folder."""
+    for file in folder.glob(f"*{SUFFIX}"):
+        documents = read_documents(file)
+        write_documents([{**old, "outcomes": outcomes.get(old["case"], old["outcomes"])} for old in documents], file)
 
 
 def _type_name(facts: Any) -> str:
@@ -116,10 +141,9 @@ def _type_name(facts: Any) -> str:
     return f"{type(facts).__module__}:{type(facts).__qualname__}"
 
 
-def _facts(name: str, value: Any, moved: Mapping[str, str]) -> Any:
-    name = moved.get(name, name)
+def _facts(name: str, value: Any) -> Any:
     if name.startswith("("):
-        return tuple(_facts(name[1:-1], item, moved) for item in value)
+        return tuple(_facts(name[1:-1], item) for item in value)
     return None if value is None else msgspec.convert(value, _load(name), strict=False)
 
 

@@ -1,7 +1,9 @@
 """Judge recordings again, without ROS, and show what has changed.
 
-    uv run python -m tests.recordings.replay FOLDER [EXERCISE[/right|wrong[/NAME]] ...] [--accept]
-                                             [--reports|--limits]
+    uv run python -m tests.recordings.replay [EXERCISE[/right|wrong[/NAME]] ...] [--folder FOLDER]
+                                             [--accept] [--reports|--limits]
+
+Without `--folder`, those that are kept in the repository; `tests/recordings/test_replay.py` judges these as well.
 
 Prints each criterion whose status, mistake or place differs from what the recording holds, and how many do not.
 `--accept` writes today's outcomes into the recordings; `--reports` prints every failing report as a learner reads it;
@@ -14,12 +16,20 @@ import argparse
 import sys
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from statistics import median
 
 from tests.mistakes.limits import MAX_WORDS, MEDIAN_WORDS, faults_of, solution_lines, words_of
-from tests.recordings.recording import JudgeCall, Outcome, Recording, outcome, read_all, scenario_name, write
+from tests.recordings.recording import (
+    KEPT,
+    JudgeCall,
+    Outcome,
+    Recording,
+    accept,
+    outcome,
+    read,
+    scenario_name,
+)
 from tutor.content import load_course
 from tutor.engine.explanation import explain
 from tutor.engine.loading import load_check
@@ -121,8 +131,8 @@ def _slug(mistake: str) -> str:
 def main() -> int:
     """Return exit code 1 if a status has changed."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path)
     parser.add_argument("wanted", nargs="*")
+    parser.add_argument("--folder", type=Path, default=KEPT)
     parser.add_argument("--accept", action="store_true", help="write today's outcomes into the recordings")
     parser.add_argument("--reports", action="store_true", help="print every failing report")
     parser.add_argument("--limits", action="store_true", help="print only the reports that break a limit")
@@ -132,7 +142,8 @@ def main() -> int:
     course = load_course(None)
     checks: dict[str, Check] = {}
     counts: Counter[str] = Counter()
-    for recording in read_all(arguments.folder, arguments.wanted):
+    accepted: dict[str, Mapping[str, Outcome]] = {}
+    for recording in read(arguments.folder, arguments.wanted):
         if recording.exercise not in checks:
             lesson = course.find(recording.exercise)
             checks[recording.exercise] = load_check(lesson)
@@ -151,8 +162,9 @@ def main() -> int:
         counts["failed"] += sum(each.status == Status.FAILED.value for each in now.values())
         counts["other status"] += sum(line.startswith("!") for line in lines)
         counts["other mistake"] += sum(line.startswith("  ") and not line.startswith("    ") for line in lines)
-        if arguments.accept:
-            write(replace(recording, outcomes=now), arguments.folder)
+        accepted[recording.case] = now
+    if arguments.accept:
+        accept(arguments.folder, accepted)
     print(", ".join(f"{count} {what}" for what, count in counts.items()))
     if arguments.limits:
         print(limits.summary())
