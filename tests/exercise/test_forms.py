@@ -228,11 +228,6 @@ def test_defaults_are_those_of_the_nouns() -> None:
     assert_failed(judge_of(made, "defaults")(missing), "parameter not declared", "no room", check=made)
 
 
-def test_one_value_where_several_are_to_be_given_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"defaults: parameters takes several values, so put one into parentheses"):
-        check("x1.1", Program("a.py"), Defaults("defaults", Parameter("rate", 2.0)))  # type: ignore[arg-type]
-
-
 def test_a_function_that_awaits_nothing_is_refused() -> None:
     lines = Path(__file__).read_text().splitlines()
     line = next(number for number, text in enumerate(lines, start=1) if text.strip().startswith("node.rejects("))

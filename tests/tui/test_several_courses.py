@@ -26,5 +26,6 @@ async def test_each_course_has_its_heading_and_the_ids_of_the_second_its_name(tm
         assert [row.unit for row in lessons.query(CourseRow)] == ["Greeting", "Another course"]
         titles = [str(row.render()).splitlines()[0] for row in lessons.lesson_rows]
         assert titles == ["○ H1.1 Greeter", "◐ other:H1.1 Greeter"]
+        assert me.main.model.lesson == session.lessons[1]  # the one that was started
         assert list(session.check_arguments(session.lessons[1]))[2:] == courses.arguments
     assert Workspace(tmp_path / "ws").courses().read() == courses

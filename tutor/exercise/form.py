@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
+from tutor.exercise.argument_types import reject_wrong_types
 from tutor.exercise.node_parameters import ParameterNode
 from tutor.exercise.nouns import LaunchFile, Parameter, Program
 from tutor.judge.bench import Scenario
@@ -127,14 +128,6 @@ def _parameters_in(value: object) -> Iterator[Parameter]:
             yield from _parameters_in(item)
 
 
-def _reject_single_values(form: Form) -> None:
-    """Raise ValueError if one value stands where several are to be given: only a running check would notice."""
-    for argument in fields(form):
-        value = getattr(form, argument.name)
-        if str(argument.type).startswith("tuple[") and not isinstance(value, tuple | list):
-            raise ValueError(f"{form.id}: {argument.name} takes several values, so put one into parentheses: (…,)")
-
-
 def parameter_node(exercise: Exercise) -> ParameterNode:
     """The node with all parameters that the exercise names.
 
@@ -161,10 +154,13 @@ def check(
     in seconds, that a criterion needs with the solution, and `expected_reason` what it waits for. `mistakes`: the
     module with a catalogue of mistakes that only this exercise can know. Raises ValueError if an id is repeated, a
     criterion comes before one that it is `after`, it needs a program and a launch file is given, or the reverse, or an
-    argument that takes several values is given one that is not in a tuple.
+    argument is of another type than the form takes.
     """
+    if not isinstance(started, Program | LaunchFile):
+        raise ValueError(f"{exercise}: what is started is a Program or a LaunchFile, not {started!r}")
+    reject_wrong_types(started, type(started).__name__)
     for form in criteria:
-        _reject_single_values(form)
+        reject_wrong_types(form, form.id)
     context = Exercise(started, criteria)
     judged = tuple(form.criterion(context) for form in criteria)
     return Check(exercise, judged, expected_s, expected_reason, mistakes)

@@ -130,6 +130,17 @@ class Session:
         if self.workspace.exists:
             self.workspace.app_state(self.notify).write(state)
 
+    def lesson_to_open(self, state: AppState) -> Lesson:
+        """Return the lesson where the learner left off in the app; if none, what was started last, or the first one."""
+        by_id = {lesson.id: lesson for lesson in self.lessons}
+        if state.lesson in by_id:
+            return by_id[state.lesson]
+        try:
+            progress = self.progress()
+        except StorageError:  # told when the progress is shown
+            return self.lessons[0]
+        return max(self.lessons, key=lambda lesson: progress.of(lesson.id).started_at or "")
+
     def progress(self) -> Progress:
         """Read the learner's progress. Raises StorageError."""
         if not self.workspace.exists:

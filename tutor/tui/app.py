@@ -72,9 +72,7 @@ class TutorApp(TextApp[int]):
 
     def get_default_screen(self) -> Screen[Any]:
         """Return the screen that is painted first."""
-        by_id = {lesson.id: lesson for lesson in self.session.lessons}
-        first = by_id.get(self._state.lesson, self.session.lessons[0])
-        return OpeningScreen(first if self.session.workspace.exists else None)
+        return OpeningScreen(self.session.lesson_to_open(self._state) if self.session.workspace.exists else None)
 
     async def on_mount(self) -> None:
         for text in self._early_warnings:

@@ -27,9 +27,8 @@ class AppModel:
 
     @classmethod
     def of(cls, session: Session, state: AppState) -> AppModel:
-        """Create the initial model: the lesson where the learner left off, or the first one."""
-        by_id = {lesson.id: lesson for lesson in session.lessons}
-        model = cls(session, by_id.get(state.lesson, session.lessons[0]), state)
+        """Create the initial model, with the lesson to open."""
+        model = cls(session, session.lesson_to_open(state), state)
         model.findings = {lesson.id: Findings.of(lesson) for lesson in session.lessons}
         return model
 
