@@ -53,13 +53,29 @@ def test_next_leads_from_exercise_to_exercise(run: Run, engine: FakeEngine) -> N
     assert run("next").out.startswith("i1.2 ")
 
 
-def test_after_the_last_exercise_next_is_the_checklist(run: Run, engine: FakeEngine) -> None:
-    for lesson in load_course().lessons:
+def test_after_the_course_next_goes_beyond_it_and_in_the_end_to_the_checklist(run: Run, engine: FakeEngine) -> None:
+    lessons = load_course().lessons
+    total = sum(not lesson.beyond for lesson in lessons)
+    beyond = lessons[total:]
+    for lesson in lessons[:total]:
         run("start", lesson.id)
         run("check", lesson.id)
     result = run("next")
-    assert (result.code, result.out) == (0, "You have passed all 6 exercises.\nNext: ros-tutor checklist\n")
-    assert "6 of 6 passed. You have done them all: ros-tutor checklist" in run("list").out
+    words = f"You have passed all {total} exercises of the course. Beyond it:\n\n{beyond[0].id} {beyond[0].title} ("
+    assert result.out.startswith(words)
+    listed = run("list").out
+    assert f"\n\nBeyond the course\n{beyond[0].id} " in listed
+    assert f"{total} of {total} passed, 0 of {len(beyond)} beyond. Next: ros-tutor start {beyond[0].id}\n" in listed
+    assert run("check", "all").code == 0  # nobody has to go beyond
+
+    for lesson in beyond:
+        run("start", lesson.id)
+        run("check", lesson.id)
+    result = run("next")
+    words = f"You have passed all {len(lessons)} exercises.\nNext: ros-tutor checklist\n"
+    assert (result.code, result.out) == (0, words)
+    counts = f"{total} of {total} passed, {len(beyond)} of {len(beyond)} beyond"
+    assert f"{counts}. You have done them all: ros-tutor checklist" in run("list").out
 
 
 # --- list --format json ---
@@ -70,7 +86,7 @@ def test_list_as_json(run: Run, engine: FakeEngine, home: Path) -> None:
     assert empty["schema"] == "ros-tutor/list/1"
     assert empty["workspace"] == {"path": str(home / "ros_tutor_ws"), "exists": False, "ros_domain_id": None}
     assert empty["next"] == {"exercise": "i1.1", "command": "ros-tutor start i1.1"}
-    assert [each["standing"] for each in empty["exercises"]] == ["not_started"] * 6
+    assert [each["standing"] for each in empty["exercises"]] == ["not_started"] * len(load_course().lessons)
     assert empty["exercises"][0]["last_attempt"] is None
 
     run("start", "i1.1")

@@ -32,3 +32,11 @@ def test_a_course_that_has_been_started_comes_first(started: tuple[str, ...], fo
     found = next_lesson(lessons, states)
     assert found is not None
     assert found.id == following
+
+
+def test_what_goes_beyond_a_course_comes_last() -> None:
+    lessons = (*(replace(lesson, beyond=True) for lesson in OURS), *LAMPS)
+    states = {lesson.id: exercise_state(lesson, ExerciseProgress(), has_files=True) for lesson in lessons}
+    found = next_lesson(lessons, states)
+    assert found is not None
+    assert found.id == "x1.1"

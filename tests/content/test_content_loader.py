@@ -71,6 +71,20 @@ def test_lessons_are_sorted_by_number(lesson_folder: Path) -> None:
     assert [lesson.id for lesson in load_course().lessons] == ["x1.1", "x1.2", "x1.10", "x2.1", "x10.1"]
 
 
+def test_a_course_can_order_its_units_and_go_beyond_itself(lesson_folder: Path) -> None:
+    for folder in ("b1_1", "b1_2", "a3_1", "y1_1"):
+        copy_course(lesson_folder, lesson_folder.parents[1], folder, folder.replace("_", "."))
+    units = lesson_folder.parent / "units.yaml"
+    units.write_text("order: [y1, x1]\nbeyond: [b1]\n")
+    lessons = load_course().lessons
+    assert [lesson.id for lesson in lessons] == ["y1.1", "x1.1", "a3.1", "b1.1", "b1.2"]
+    assert [lesson.id for lesson in lessons if lesson.beyond] == ["b1.1", "b1.2"]
+
+    units.write_text("order: [x1, b1]\nbeyond: [b1]\n")
+    with pytest.raises(ContentError, match="b1 is in `order` as well"):
+        load_course()
+
+
 @pytest.mark.parametrize("text", ["x1.1", "X1.1", "x1_1", "X1_1", " x1.1 "])
 def test_a_lesson_is_found_however_its_id_is_written(lesson_folder: Path, text: str) -> None:
     assert load_course().find(text).id == "x1.1"

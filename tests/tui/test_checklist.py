@@ -41,6 +41,11 @@ def ticks(me: Learner) -> set[str]:
     return set(me.session.progress().ticks)
 
 
+def course_total(me: Learner) -> int:
+    """How many exercises the course has, without those that go beyond it."""
+    return sum(not lesson.beyond for lesson in me.session.lessons)
+
+
 def record_attempt(me: Learner, exercise: str, *criteria: str) -> None:
     """Record a check from another terminal in which only these criteria passed, by code of the skeleton."""
     version = me.session.versions()[exercise]
@@ -136,7 +141,13 @@ async def test_ticking_the_last_item_in_a_small_terminal_shows_what_comes_next(l
             assert "Ready for Advanced?" not in me.screen()
             await me.press("down")
         await me.press("space")
-        await me.sees("15 of 15 ticked", "Ready for Advanced?", "Well done!", "URDF", "6 exercises are not passed yet")
+        await me.sees(
+            "15 of 15 ticked",
+            "Ready for Advanced?",
+            "Well done!",
+            "URDF",
+            f"{course_total(me)} exercises are not passed yet",
+        )
         await me.sees("[✓] Say when two callbacks", "Esc Back")  # the banner hides neither the item nor the keys
         await me.until(lambda: len(ticks(me)) == 15, "saved")
         await me.press("x")
@@ -202,15 +213,17 @@ async def test_each_format_is_exported_and_no_file_is_replaced_without_asking(le
 
 async def test_the_last_pass_leads_to_the_checklist_where_capital_x_exports_too(learner: Any) -> None:
     async with learner() as me:
-        done = {lesson.id: ExerciseProgress(now(), (), Status.PASSED) for lesson in me.session.lessons[1:]}
+        lessons, total = me.session.lessons, course_total(me)
+        done = {lesson.id: ExerciseProgress(now(), (), Status.PASSED) for lesson in lessons[1:total]}
         me.session.workspace.progress(print).change(
             lambda progress: replace(progress, exercises={**progress.exercises, **done})
         )
         me.main.records.read()
-        await me.sees("5 of 6 passed")
+        await me.sees(f"{total - 1} of {total} passed")
         await me.start_check()
         await me.engine_emits(*fakes.lesson_final_events(me.session.lessons[0], fakes.GOOD))
-        await me.sees("Every exercise is passed now.", "Next: press 6 for the checklist, V")
+        await me.sees("Every exercise of the course is passed now.", "Next: press 6 for the checklist, n for ")
+        await me.sees(f"{total} of {total} passed, 0 of {len(lessons) - total} beyond")
         await me.press("6")
         await me.sees("of 15 ticked")
         await me.press("X")

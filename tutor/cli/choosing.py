@@ -40,6 +40,8 @@ def choose_submissions(
 ) -> tuple[list[Submission], list[ExerciseResult]]:
     """Return, for `check all`, the submissions that exist and a skipped result for each exercise without one.
 
+    What goes beyond the course and has not been started is not missing: nobody has to do it.
+
     Raises SubmissionError if there is nothing to judge at all.
     """
     from tutor.errors import SubmissionError
@@ -53,6 +55,8 @@ def choose_submissions(
         try:
             found.append(find_submission(lesson, path, workspace))
         except SubmissionError as error:
+            if lesson.beyond and not is_started(lesson, path, workspace):
+                continue
             why = str(error) if is_started(lesson, path, workspace) else NOT_STARTED
             missing.append(missing_result(lesson, Status.SKIPPED, why, look_up(lesson, path, workspace)))
     if not found:

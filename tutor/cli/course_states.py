@@ -15,11 +15,12 @@ if TYPE_CHECKING:
 def next_lesson(lessons: Sequence[Lesson], states: Mapping[str, ExerciseState]) -> Lesson | None:
     """Return the first exercise that is not passed; None if all are. `states` maps exercise ids to states.
 
-    Those of a course in which something has been started come first: whoever has started one learns there.
+    Those of a course in which something has been started come first: whoever has started one learns there. Those that
+    go beyond their course come last.
     """
     begun = {lesson.course for lesson in lessons if states[lesson.id].is_started}
     left = [lesson for lesson in lessons if not states[lesson.id].is_passed]
-    return min(left, key=lambda lesson: lesson.course not in begun, default=None)
+    return min(left, key=lambda lesson: (lesson.beyond, lesson.course not in begun), default=None)
 
 
 def next_command(lesson: Lesson | None, states: Mapping[str, ExerciseState]) -> str:

@@ -55,6 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _render_text(course: Course, progress: Progress, workspace: Workspace) -> str:
+    from tutor.content import Counts
     from tutor.workspace import domain_of, states_of
 
     states = states_of(course.lessons, progress, workspace)
@@ -65,15 +66,17 @@ def _render_text(course: Course, progress: Progress, workspace: Workspace) -> st
     for heading in course.headings:
         if len(course.headings) > 1:
             lines += [*([""] if lines else []), heading]
-        lines += [
-            _render_line(lesson, progress.of(lesson.id), states[lesson.id], id_width, width)
-            for lesson in course.lessons
-            if lesson.heading == heading
-        ]
-    passed = sum(exercise_state.is_passed for exercise_state in states.values())
+        for beyond in (False, True):
+            rows = [
+                _render_line(lesson, progress.of(lesson.id), states[lesson.id], id_width, width)
+                for lesson in course.lessons
+                if lesson.heading == heading and lesson.beyond is beyond
+            ]
+            lines += [*(["", "Beyond the course"] if beyond and rows else []), *rows]
+    counts = Counts.of(course.lessons, [id for id, exercise_state in states.items() if exercise_state.is_passed])
     following = next_lesson(course.lessons, states)
     lead = "Next" if following is not None else "You have done them all"
-    lines += ["", f"{passed} of {len(states)} passed. {lead}: {next_command(following, states)}"]
+    lines += ["", f"{counts}. {lead}: {next_command(following, states)}"]
     if workspace.exists:
         lines += [f"Your nodes run in ROS domain {domain_of(workspace)}."]
     return "\n".join(lines) + "\n"

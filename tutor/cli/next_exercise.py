@@ -22,6 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the exercise, the learner's progress on it, and the next command."""
+    from tutor.content import Counts
     from tutor.workspace import states_of
 
     course = context.load_course(arguments)
@@ -33,7 +34,10 @@ def run(arguments: argparse.Namespace) -> int:
         terminal.out(f"You have passed all {len(states)} exercises.\nNext: {next_command(None, states)}\n")
         return PASSED
     heading = f"{lesson.id} {lesson.title} ({lesson.difficulty.value})"
+    counts = Counts.of(course.lessons, [id for id, exercise_state in states.items() if exercise_state.is_passed])
     lines = [terminal.style(heading, "1", sys.stdout), lesson.objective.strip(), ""]
+    if lesson.beyond and counts.course_done:
+        lines = [f"You have passed all {counts.total} exercises of the course. Beyond it:", "", *lines]
     if states[lesson.id].is_started:
         lines += _progress_lines(lesson, states[lesson.id], workspace)
     lines += [f"Next: {next_command(lesson, states)}"]

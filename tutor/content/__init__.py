@@ -1,5 +1,6 @@
 """The course: lessons and the self-assessment checklist, as plain data, independent of ROS and the terminal."""
 
+from tutor.content.counts import Counts
 from tutor.content.live import LiveTopic, LiveView, Partner
 from tutor.content.loader import load_course
 from tutor.content.model import (
@@ -18,6 +19,7 @@ __all__ = [
     "Checklist",
     "ChecklistGroup",
     "ChecklistItem",
+    "Counts",
     "Course",
     "CriterionText",
     "Difficulty",

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from tutor.content import units
 from tutor.content.model import Course, Lesson
 from tutor.content.places import find_line, find_word
 from tutor.content.problem import Problem
@@ -56,7 +57,7 @@ def find_stray_files(course: Course, lessons: Sequence[Lesson]) -> Iterator[Prob
     """Find files beside `lessons` and beside their checks that belong to no lesson of the course."""
     for folder in sorted({lesson.folder.parent for lesson in lessons}):
         lesson_folders = {lesson.folder for lesson in course.lessons if lesson.folder.parent == folder}
-        yield from _find_strays(folder, {*lesson_folders, folder / "checklist.yaml"})
+        yield from _find_strays(folder, {*lesson_folders, folder / "checklist.yaml", folder / units.FILE})
     for folder in sorted(
         {lesson.check.parent if _is_single_module(lesson) else lesson.check.parent.parent for lesson in lessons}
     ):

@@ -3,6 +3,7 @@
 A course is a folder with
 
 - lessons/checklist.yaml: the self-assessment checklist
+- lessons/units.yaml: the order of its units (see `units`); not required
 - lessons/i1_1/lesson.md: YAML front matter between two --- lines, then the lesson in Markdown
 - lessons/i1_1/skeleton/: the files a learner starts from
 - lessons/i1_1/solution/: our solution
@@ -30,6 +31,7 @@ from tutor.content.model import (
     Lesson,
     LessonFile,
 )
+from tutor.content.units import read_units
 from tutor.errors import ContentError
 
 # The folders tutor, lessons and checks are siblings, both in the repository and in an installed wheel. Importing
@@ -74,18 +76,12 @@ def _read_course(lessons: Path) -> Course:
     if not lessons.is_dir():
         raise ContentError(lessons, "there is no such folder")
     folders = [folder for folder in lessons.iterdir() if _LESSON_FOLDER.fullmatch(folder.name) and folder.is_dir()]
-    checklist = lessons / "checklist.yaml"
+    checklist, units = lessons / "checklist.yaml", read_units(lessons)
+    found = [replace(_read_lesson(folder), beyond=units.is_beyond(folder)) for folder in sorted(folders, key=units.key)]
     return Course(
-        lessons=tuple(_read_lesson(folder) for folder in sorted(folders, key=_order_key)),
+        lessons=tuple(found),
         checklist=_read_checklist(checklist) if checklist.exists() else Checklist(),
     )
-
-
-def _order_key(folder: Path) -> tuple[str, int, int]:
-    """Return the sort key for the order of lessons, in which i2_9 comes before i2_10."""
-    unit, number = folder.name.split("_")
-    letters = unit.rstrip("0123456789")
-    return letters, int(unit.removeprefix(letters)), int(number)
 
 
 def _read_text(file: Path) -> str:

@@ -59,7 +59,7 @@ class Lesson:
     passing the criteria that show an item, or the whole exercise if no criterion shows it. `body` is Markdown without
     a title. `folder` holds the lesson's files. `live` describes what the app shows of its ROS graph. `course` is the
     name of the course, empty for the bundled one, and `heading` its title. Where an earlier course has the same id, it
-    begins with the name: lamps:x1.1.
+    begins with the name: lamps:x1.1. `beyond`: it comes after the course, and nobody has to do it to have passed that.
     """
 
     id: str
@@ -76,6 +76,7 @@ class Lesson:
     live: LiveView = field(default_factory=LiveView)
     course: str = ""
     heading: str = ""
+    beyond: bool = False
 
     @property
     def own_id(self) -> str:

@@ -100,10 +100,16 @@ class Checks:
             self._conversation.say(f"{', '.join(more)}.")
         if unmet:
             return
-        if self._conversation.lesson is not self._conversation.session.lessons[-1]:
-            self._conversation.say("Well done. next goes to the next lesson, checklist to what you can do by now.")
+        lesson, lessons = self._conversation.lesson, self._conversation.session.lessons
+        following = next(iter(lessons[lessons.index(lesson) + 1 :]), None)
+        if following is None:
+            praise, more = "Well done: this was the last lesson.", ""
+        elif following.beyond and not lesson.beyond:
+            praise, more = "Well done: this was the last lesson of the course.", "next goes beyond it, "
         else:
-            self._conversation.say("Well done: this was the last lesson. checklist goes to what you can do by now.")
+            praise, more = "Well done.", "next goes to the next lesson, "
+        goes = "" if more else " goes"
+        self._conversation.say(f"{praise} {more}checklist{goes} to what you can do by now.")
 
     def _offer_explanation(self, result: ExerciseResult, progress: ExerciseProgress) -> None:
         """Name the command that explains a mistake, at the last of several checks in a row that failed by it."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable
 from difflib import get_close_matches
 
+from tutor.content import Counts
 from tutor.errors import CommandRefused, StorageError, WorkspaceError
 from tutor.judge.wording import counted
 from tutor.plain.checklist_commands import ChecklistCommands
@@ -24,6 +26,7 @@ from tutor.terminal_text import printable
 INTERRUPTED = 130
 
 _PROMPT = "Command: "
+_LESSON_ID = re.compile(r"(?:[a-z][a-z0-9_-]*:)?[a-z]+[0-9]+[._0-9]*", re.IGNORECASE)
 
 
 def run_dialog(session: Session, out: Callable[[str], None]) -> int:
@@ -73,9 +76,10 @@ class Dialog:
 
     def _greet(self) -> None:
         lessons, progress = self._session.lessons, self._session.progress()
-        passed = sum(progress.of(lesson.id).is_passed for lesson in lessons)
+        counts = Counts.of(lessons, [lesson.id for lesson in lessons if progress.of(lesson.id).is_passed])
+        beyond = f"; {counts.beyond} more go beyond the course, {counts.passed_beyond} passed" if counts.beyond else ""
         root = short_path(self._session.workspace.root)
-        self._say(f"ROS Tutor in plain lines. {counted(len(lessons), 'lesson')}, {passed} passed.")
+        self._say(f"ROS Tutor in plain lines. {counted(counts.total, 'lesson')}, {counts.passed} passed{beyond}.")
         if self._session.workspace.exists:
             self._say(f"Your workspace is {root}; its ROS domain is {self._session.domain}.")
         else:
@@ -88,7 +92,7 @@ class Dialog:
     async def _run_command(self, words: list[str]) -> None:
         try:
             name, *rest = words
-            if name.isdecimal() or (len(name) > 1 and name[0] in "iI" and name[1].isdecimal()):
+            if name.isdecimal() or _LESSON_ID.fullmatch(name):
                 self._conversation.open_lesson(self._conversation.find_lesson(name))
             else:
                 await self._find_command(name.lower()).run(rest)

@@ -37,6 +37,8 @@ class Lessons:
             if len(course.headings) > 1 and lesson.heading != heading:
                 heading = lesson.heading
                 self._conversation.say(f"{heading}:")
+            if lesson.beyond and not course.lessons[number - 2].beyond:
+                self._conversation.say("Beyond the course:")
             marker = " You are here." if lesson is self._conversation.lesson else ""
             self._conversation.say(f"{number}: {self._conversation.describe(lesson, progress)}{marker}")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from tutor.content import ChecklistItem, Course, CriterionText, Lesson
+from tutor.content import ChecklistItem, Counts, Course, CriterionText, Lesson
 from tutor.workspace import Attempt, ExerciseProgress, Help, Progress, exercise_state
 
 
@@ -78,6 +78,7 @@ class AssessedExercise:
 
     `passed_at` and `last_at` are UTC times in ISO 8601, or None if there is none or it is no longer known. `help`: what
     the learner had seen before the pass. `changed`: the files have been changed since. Both are None if not known.
+    `beyond`: it goes beyond the course.
     """
 
     id: str
@@ -94,6 +95,7 @@ class AssessedExercise:
     last_at: str | None
     help: Help | None = None
     changed: bool | None = None
+    beyond: bool = False
 
     @property
     def status(self) -> str:
@@ -130,9 +132,9 @@ class Assessment:
         return self.ticked == len(self.items) > 0
 
     @property
-    def passed(self) -> int:
-        """The number of passed exercises."""
-        return sum(exercise.passed for exercise in self.exercises)
+    def counts(self) -> Counts:
+        """How many exercises are passed."""
+        return Counts.of(self.exercises, [exercise.id for exercise in self.exercises if exercise.passed])
 
 
 def assess(course: Course, progress: Progress, versions: Mapping[str, str]) -> Assessment:
@@ -241,4 +243,5 @@ def _assess_exercise(lesson: Lesson, progress: ExerciseProgress, version: str) -
         last_at=progress.last.at if progress.last else None,
         help=first.help if first else None,
         changed=evidence.changed if evidence else None,
+        beyond=lesson.beyond,
     )

@@ -19,7 +19,7 @@ def _lines(assessment: Assessment, at: str) -> Iterator[str]:
     yield f"# {TITLE}"
     yield ""
     count = f"{assessment.ticked} of {len(assessment.items)} ticked"
-    yield f"{count}, {assessment.passed} of {len(assessment.exercises)} exercises passed ({escape(calendar_day(at))})."
+    yield f"{count}, {assessment.counts.text('exercises')} ({escape(calendar_day(at))})."
     for group in assessment.groups:
         yield ""
         yield f"## {escape(group.title)}"

@@ -159,8 +159,9 @@ class ChecklistScreen(Screen[None]):
 
 def _describe_exercises_left(assessment: Assessment) -> str:
     """Say which exercises are left, for a learner who has ticked everything."""
-    left = len(assessment.exercises) - assessment.passed
+    counts = assessment.counts
+    left = counts.total - counts.passed
     if not left:
-        return f"All {len(assessment.exercises)} exercises are passed, too."
+        return f"All {counts.total} exercises are passed, too."
     some = "One exercise is" if left == 1 else f"{left} exercises are"
     return f"{some} not passed yet: good practice before you go on."

@@ -15,7 +15,7 @@ from textual.containers import Container, Horizontal, Vertical
 from textual.widget import Widget
 from textual.widgets import ContentSwitcher, ListView, Tab, Tabs, TextArea
 
-from tutor.content import Lesson
+from tutor.content import Counts, Lesson
 from tutor.session import Session
 from tutor.session.findings import Findings
 from tutor.session.node import Phase
@@ -152,10 +152,13 @@ class MainScreen(HostScreen):
         model = self.model
         lessons = model.session.lessons
         passed = {lesson.id for lesson in lessons if model.progress.of(lesson.id).is_passed}
-        others = len(lessons) - len(passed | {model.lesson.id})
+        with_this = Counts.of(lessons, passed | {model.lesson.id})
         # After the last pass the panel points to the checklist, if the course has one.
-        self.query_one(CriteriaPanel).others_open = others if self.can(commands.CHECKLIST) else max(1, others)
-        self.query_one(StatusBar).show_progress(len(passed), len(lessons))
+        panel = self.query_one(CriteriaPanel)
+        panel.after_pass = None
+        if self.can(commands.CHECKLIST) and (with_this.all_done or (with_this.course_done and not model.lesson.beyond)):
+            panel.after_pass = with_this
+        self.query_one(StatusBar).show_progress(Counts.of(lessons, passed))
 
     async def go_to_line(self, lesson: Lesson, line: int) -> None:
         """Go to a line (from 0) of a lesson's text."""

@@ -17,6 +17,7 @@ from textual.content import Content
 from textual.screen import Screen
 from textual.widgets import Button, Input, Static
 
+from tutor.content import Counts
 from tutor.errors import StorageError, WorkspaceError
 from tutor.session import Session
 from tutor.session.paths import short_path
@@ -47,11 +48,13 @@ class WelcomeScreen(Screen[bool]):
         self._creating = False
 
     def compose(self) -> ComposeResult:
-        count = len(self._session.lessons)
+        counts = Counts.of(self._session.lessons, ())
+        text = f"{counts.total} exercises: write a node, run it, and have it checked."
+        text += f" Then {counts.beyond} more, beyond them." if counts.beyond else ""
         with Middle(), Vertical(id="welcome"):
             yield Static(_BANNER, id="welcome-banner")
             yield Static("Learn ROS 2 by writing nodes that really run.", id="welcome-lead")
-            yield Static(f"{count} exercises: write a node, run it, and have it checked.", id="welcome-text")
+            yield Static(text, id="welcome-text")
             with Vertical(id="welcome-place"):
                 yield Static(Content.assemble("Your work will be in ", ("  f: another folder", "$quiet")))
                 yield Input(short_path(self._session.workspace.root), id="welcome-folder", compact=True)

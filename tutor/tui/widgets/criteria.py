@@ -9,7 +9,7 @@ from textual.content import Content
 from textual.widget import Widget
 from textual.widgets import ListView, Static
 
-from tutor.content import Lesson
+from tutor.content import Counts, Lesson
 from tutor.judge.verdict import Status
 from tutor.session.findings import Finding, Findings
 from tutor.tui import wording
@@ -81,8 +81,8 @@ class CriteriaPanel(Container):
         self._typing = False
         self._reading = self._focus_inside = False
         self._shown_finding: Finding | None = None
-        self.others_open = 0
-        """How many other exercises are not passed yet."""
+        self.after_pass: Counts | None = None
+        """What is passed once this exercise is, if nothing is left then of the course, or of what goes beyond it."""
 
     async def show_lesson(self, findings: Findings, following: Lesson | None) -> None:
         """Show a lesson's criteria, and its first failure if there is one; `following` is the next lesson."""
@@ -225,7 +225,7 @@ class CriteriaPanel(Container):
         if found is None or not found.judged:
             return
         if found.result is not None and found.result.verdict is Status.PASSED:
-            self.query_one(Diagnosis).show_passed(found.result, self._following, all_passed=not self.others_open)
+            self.query_one(Diagnosis).show_passed(found.result, self._following, self.after_pass)
             self.add_class("-detail")
             return
         order = (Status.FAILED, Status.ERROR, Status.SKIPPED, Status.PASSED)

@@ -11,7 +11,7 @@ from textual.content import Content
 from textual.style import Style
 from textual.widgets import Static
 
-from tutor.content import Lesson
+from tutor.content import Counts, Lesson
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status, Verdict
 from tutor.report.plain import REMARKS_HEADING, one_line, remark_lines
@@ -173,17 +173,20 @@ class Diagnosis(VerticalScroll):
             details += f"\n\n{last_result}. Press {'F9' if self._typing else 'c'} to check."
         return Content.assemble(name, (details, "$quiet"))
 
-    def show_passed(self, result: ExerciseResult, following: Lesson | None, *, all_passed: bool) -> None:
-        """Show the good news and what comes next; `all_passed` if every exercise of the course is passed."""
+    def show_passed(self, result: ExerciseResult, following: Lesson | None, done: Counts | None) -> None:
+        """Show the good news and what comes next; `done`: what is passed now, if it is all of the course or more."""
         self._unfolded = False
-        self._fill(partial(self._passed_head, result, following, all_passed), remarks=partial(self._remarks, result))
+        self._fill(partial(self._passed_head, result, following, done), remarks=partial(self._remarks, result))
 
-    def _passed_head(self, result: ExerciseResult, following: Lesson | None, all_passed: bool) -> Content:
+    def _passed_head(self, result: ExerciseResult, following: Lesson | None, done: Counts | None) -> Content:
         missed = [c.id for c in result.criteria if c.bonus and c.verdict.status is not Status.PASSED]
         line = f"✓ {result.id.upper()} {result.title} passed"
         bonus = f"Still open as a bonus: {', '.join(missed)}.\n" if missed else ""
-        if all_passed:
+        go_on = ("", "", "")
+        if done is not None:
             command, key, where = "checklist", "6", "the checklist"
+            if following is not None and not done.all_done:
+                go_on = ("next", "n", f"{wording.label(following)} {following.title}")
         elif following is not None:
             command, key, where = "next", "n", f"{wording.label(following)} {following.title}"
         else:
@@ -194,19 +197,26 @@ class Diagnosis(VerticalScroll):
             "\n",
             ("━" * cell_len(line), "$good"),
             f"\n{gap}Well done: your node does all that was asked for.\n",
-            "Every exercise is passed now.\n" if all_passed else "",
+            _describe_done(done),
             bonus,
             f"{gap}Next: press ",
-            (wording.key_hint(key, typing=self._typing), "bold $accent"),
+            self._bold(key),
             " for ",
-            Content.from_markup(f"[@click=screen.do('{command}')]$where[/]", where=where),
+            self._link(command, where),
             ", ",
+            *((self._bold(go_on[1]), " for ", self._link(go_on[0], go_on[2]), ", ") if go_on[0] else ()),
             ("V", "bold $accent"),
             " to ",
             Content.from_markup("[@click=screen.do('against')]compare your code with our solution[/]"),
             ".",
             ("" if result.remarks else "\nChoose a criterion to see what was measured.", "$quiet"),
         )
+
+    def _bold(self, key: str) -> tuple[str, str]:
+        return wording.key_hint(key, typing=self._typing), "bold $accent"
+
+    def _link(self, command: str, where: str) -> Content:
+        return Content.from_markup(f"[@click=screen.do('{command}')]$where[/]", where=where)
 
     def _remarks(self, result: ExerciseResult) -> Content:
         if not result.remarks:
@@ -280,6 +290,12 @@ class Diagnosis(VerticalScroll):
         )
         text = Content("\n").join([link, *(Content(line) for line in self._evidence)]) if self._unfolded else link
         self.query_one("#part-evidence", Part).show(text if count else Content(""))
+
+
+def _describe_done(done: Counts | None) -> str:
+    if done is None:
+        return ""
+    return "Every exercise is passed now.\n" if done.all_done else "Every exercise of the course is passed now.\n"
 
 
 def _why(verdict: Verdict) -> Content:

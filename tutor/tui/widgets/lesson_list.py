@@ -9,7 +9,7 @@ from textual.content import Content
 from textual.geometry import Size
 from textual.widgets import ListItem
 
-from tutor.content import Lesson
+from tutor.content import Counts, Lesson
 from tutor.tui import wording
 from tutor.tui.widgets.row_list import RowList
 from tutor.workspace import ExerciseProgress, ExerciseState, exercise_state
@@ -109,5 +109,6 @@ class LessonList(RowList):
         for row in self.lesson_rows:
             row.state = states[row.lesson.id]
             row.refresh()
-        passed = sum(row.state.is_passed for row in self.lesson_rows)
-        self.border_subtitle = f"{passed} of {len(self.lesson_rows)} passed"
+        rows = self.lesson_rows
+        passed = [row.lesson.id for row in rows if row.state.is_passed]
+        self.border_subtitle = str(Counts.of((row.lesson for row in rows), passed))

@@ -9,7 +9,7 @@ from textual.containers import Horizontal
 from textual.content import Content
 from textual.widgets import Static
 
-from tutor.content import Lesson
+from tutor.content import Counts, Lesson
 from tutor.session.findings import Findings
 from tutor.session.node import NodeState, Phase
 from tutor.tui import wording
@@ -39,7 +39,7 @@ class StatusBar(Horizontal):
 
     def __init__(self) -> None:
         super().__init__()
-        self._passed = 0, 0
+        self._counts = Counts(0, 0)
 
     def compose(self) -> ComposeResult:
         yield Static("ROS Tutor", id="bar-name")
@@ -56,9 +56,9 @@ class StatusBar(Horizontal):
         )
         self.query_one("#bar-lesson", Static).update(text)
 
-    def show_progress(self, passed: int, total: int) -> None:
-        """Show how many exercises are passed, each as two cells of a bar."""
-        self._passed = passed, total
+    def show_progress(self, counts: Counts) -> None:
+        """Show how many exercises are passed, each of the course as two cells of a bar."""
+        self._counts = counts
         self._show_progress()
 
     def on_resize(self) -> None:
@@ -66,12 +66,13 @@ class StatusBar(Horizontal):
         self._show_progress()
 
     def _show_progress(self) -> None:
-        passed, total = self._passed
+        counts = self._counts
         if self.app.size.width >= _WIDE_COLUMNS:
-            bar = (("━━" * passed, "$good"), ("━━" * (total - passed), "$line"))
-            text = Content.assemble(*bar, f" {passed} of {total} passed")
+            bar = (("━━" * counts.passed, "$good"), ("━━" * (counts.total - counts.passed), "$line"))
+            text = Content.assemble(*bar, f" {counts}")
         else:
-            text = Content(f"{passed}/{total}" if total else "")
+            more = f"+{counts.passed_beyond}" if counts.passed_beyond else ""
+            text = Content(f"{counts.passed}/{counts.total}{more}" if counts.total else "")
         self.query_one("#bar-progress", Static).update(text)
 
     def show_check(self, findings: Findings | None) -> None:
