@@ -66,10 +66,11 @@ class RosBench:
         *,
         parameters: Mapping[str, Any] | None = None,
         watch: Mapping[str, str] | None = None,
+        log_level: str = "",
         expected_s: float | None = None,
     ) -> AsyncIterator[Run]:
         path = self.submission.files[file].resolve()
-        argv = [str(self.machine.ros.python), str(path), *ros_arguments(parameters or {})]
+        argv = [str(self.machine.ros.python), str(path), *ros_arguments(parameters or {}, log_level)]
 
         def make_argv(env: dict[str, str], folder: Path) -> list[str]:
             return argv
@@ -233,12 +234,14 @@ def _as_engine_errors() -> Iterator[None]:
         raise EngineError(str(error)) from error
 
 
-def ros_arguments(parameters: Mapping[str, Any]) -> list[str]:
-    """Return the command-line arguments that set these parameters, as a user would type them."""
-    if not parameters:
+def ros_arguments(parameters: Mapping[str, Any], log_level: str = "") -> list[str]:
+    """Return the command-line arguments that set these parameters and this log level, as a user would type them."""
+    if not parameters and not log_level:
         return []
     arguments = ["--ros-args"]
     for name, value in parameters.items():
         text = str(value).lower() if isinstance(value, bool) else str(value)
         arguments += ["-p", f"{name}:={text}"]
+    if log_level:
+        arguments += ["--log-level", log_level]
     return arguments

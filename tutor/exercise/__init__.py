@@ -28,6 +28,7 @@ from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.form import Custom, Form, check
 from tutor.exercise.handles_goal import HandlesGoal
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
+from tutor.exercise.logs_at import LogsAt, StaysQuiet, Throttles
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
 from tutor.exercise.nouns import (
@@ -54,6 +55,7 @@ from tutor.exercise.set_at_run_time import SetAtRunTime
 from tutor.exercise.set_at_start import SetAtStart
 from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
+from tutor.exercise.told_events import Event, Feed
 from tutor.exercise.watched_start import LogsText
 
 __all__ = [
@@ -68,12 +70,15 @@ __all__ = [
     "Custom",
     "Defaults",
     "EndsCleanly",
+    "Event",
+    "Feed",
     "FieldEquals",
     "Fields",
     "Form",
     "HandlesGoal",
     "InRange",
     "LaunchFile",
+    "LogsAt",
     "LogsParameter",
     "LogsText",
     "NamesBadValue",
@@ -97,8 +102,10 @@ __all__ = [
     "ShownByEcho",
     "ShownIn",
     "StartsPair",
+    "StaysQuiet",
     "SurvivesBadCall",
     "SwitchesOff",
+    "Throttles",
     "Topic",
     "Varies",
     "check",

@@ -210,14 +210,15 @@ class Bench(Protocol):
         *,
         parameters: Mapping[str, Any] | None = None,
         watch: Mapping[str, str] | None = None,
+        log_level: str = "",
         expected_s: float | None = None,
     ) -> AbstractAsyncContextManager[Run]:
         """Start one of the submission's files; every trace of the process is gone when the context exits.
 
         `parameters` are passed as `--ros-args -p name:=value`. `watch` maps topics to types; they are subscribed to
-        before the process starts. `expected_s`: roughly how long this run, and everything that depends on it, takes
-        with our own solution, in wall-clock seconds (default: the check's `expected_s`). It only decides which of
-        many runs starts first.
+        before the process starts. `log_level`: passed as `--ros-args --log-level`, as in "debug". `expected_s`: roughly
+        how long this run, and everything that depends on it, takes with our own solution, in wall-clock seconds
+        (default: the check's `expected_s`). It only decides which of many runs starts first.
         """
 
     def launch(self, file: str, *, arguments: Mapping[str, str] | None = None) -> AbstractAsyncContextManager[Run]:

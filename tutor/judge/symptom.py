@@ -26,6 +26,8 @@ class Symptom(Enum):
     BAD_VALUE_ACCEPTED = "a bad value of a parameter is accepted"
     NOT_LOGGED = "something is missing from the log"
     WRONG_LOG = "the log says something that is not so"
+    WRONG_LEVEL = "what happened is not logged at the level asked for"
+    LOGGED_TOO_OFTEN = "the log says more often than it should what happened"
     SERVICE_MISSING = "a service is missing"
     ACTION_MISSING = "an action server is missing"
     WRONG_GOAL = "a goal of an action does not go as it should"
