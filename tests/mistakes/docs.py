@@ -72,6 +72,7 @@ PAGE_OF = {
     "executor": "executors",
     "spinning": "executors",
     "log_options": "logging",
+    "log_levels": "logging",
     "logged_exceptions": "logging",
     "logging": "logging",
     "missing_logs": "logging",

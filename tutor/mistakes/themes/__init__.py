@@ -56,6 +56,7 @@ from tutor.mistakes.themes import clocks as clocks
 from tutor.mistakes.themes import python_pitfalls as python_pitfalls
 from tutor.mistakes.themes import wrong_arithmetic as wrong_arithmetic
 from tutor.mistakes.themes import log_options as log_options
+from tutor.mistakes.themes import log_levels as log_levels
 from tutor.mistakes.themes import missing_logs as missing_logs
 from tutor.mistakes.themes import exit_exceptions as exit_exceptions
 from tutor.mistakes.themes import exit_codes as exit_codes

@@ -15,7 +15,7 @@ from tutor.mistakes.examples import in_run
 from tutor.source import SourceFile, calls_in
 from tutor.source.print_calls import find_print, find_python_logging
 
-_LOGS = (Symptom.NOT_LOGGED, Symptom.STANDS_STILL)
+_LOGS = (Symptom.NOT_LOGGED, Symptom.WRONG_LEVEL, Symptom.STANDS_STILL)
 _SHOWN = ("info", "warning", "warn", "error", "fatal")
 _LEVELS = {"WARN": Level.WARN, "WARNING": Level.WARN, "ERROR": Level.ERROR, "FATAL": Level.FATAL}
 _LOG_LINE = re.compile(r"^(?:\x1b\[\d+m)?\[(?:DEBUG|INFO|WARN|ERROR|FATAL)\] \[\d+\.\d+\] \[(?P<logger>[^\]]*)\]")

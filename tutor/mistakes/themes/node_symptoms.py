@@ -204,6 +204,65 @@ def not_logged(case: Case) -> Iterator[Found]:
     )
 
 
+@symptom("wrong-level", explains=[Symptom.WRONG_LEVEL])
+def wrong_level(case: Case) -> Iterator[Found]:
+    """What happened is not logged at its level.
+
+    The level says who must read a message: DEBUG in search of a fault, INFO for what has happened, WARN for what should
+    be looked at before it gets worse, ERROR for what does not work now. Who filters by level sees nothing of an event
+    that has another one, or none.
+
+    Bad:
+
+        self.get_logger().debug('no answer from the door')
+
+    Good:
+
+        self.get_logger().error('no answer from the door')
+
+    See it: the levels in the log in the app, or `ros2 topic echo /rosout --field level`.
+
+    Lesson: b1.6, on levels.
+    """
+    what = case.about("what", "what happened")
+    return in_words(
+        case,
+        f"{what} is not logged at the level asked for",
+        "Find the line that notices it, and see which method of the logger it calls, if any.",
+    )
+
+
+@symptom("logged-too-often", explains=[Symptom.LOGGED_TOO_OFTEN])
+def logged_too_often(case: Case) -> Iterator[Found]:
+    """The same thing is logged again and again.
+
+    A callback runs for each message, and what it logs comes as often. A change is logged when it happens, which takes a
+    look at what was before; what lasts is throttled; and what nobody must read by default is for DEBUG.
+
+    Bad:
+
+        def on_door(self, door):
+            self.get_logger().info(f'door {door.data}')
+
+    Good:
+
+        def on_door(self, door):
+            if door.data != self.door:
+                self.get_logger().info(f'door {door.data}')
+            self.door = door.data
+
+    See it: the log in the app, while nothing happens.
+
+    Lesson: b1.6, on how often.
+    """
+    what = case.about("what", "the same thing")
+    return in_words(
+        case,
+        f"{what} is logged more often than it should be",
+        "Log it when it begins, or throttle it, or lower its level.",
+    )
+
+
 @symptom("wrong-log", explains=[Symptom.WRONG_LOG])
 def wrong_log(case: Case) -> Iterator[Found]:
     """The log says something that is not so.
