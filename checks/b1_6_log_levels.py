@@ -1,14 +1,101 @@
-"""B1.6 At the Right Level: a battery monitor that logs each event at the level that it deserves."""
+"""B1.6 At the Right Level: a battery monitor that logs each event at its level, once, throttled, or not at all."""
 
 from __future__ import annotations
 
-from tutor.exercise import EndsCleanly, Program, Receives, Topic, check
+import random
+import re
+from collections.abc import Mapping
+from math import nan
+from typing import Any
+
+from tutor.exercise import EndsCleanly, Event, Feed, LogsAt, Program, StaysQuiet, Throttles, Topic, check
 
 BATTERY = Topic("/battery", "sensor_msgs/msg/BatteryState", "percentage")
+CHARGING, DISCHARGING, NOT_CHARGING, FULL = 1, 2, 3, 4
+
+FIRST, READING, ORDINARY, CHANGE = "the first reading", "a reading", "an ordinary reading", "a change of status"
+LOW, HOT, OUTAGE, RECOVERY = "the battery is low", "the battery is hot", "an outage", "a good reading after an outage"
+
+PERIOD_S = 2.0
+FLOOD = 104  # of low readings: 5.2 s, more than twice the period
+
+Reading = dict[str, Any]
+
+
+def reading(status: int, charge: float | None = None, celsius: float | None = None) -> Reading:
+    """A reading with a random charge and temperature, unless they are given."""
+    return {
+        "power_supply_status": status,
+        "percentage": random.randint(40, 95) / 100 if charge is None else charge,
+        "temperature": random.randint(200, 320) / 10 if celsius is None else celsius,
+    }
+
+
+def low_charge() -> float:
+    """A charge well below 20 %."""
+    return random.randint(3, 16) / 100
+
+
+def one_of(kind: str, *messages: Reading, at: str = "") -> Event:
+    """An event of these readings."""
+    return Event(kind, messages, at)
+
+
+def shift() -> tuple[Event, ...]:
+    """What happens while someone is on call: one thing after another."""
+    statuses = random.sample((CHARGING, DISCHARGING, NOT_CHARGING, FULL), 4)
+    begins, *changes, last = statuses
+    return (
+        one_of(FIRST, reading(begins), at="info"),
+        one_of(ORDINARY, *(reading(begins) for _ in range(random.randint(3, 5)))),
+        *(one_of(CHANGE, reading(status), at="info") for status in (*changes, last)),
+        one_of(ORDINARY, *(reading(last) for _ in range(random.randint(3, 5)))),
+        one_of(OUTAGE, *(reading(last, charge=nan) for _ in range(random.randint(3, 5))), at="error"),
+        one_of(RECOVERY, reading(last)),
+        one_of(OUTAGE, *(reading(last, charge=float(random.randint(5, 95))) for _ in range(4)), at="error"),
+        one_of(RECOVERY, reading(last)),
+        one_of(LOW, *(reading(last, charge=low_charge()) for _ in range(3)), at="warn"),
+        one_of(HOT, *(reading(last, low_charge(), random.uniform(52, 70)) for _ in range(10)), at="warn"),
+    )
+
+
+def shows_charge(text: str, message: Mapping[str, Any]) -> bool:
+    """Whether a text has the charge, as a fraction or in percent; it may be rounded to a whole percent."""
+    numbers = [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", text)]
+    charge = message["percentage"]
+    return any(abs(number - charge) < 0.0101 or abs(number - 100 * charge) < 1.01 for number in numbers)
+
+
+SHIFT = Feed(BATTERY, shift())
+FLOODED = Feed(
+    BATTERY,
+    (
+        one_of(ORDINARY, reading(DISCHARGING)),
+        one_of(LOW, *(reading(DISCHARGING, charge=low_charge()) for _ in range(FLOOD)), at="warn"),
+    ),
+)
+DEBUGGED = Feed(
+    BATTERY,
+    tuple(
+        one_of(READING, reading(status, charge), at="debug")
+        for status, charge in ((CHARGING, None), (CHARGING, None), (FULL, None), (FULL, low_charge()), (FULL, None))
+    ),
+    log_level="debug",
+)
+
+low = Throttles("low", FLOODED, LOW, period_s=PERIOD_S)
 
 CHECK = check(
     "b1.6",
     Program("battery_monitor.py"),
-    Receives("readings", BATTERY, (0.83, 0.47)),
+    LogsAt("first", SHIFT, FIRST, at_most=2),  # perhaps also its status, which is new as well
+    StaysQuiet("quiet", SHIFT, ORDINARY),
+    LogsAt("changes", SHIFT, CHANGE),
+    LogsAt("readings", DEBUGGED, READING, at_most=9, shows=shows_charge),
+    low,
+    LogsAt("hot", SHIFT, HOT, after=low),
+    LogsAt("broken", SHIFT, OUTAGE),
     EndsCleanly("shutdown", bonus=True),
+    expected_s=8.0,
+    expected_reason="a low battery: 5.2 s of readings, in which a throttled warning comes three times",
 )

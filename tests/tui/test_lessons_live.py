@@ -296,3 +296,18 @@ async def test_i2_3(session: Session) -> None:
         me.reads("Meanwhile the ticks in the log must continue. The log is beside Live if your terminal is wide enough")
         await me.press("3", "left_square_bracket")
         await me.sees("Tick ")
+
+
+async def test_b1_6(session: Session) -> None:
+    async with reading(session, "b1.6") as me:
+        me.reads("Run your node with `r`, and press `b`: a battery begins to send")
+        await me.press("r")
+        await me.sees("● running  battery_monitor.py")
+        await me.press("b")
+        await me.sees("● running  battery", "The battery discharges", "The battery is low, and hot")
+        me.reads("its own log (`[` and `]` switch) says when")
+        await me.press("left_square_bracket")
+        await me.sees(
+            "● running  battery_monitor.py", "The battery reports", "The battery is low: ", "The battery is hot: "
+        )
+        await me.sees("Broken readings: ")

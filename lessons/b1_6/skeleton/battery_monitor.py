@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exercise B1.6: say what happens to a battery, at the right level."""
+"""Exercise B1.6: log what happens to a battery, at the right level."""
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -12,6 +12,8 @@ class BatteryMonitor(Node):
 
     def __init__(self) -> None:
         super().__init__("battery_monitor")
+        # TODO 1: what must the node remember from one reading to the
+        #         next, to see a change and the begin of an outage?
         self.subscription = self.create_subscription(
             BatteryState,
             "/battery",
@@ -21,7 +23,19 @@ class BatteryMonitor(Node):
 
     def on_battery(self, battery: BatteryState) -> None:
         """Handle one reading. rclpy calls this for each."""
-        # TODO 1: log the reading.
+        # TODO 2: this shows every reading, all day long. Bring it to
+        #         the level of what is read only in search of a fault.
+        print("reading:", battery.percentage, battery.temperature)
+
+        # TODO 3: say once that the battery reports at all.
+
+        # TODO 4: log a change of battery.power_supply_status.
+
+        # TODO 5: warn of a charge below 0.2, and of more than 45 °C,
+        #         each of them at most once in two seconds.
+
+        # TODO 6: log the begin of an outage, in which the charge is no
+        #         number, or not from 0 to 1.
 
 
 def main() -> None:
