@@ -38,6 +38,12 @@ def event(value: float) -> Told:
         (f"{CALLBACK}    log.info('door open', once=True)\n", {"earlier": ()}, "wrong-level", ""),
         (f"{CALLBACK}    log.info('a lift', once=True)\n", {"earlier": BEFORE}, "wrong-level", ""),
         (
+            f"{CALLBACK}    log.info(f'door {{door:.0%}}', once=True)\n",
+            {"earlier": BEFORE},
+            "once-is-for-the-whole-run",
+            "line 4",
+        ),
+        (
             f"{CALLBACK}    log.info('a lift', once=True)\n    log.info(f'door {{door}}', throttle_duration_sec=5.0)\n",
             {"earlier": BEFORE},
             "throttled-though-each-one-counts",

@@ -103,13 +103,13 @@ class Checks:
         lesson, lessons = self._conversation.lesson, self._conversation.session.lessons
         following = next(iter(lessons[lessons.index(lesson) + 1 :]), None)
         if following is None:
-            praise, more = "Well done: this was the last lesson.", ""
+            praise, goes_on = "Well done: this was the last lesson.", ""
         elif following.beyond and not lesson.beyond:
-            praise, more = "Well done: this was the last lesson of the course.", "next goes beyond it, "
+            praise, goes_on = "Well done: this was the last lesson of the course.", "next goes beyond it, "
         else:
-            praise, more = "Well done.", "next goes to the next lesson, "
-        goes = "" if more else " goes"
-        self._conversation.say(f"{praise} {more}checklist{goes} to what you can do by now.")
+            praise, goes_on = "Well done.", "next goes to the next lesson, "
+        goes = "" if goes_on else " goes"
+        self._conversation.say(f"{praise} {goes_on}checklist{goes} to what you can do by now.")
 
     def _offer_explanation(self, result: ExerciseResult, progress: ExerciseProgress) -> None:
         """Name the command that explains a mistake, at the last of several checks in a row that failed by it."""

@@ -53,8 +53,10 @@ def _may_have_made(file: NodeFile, call: ast.Call, log: LogRecord) -> bool:
     function = file.function_around(call)
     if function is None or function.name != log.function or not call.args:
         return False
-    texts = [node.value for node in ast.walk(call.args[0]) if isinstance(node, ast.Constant)]
-    return all(text in log.text for text in texts if isinstance(text, str) and len(text) > 2)
+    message = call.args[0]
+    parts = message.values if isinstance(message, ast.JoinedStr) else [message]
+    texts = [part.value for part in parts if isinstance(part, ast.Constant)]
+    return all(text in log.text for text in texts if isinstance(text, str))
 
 
 @mistake(
