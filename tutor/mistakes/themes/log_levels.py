@@ -294,11 +294,28 @@ def nan_passes(case: Case) -> Iterator[Found]:
     """
     event = getattr(case.about("event"), "event", None)
     values = [value for message in getattr(event, "messages", ()) for value in message.values()]
-    if any(isinstance(value, float) and isnan(value) for value in values):
-        tested = [call for file in case.files for call in calls_in(file.tree, "isnan", "isfinite")]
-        within = [node for file in case.files for node in file.nodes if _is_range(node)]
-        if not tested and not within:
-            yield Found()
+    if not any(isinstance(value, float) and isnan(value) for value in values):
+        return
+    for file in case.files:
+        for node in file.nodes:
+            if _is_out_of_range(node) and not _knows_nan(file.function_around(node) or file.tree):
+                yield found(file, node)
+    if not any(_knows_nan(file.tree) for file in case.files):
+        yield Found()
+
+
+def _knows_nan(code: ast.AST) -> bool:
+    """Whether a part of the code asks for NaN, or for what is within a range, which NaN is not."""
+    return bool(calls_in(code, "isnan", "isfinite")) or any(_is_range(node) for node in ast.walk(code))
+
+
+def _is_out_of_range(node: ast.AST) -> bool:
+    """Whether this is a condition such as `x < 0 or x > 1`."""
+    return (
+        isinstance(node, ast.BoolOp)
+        and isinstance(node.op, ast.Or)
+        and sum(isinstance(value, ast.Compare) for value in node.values) > 1
+    )
 
 
 def _is_range(node: ast.AST) -> bool:
