@@ -25,11 +25,16 @@ from tutor.exercise.criterion_function import criterion
 from tutor.exercise.defaults import Defaults
 from tutor.exercise.ends_cleanly import EndsCleanly
 from tutor.exercise.error_words import SAYS_ERROR
+from tutor.exercise.faults import Faults
 from tutor.exercise.form import Custom, Form, check
 from tutor.exercise.handles_goal import HandlesGoal
+from tutor.exercise.has_endpoints import Endpoint, HasEndpoints
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
+from tutor.exercise.keeps_rate import KeepsRate
+from tutor.exercise.leads_to import LeadsTo
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
+from tutor.exercise.names_fault import NamesFault
 from tutor.exercise.nouns import (
     Action,
     LaunchFile,
@@ -54,6 +59,7 @@ from tutor.exercise.set_at_run_time import SetAtRunTime
 from tutor.exercise.set_at_start import SetAtStart
 from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
+from tutor.exercise.tells import Tells
 from tutor.exercise.watched_start import LogsText
 
 __all__ = [
@@ -67,16 +73,22 @@ __all__ = [
     "Contains",
     "Custom",
     "Defaults",
+    "Endpoint",
     "EndsCleanly",
+    "Faults",
     "FieldEquals",
     "Fields",
     "Form",
     "HandlesGoal",
+    "HasEndpoints",
     "InRange",
+    "KeepsRate",
     "LaunchFile",
+    "LeadsTo",
     "LogsParameter",
     "LogsText",
     "NamesBadValue",
+    "NamesFault",
     "Node",
     "OtherUnit",
     "PairCommunicates",
@@ -99,6 +111,7 @@ __all__ = [
     "StartsPair",
     "SurvivesBadCall",
     "SwitchesOff",
+    "Tells",
     "Topic",
     "Varies",
     "check",
