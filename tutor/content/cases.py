@@ -105,7 +105,10 @@ def _read_case(fields: Fields, file: Path) -> LessonCase:
 
 
 def handed_over(lesson: Lesson, cases: Cases, case: LessonCase) -> Mapping[str, str]:
-    """The files of a lesson with this case, by name, and a report without an answer. Raises ContentError, and OSError."""
+    """The files of a lesson with this case, by name, the report without an answer.
+
+    Raises ContentError, and OSError.
+    """
     report = next(file.skeleton for file in lesson.files if file.name == cases.report)
     text = with_case(report.read_text(encoding="utf-8"), case.id)
     return {**patched(lesson, case.changes), cases.report: text}
@@ -143,5 +146,5 @@ def read_report(text: str) -> Report:
     if not isinstance(found, dict):
         return Report()
     tries = found.get("tries")
-    words = [str(found.get(key) or "") for key in ("case", "what", "where")]
-    return Report(*words, tries=tries if isinstance(tries, int) else 0)
+    case, what, where = (str(found.get(key) or "") for key in ("case", "what", "where"))
+    return Report(case, what, where, tries if isinstance(tries, int) else 0)

@@ -9,10 +9,10 @@ import yaml
 
 from tutor.exercise.faults import Fault, Faults
 from tutor.exercise.form import Exercise, Form
+from tutor.exercise.publishing_start import NOT_STARTED
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Symptom
-from tutor.judge.trace import Trace
 from tutor.judge.verdict import Verdict, failed, passed
 
 EXPECTED = "the report says what is wrong, and in which file"
@@ -82,7 +82,7 @@ class NamesFault(Form):
 
     def _failed(self, observed: str, says: str, do: str) -> Verdict:
         reported = observed.startswith(tuple(kind.says for kind in self.faults.kinds.values()))
-        seen = Symptom.FAULT_NOT_NAMED.seen(Trace(self.faults.report), says=says, do=do, reported=reported)
+        seen = Symptom.FAULT_NOT_NAMED.seen(NOT_STARTED, says=says, do=do, reported=reported)
         return failed(EXPECTED, observed, seen)
 
 

@@ -16,14 +16,13 @@ from tutor.exercise.launch_run import LaunchRun
 from tutor.exercise.launch_symptoms import seen_in_launch
 from tutor.exercise.nouns import LaunchFile, Topic
 from tutor.exercise.publishing_start import cancel
-from tutor.exercise.seen_run import slowed_so_far
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
 from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.launch_output import ended_processes
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.verdict import Verdict
-from tutor.judge.waiting_for_nodes import IN_FLIGHT_S, START_S
+from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE, HARDLY_WAITED_SHARE, IN_FLIGHT_S, START_S
 
 COMPARE = "Follow it from node to node, and compare what `ros2` shows with what was handed over."
 """The next step where a system does not do what it should."""
@@ -40,15 +39,26 @@ class Sent:
 
 @dataclass(frozen=True)
 class SystemRun(LaunchRun):
-    """One launch of a system. `sent`: what we have published; `seen_until`: when we stopped looking.
+    """One launch of a system. `sent`: what we have published.
 
-    `slowed`: see `tutor.judge.bench.was_slowed`; `cpu_wait_s`: how long its processes waited for a CPU.
+    `seen_from`, `seen_until`: from when all its nodes were up, until we stopped looking, in seconds since the epoch.
+    `cpu_wait_s`: how long its processes waited for a CPU in that time, all together.
     """
 
     sent: tuple[Sent, ...] = ()
+    seen_from: float = 0.0
     seen_until: float = 0.0
-    slowed: bool = False
     cpu_wait_s: float = 0.0
+
+    @property
+    def slowed(self) -> bool:
+        """Whether the machine may be to blame for what was seen (see `tutor.judge.bench.was_slowed`)."""
+        return self.cpu_wait_s >= HARDLY_WAITED_SHARE * (self.seen_until - self.seen_from)
+
+    @property
+    def starved(self) -> bool:
+        """Whether its processes had to wait so much that nothing can be said of their timing."""
+        return self.cpu_wait_s >= CPU_WAIT_SHARE * (self.seen_until - self.seen_from)
 
     @property
     def broken(self) -> bool:
@@ -80,25 +90,25 @@ class RunSystem:
             bench.report_progress(0.1, "launching the system")
             for topic in dict.fromkeys(topic for form in self.forms for topic in form.watched):
                 run.watch(topic.name, topic.type)
-            await run.until(lambda: len(run.graph.nodes) >= nodes, START_S)
+            await run.until(lambda: len(run.graph.nodes) >= nodes or bool(ended_processes(run.output)), START_S)
             bench.report_progress(0.3, "watching what it does")
+            seen_from, waited_s = run.now(), run.node_cpu_wait_s()
             tasks = [asyncio.ensure_future(form.look(run, sent)) for form in self.forms]
             try:
                 await asyncio.gather(*tasks)
             finally:
                 await cancel(tasks)
-            trace, seen_until = run.trace(), run.now()
-            slowed, waited_s, command_lines = slowed_so_far(run), run.node_cpu_wait_s(), run.command_lines()
+            trace, seen_until, cpu_wait_s = run.trace(), run.now(), run.node_cpu_wait_s() - waited_s
+            command_lines = run.command_lines()
             bench.report_progress(0.8, "pressing Ctrl+C")
-            ending = await run.interrupt()
             return SystemRun(
                 trace,
                 command_lines=command_lines,
-                ending=ending,
+                ending=await run.interrupt(),
                 sent=tuple(sent),
+                seen_from=seen_from,
                 seen_until=seen_until - IN_FLIGHT_S,
-                slowed=slowed,
-                cpu_wait_s=waited_s,
+                cpu_wait_s=cpu_wait_s,
             )
 
 

@@ -6,10 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from tutor.content import Lesson
+from tutor.content import Lesson, LessonFile
+from tutor.content.cases import cases_of, read_report
 from tutor.errors import StorageError
+from tutor.workspace.drawn_cases import Drawn, skeleton_text
 from tutor.workspace.layout import Workspace
 from tutor.workspace.placing_files import Placed, place_files
+from tutor.workspace.saving import read_source
 
 TEMPLATE = Path(__file__).parent / "template"
 """The initial content of a workspace."""
@@ -23,15 +26,22 @@ class Started:
     created_workspace: bool
 
 
-def start(lesson: Lesson, workspace: Workspace, *, force: bool = False) -> Started:
+def start(lesson: Lesson, workspace: Workspace, *, force: bool = False, another: bool = False) -> Started:
     """Put the skeleton of `lesson` into the workspace, and create the parts of the workspace that are missing.
 
-    Raises WorkspaceError, with nothing written, if a differing file is in the way and `force` is not set, and
-    StorageError if the disk cannot be read or written.
+    Of a lesson with cases, one is drawn, and stays until `another` is asked for, which takes the place of its files
+    (backups are kept). Raises WorkspaceError, with nothing written, if a differing file is in the way and `force` is
+    not set, and StorageError if the disk cannot be read or written.
     """
     created = not workspace.exists
-    skeletons = {workspace.path_of(file.name): _read(file.skeleton) for file in lesson.files}
-    placed = place_files({**_missing_template(workspace), **skeletons}, force=force)
+    cases = cases_of(lesson)
+    drawn = workspace.cases().read(lesson.id)
+    if cases is not None and (another or not drawn.current):
+        drawn = drawn.draw(cases)
+    skeletons = {workspace.path_of(file.name): _skeleton(lesson, file, drawn) for file in lesson.files}
+    placed = place_files({**_missing_template(workspace), **skeletons}, force=force or another)
+    if cases is not None:
+        workspace.cases().write(lesson.id, drawn)
     try:
         (workspace.package / "launch").mkdir(exist_ok=True)
     except OSError as error:
@@ -41,9 +51,23 @@ def start(lesson: Lesson, workspace: Workspace, *, force: bool = False) -> Start
 
 
 def start_in(lesson: Lesson, folder: Path, *, force: bool = False) -> Started:
-    """Put the bare skeleton files of `lesson` into any folder. Raises what `start` raises."""
-    skeletons = {folder / file.name: _read(file.skeleton) for file in lesson.files}
+    """Put the bare skeleton files of `lesson` into any folder. Raises what `start` raises.
+
+    Of a lesson with cases, it is the one that the report there names, or else one is drawn.
+    """
+    drawn = Drawn()
+    if (cases := cases_of(lesson)) is not None:
+        before = read_report(read_source(folder / cases.report) or "").case
+        drawn = Drawn((before,)) if cases.find(before) is not None else drawn.draw(cases)
+    skeletons = {folder / file.name: _skeleton(lesson, file, drawn) for file in lesson.files}
     return Started(place_files(skeletons, force=force), created_workspace=False)
+
+
+def _skeleton(lesson: Lesson, file: LessonFile, drawn: Drawn) -> bytes:
+    try:
+        return skeleton_text(lesson, file, drawn).encode() if drawn.current else file.skeleton.read_bytes()
+    except OSError as error:
+        raise StorageError.of(f"read {file.skeleton}", error) from error
 
 
 def _missing_template(workspace: Workspace) -> dict[Path, bytes]:

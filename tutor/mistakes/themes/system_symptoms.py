@@ -19,9 +19,9 @@ def system_at_fault(case: Case) -> Iterator[Found]:
     Most faults between nodes are silent: no exception, no log message, just something that does not come. Do not read
     all of the code. Follow one message from where it begins, and find the last place where all is as it should be; the
     fault is right behind it. At each step, compare what runs with what was agreed on: nodes and their namespaces
-    (`ros2 node list`), names and types of topics (`ros2 topic list -t`), both ends of a topic and their QoS (`ros2 topic
-    info --verbose`), what is sent and how often (`ros2 topic echo`, `ros2 topic hz`), and parameters as the node has
-    them, not as the file says (`ros2 param get`).
+    (`ros2 node list`), names and types of topics (`ros2 topic list -t`), both ends of a topic and their QoS
+    (`ros2 topic info --verbose`), what is sent and how often (`ros2 topic echo`, `ros2 topic hz`), and parameters as
+    the node has them, not as the file says (`ros2 param get`).
 
     Bad:
 
