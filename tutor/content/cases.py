@@ -64,6 +64,11 @@ class Report:
     tries: int = 0
 
 
+def has_cases(lesson: Lesson) -> bool:
+    """Whether a lesson hands over a system with a fault."""
+    return (lesson.folder / FILE).is_file()
+
+
 def cases_of(lesson: Lesson) -> Cases | None:
     """Read the cases of a lesson; None if it has none. Raises ContentError."""
     file = lesson.folder / FILE

@@ -72,8 +72,8 @@ class LeadsTo(SystemForm):
     def _failed(self, seen: SystemRun, expected: str, value: Any, wanted: Any, sent: Sent, shown: list[str]) -> Verdict:
         topic, to = self.topic, self.to
         later = [sample for sample in seen.trace.samples_on(to.name) if sample.source_time >= sent.at]
-        reached = f"{to.show(later[-1])} on {to.name}" if later else f"no message on {to.name}"
-        observed = f"{value!r} was sent; {reached} {seen.seen_until - sent.at:.1f} s later"
+        reached = f"at the end, {to.show(later[-1])} on {to.name}" if later else f"no message came on {to.name}"
+        observed = f"{value!r} was sent; {reached}"
         says = f"{value!r} on {topic.name} does not lead to {wanted} on {to.name} in time"
         return failed(expected, observed, seen.not_as_it_should(says), [*shown, *output_tail(seen.trace)])
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from tutor import interpreter
 from tutor.content import Course, Lesson, LessonFile, Partner
+from tutor.content.cases import Report
 from tutor.content.courses import Courses
 from tutor.errors import StorageError
 from tutor.session import run_options
@@ -30,10 +31,13 @@ from tutor.workspace import (
     place_files,
     record,
     start,
+    start_another,
     states_of,
     versions_of,
     write_atomically,
 )
+from tutor.workspace.answering import Question, answer, ask
+from tutor.workspace.drawn_cases import Drawn, skeleton_text, solution_text
 from tutor.workspace.progress import now
 
 if TYPE_CHECKING:
@@ -80,12 +84,12 @@ class Session:
         """Return the names of the required files that do not exist yet; the lesson cannot be checked without them."""
         return tuple(file.name for file in lesson.files if file.required and not self.path(file).exists())
 
-    def start(self, lesson: Lesson) -> Placed:
+    def start(self, lesson: Lesson, *, another: bool = False) -> Placed:
         """Put missing skeleton files into the workspace; existing files are not changed.
 
-        Raises WorkspaceError or StorageError.
+        `another`: another fault, in place of the files that are there. Raises WorkspaceError or StorageError.
         """
-        placed = start(lesson, self.workspace).files
+        placed = (start_another if another else start)(lesson, self.workspace).files
         self.workspace.courses(self.notify).add(self.courses)
         return placed
 
@@ -110,16 +114,38 @@ class Session:
                     f"({error.strerror})."
                 )
 
-    def reset(self, file: LessonFile) -> Placed:
+    def reset(self, lesson: Lesson, file: LessonFile) -> Placed:
         """Replace the learner's file with the skeleton; the file is kept as a backup.
 
         Raises WorkspaceError or StorageError.
         """
+        return place_files({self.path(file): self.skeleton(lesson, file).encode()}, force=True)
+
+    def skeleton(self, lesson: Lesson, file: LessonFile) -> str:
+        """Return a file as it was handed over to the learner. Raises StorageError."""
+        return self._handed_over(skeleton_text, lesson, file)
+
+    def solution(self, lesson: Lesson, file: LessonFile) -> str:
+        """Return our solution's file. Raises StorageError."""
+        return self._handed_over(solution_text, lesson, file)
+
+    def _handed_over(self, read: Callable[[Lesson, LessonFile, Drawn], str], lesson: Lesson, file: LessonFile) -> str:
         try:
-            skeleton = file.skeleton.read_bytes()
+            return read(lesson, file, self.drawn(lesson))
         except OSError as error:
-            raise StorageError.of(f"read {file.skeleton}", error) from error
-        return place_files({self.path(file): skeleton}, force=True)
+            raise StorageError.of(f"read {file.name}", error) from error
+
+    def drawn(self, lesson: Lesson) -> Drawn:
+        """Return which faults were drawn for the learner, of a lesson that hands over a system."""
+        return self.workspace.cases(self.notify).read(lesson.id) if self.workspace.exists else Drawn()
+
+    def question(self, lesson: Lesson) -> Question:
+        """Return what the learner has to answer in such a lesson. Raises UsageError where there is nothing."""
+        return ask(lesson, self.workspace)
+
+    def answer(self, lesson: Lesson, what: str, where: str) -> Report:
+        """Write the learner's answer into the report, and return it. Raises UsageError or StorageError."""
+        return answer(lesson, self.workspace, what, where)
 
     def app_state(self) -> AppState:
         """Read the app's saved state of this workspace."""

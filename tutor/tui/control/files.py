@@ -338,7 +338,7 @@ class Files:
             if self._pane.is_unsaved(path):
                 return  # saving failed, which was reported: the editor holds the only copy
             try:
-                placed = await asyncio.to_thread(model.session.reset, file)
+                placed = await asyncio.to_thread(model.session.reset, model.lesson, file)
                 text = await asyncio.to_thread(read_source, path)
             except (WorkspaceError, StorageError) as error:
                 self._host.show_error(str(error))
