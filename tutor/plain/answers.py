@@ -24,13 +24,13 @@ class Answers:
         """Ask what it is, and where, by numbers; then write it into the report."""
         session, lesson = self._conversation.session, self._conversation.lesson
         try:
-            cases = session.question(lesson).cases
+            cases = session.handed_over.question(lesson).cases
             what = await self._choose("What is wrong?", [*cases.kinds], [*cases.kinds.values()])
             where = await self._choose("In which file?", cases.places, cases.places) if what else ""
             if not what or not where:
                 self._conversation.say("Nothing is reported.")
                 return
-            session.answer(lesson, what, where)
+            session.handed_over.answer(lesson, what, where)
         except UsageError as error:
             raise CommandRefused(str(error)) from error
         self._conversation.say(f"Reported: {cases.kinds[what]}, in {where}. check judges it.")
@@ -43,7 +43,7 @@ class Answers:
         placed = session.start(lesson, another=True)
         for path in placed.backups:
             self._conversation.say(f"Kept: {short_path(path)}")
-        found = session.drawn(lesson).describe()
+        found = session.handed_over.drawn(lesson).describe()
         self._conversation.say(f"Another fault is handed over.{f' So far: {found}.' if found else ''}")
 
     async def _choose(self, title: str, ids: Sequence[str], choices: Sequence[str]) -> str:

@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING
 
 from tutor import interpreter
 from tutor.content import Course, Lesson, LessonFile, Partner
-from tutor.content.cases import Report
 from tutor.content.courses import Courses
-from tutor.errors import StorageError
 from tutor.session import run_options
+from tutor.session.handed_over import HandedOver
 from tutor.session.node_command import NodeCommand
 from tutor.workspace import (
     AppState,
@@ -36,8 +35,6 @@ from tutor.workspace import (
     versions_of,
     write_atomically,
 )
-from tutor.workspace.answering import Question, answer, ask
-from tutor.workspace.drawn_cases import Drawn, skeleton_text, solution_text
 from tutor.workspace.progress import now
 
 if TYPE_CHECKING:
@@ -62,6 +59,7 @@ class Session:
         self._tools: Path | None = None
         self.notify: Notify = lambda text: None
         """Called, from any thread, with a one-line message for the learner (damaged progress was set aside)."""
+        self.handed_over = HandedOver(lambda: self.workspace, lambda text: self.notify(text))
 
     @property
     def lessons(self) -> tuple[Lesson, ...]:
@@ -119,33 +117,7 @@ class Session:
 
         Raises WorkspaceError or StorageError.
         """
-        return place_files({self.path(file): self.skeleton(lesson, file).encode()}, force=True)
-
-    def skeleton(self, lesson: Lesson, file: LessonFile) -> str:
-        """Return a file as it was handed over to the learner. Raises StorageError."""
-        return self._handed_over(skeleton_text, lesson, file)
-
-    def solution(self, lesson: Lesson, file: LessonFile) -> str:
-        """Return our solution's file. Raises StorageError."""
-        return self._handed_over(solution_text, lesson, file)
-
-    def _handed_over(self, read: Callable[[Lesson, LessonFile, Drawn], str], lesson: Lesson, file: LessonFile) -> str:
-        try:
-            return read(lesson, file, self.drawn(lesson))
-        except OSError as error:
-            raise StorageError.of(f"read {file.name}", error) from error
-
-    def drawn(self, lesson: Lesson) -> Drawn:
-        """Return which faults were drawn for the learner, of a lesson that hands over a system."""
-        return self.workspace.cases(self.notify).read(lesson.id) if self.workspace.exists else Drawn()
-
-    def question(self, lesson: Lesson) -> Question:
-        """Return what the learner has to answer in such a lesson. Raises UsageError where there is nothing."""
-        return ask(lesson, self.workspace)
-
-    def answer(self, lesson: Lesson, what: str, where: str) -> Report:
-        """Write the learner's answer into the report, and return it. Raises UsageError or StorageError."""
-        return answer(lesson, self.workspace, what, where)
+        return place_files({self.path(file): self.handed_over.skeleton(lesson, file).encode()}, force=True)
 
     def app_state(self) -> AppState:
         """Read the app's saved state of this workspace."""

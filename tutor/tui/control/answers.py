@@ -34,12 +34,12 @@ class Answers:
 
         session = self._host.model.session
         try:
-            question = await asyncio.to_thread(session.question, lesson)
+            question = await asyncio.to_thread(session.handed_over.question, lesson)
             screen = AnswerScreen(f"{wording.label(lesson)}: your answer", question)
             answer: tuple[str, str] | None = await self._host.app.push_screen_wait(screen)
             if answer is None or not await self._files.save_all():
                 return
-            report = await asyncio.to_thread(session.answer, lesson, *answer)
+            report = await asyncio.to_thread(session.handed_over.answer, lesson, *answer)
         except (UsageError, StorageError) as error:
             self._host.show_error(str(error))
             return
@@ -51,7 +51,7 @@ class Answers:
             return
         lesson = self._host.model.lesson
         text = "You get the system with another fault.\n\nYour files are moved to a folder that keeps them."
-        found = self._host.model.session.drawn(lesson).describe()
+        found = self._host.model.session.handed_over.drawn(lesson).describe()
         self._host.ask(
             f"Another fault for {wording.label(lesson)}", f"{text}\n{found}".strip(), "Hand it over", self._draw
         )

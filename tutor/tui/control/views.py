@@ -64,7 +64,8 @@ class Views:
 
         model = self._host.model
         file, path = model.file, model.path
-        read = model.session.skeleton if view in (View.SKELETON, View.CHANGES) else model.session.solution
+        given = model.session.handed_over
+        read = given.skeleton if view in (View.SKELETON, View.CHANGES) else given.solution
         try:
             other = read(model.lesson, file)
         except StorageError as error:
