@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from tutor import interpreter
 from tutor.content import Course, Lesson, LessonFile, Partner
 from tutor.content.courses import Courses
+from tutor.errors import StorageError
 from tutor.session import run_options
 from tutor.session.handed_over import HandedOver
 from tutor.session.node_command import NodeCommand
