@@ -37,12 +37,15 @@ class Answers:
             question = await asyncio.to_thread(session.handed_over.question, lesson)
             screen = AnswerScreen(f"{wording.label(lesson)}: your answer", question)
             answer: tuple[str, str] | None = await self._host.app.push_screen_wait(screen)
-            if answer is None or not await self._files.save_all():
+            if answer is None:
                 return
-            report = await asyncio.to_thread(session.handed_over.answer, lesson, *answer)
+            report = await self._files.let_change((question.path,), session.handed_over.answer, lesson, *answer)
         except (UsageError, StorageError) as error:
             self._host.show_error(str(error))
             return
+        if report is None:
+            return
+        self._host.post_message(messages.FileSaved(question.path))
         self._host.say(f"Reported: {question.cases.kinds[report.what]}, in {report.where}. F9 judges it.")
 
     def offer_another(self) -> None:
@@ -60,14 +63,14 @@ class Answers:
         self._host.start_worker(self._draw_now, self._host.model.lesson, group="start", exclusive=True)
 
     async def _draw_now(self, lesson: Lesson) -> None:
-        if not await self._files.save_all():
-            return
+        session = self._host.model.session
+        paths = [session.path(file) for file in lesson.files]
         try:
-            placed = await asyncio.to_thread(self._host.model.session.start, lesson, another=True)
+            placed = await self._files.let_change(paths, session.start, lesson, another=True)
         except (WorkspaceError, StorageError) as error:
             self._host.show_error(str(error))
             return
-        await self._files.read_again(lesson)
-        self._host.post_message(messages.Started(lesson.id, ()))
+        if placed is None:
+            return
         kept = f" Your files are kept in {short_path(placed.backups[0])}." if placed.backups else ""
         self._host.say(f"Another fault is handed over: r runs the system.{kept}")
