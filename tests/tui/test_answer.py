@@ -25,7 +25,7 @@ async def test_the_answer_is_chosen_by_keys_and_written_into_the_report(session:
         await me.press("A")
         await me.until(lambda: isinstance(me.app.screen, AnswerScreen))
         await me.press("down", "enter", "down", "down", "enter")
-        await me.sees("different message types, in", "courier_launch.py. F9 judges it.")
+        await me.sees("Reported: the two ends of a topic have different")
         found = read_report(report.read_text())
         assert (found.case, found.what, found.where, found.tries) == (first, "type", "courier_launch.py", 1)
 
@@ -36,7 +36,7 @@ async def test_the_answer_is_chosen_by_keys_and_written_into_the_report(session:
         assert read_report(report.read_text()) == found
 
         await me.press("N")
-        await me.sees("Another fault for b1.7", "moved to a folder")
+        await me.sees("Another fault for B1.7", "moved to a folder")
         await me.press("enter")
         await me.until(lambda: session.handed_over.drawn(lesson).current != first, "another one is drawn")
         await me.sees("Another fault is handed over")
