@@ -65,6 +65,9 @@ def test_an_answer_after_several_says_so(form: NamesFault) -> None:
         ("case: a1b2\nwhat: reliability\nwhere: pump.py\n", "none of the choices for `what`"),
         ("case: a1b2\nwhat: qos\nwhere: pump\n", "none of the choices for `where`"),
         ("case: a1b2\nwhat: [qos]\nwhere: pump.py\n", "none of the choices for `what`"),
+        ("case: a1b2\nwhat: &a [*a, *a]\nwhere: pump.py\n", "none of the choices for `what`"),
+        ("[" * 50_000, "not YAML"),
+        ("when: 2020-13-50", "not YAML"),
     ],
 )
 def test_no_report_yet(form: NamesFault, report: str, says: str) -> None:

@@ -146,10 +146,11 @@ def read_report(text: str) -> Report:
     """What a report says, as far as it can be read."""
     try:
         found = yaml.safe_load(text)
-    except yaml.YAMLError:
+    except (yaml.YAMLError, ValueError, RecursionError):
         found = None
     if not isinstance(found, dict):
         return Report()
     tries = found.get("tries")
-    case, what, where = (str(found.get(key) or "") for key in ("case", "what", "where"))
+    words = (found.get(key) for key in ("case", "what", "where"))
+    case, what, where = (word if isinstance(word, str) else "" for word in words)
     return Report(case, what, where, tries if isinstance(tries, int) else 0)

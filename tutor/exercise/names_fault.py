@@ -51,14 +51,14 @@ class NamesFault(Form):
         if report is None:
             says, do = f"{file} is not YAML any more", "Write `what: ` and `where: `, each with one of the choices."
             return self._failed("it cannot be read", says, do)
-        fault = self.faults.cases.get(str(report.get("case")))
+        case, what, where = (_word(report.get(key)) for key in ("case", "what", "where"))
+        fault = self.faults.cases.get(case)
         if fault is None:
             says, do = (
                 f"{file} does not say which case it is",
                 "Put back its line `case:`, or start the exercise again.",
             )
-            return self._failed(f"case: {report.get('case', '')}", says, do)
-        what, where = str(report.get("what") or ""), str(report.get("where") or "")
+            return self._failed(f"case: {case}", says, do)
         if not what or not where:
             says = f"nothing is reported yet in {file}"
             do = "Watch the system until you know what it is, and where: then answer."
@@ -68,7 +68,7 @@ class NamesFault(Form):
     def _judge_answer(self, fault: Fault, what: str, where: str, tries: object) -> Verdict:
         files, kinds = sorted({case.where for case in self.faults.cases.values()}), self.faults.kinds
         for key, value, choices in (("what", what, list(kinds)), ("where", where, files)):
-            if value not in choices and (key == "what" or "." not in value):
+            if value not in choices:
                 do = f"Choose one of {', '.join(choices)}."
                 return self._failed(f"{key}: {value}", f"{value!r} is none of the choices for `{key}`", do)
         number = f", answer {tries}" if isinstance(tries, int) and tries > 1 else ""
@@ -90,6 +90,11 @@ def _fields(text: str) -> dict[str, Any] | None:
     """The fields of a report; None if it is not YAML with fields."""
     try:
         found = yaml.safe_load(text)
-    except yaml.YAMLError:
+    except (yaml.YAMLError, ValueError, RecursionError):  # a date that does not exist; brackets without end
         return None
     return found if isinstance(found, dict) else {} if found is None else None
+
+
+def _word(value: object) -> str:
+    """A field as a word. A list or the like is none: it may hold itself, or be endless when it is written out."""
+    return str(value) if isinstance(value, str | int | float) else "" if value is None else "(a list)"
