@@ -44,6 +44,7 @@ async def test_the_answer_is_chosen_by_keys_and_written_into_the_report(session:
 
 
 async def test_other_exercises_have_nothing_to_answer(session: Session) -> None:
+    session.start(session.course.find("i1.1"))
     async with open_app(session, (80, 24)) as me:
         await me.press("A", "N")
         await me.pilot.pause()
