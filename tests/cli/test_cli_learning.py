@@ -219,3 +219,37 @@ def test_damaged_progress_is_reported_once_and_set_aside(run: Run, home: Path) -
     assert "the old one is kept as" in result.err
     assert run("list").err == ""
     assert len(list(folder.glob("progress.json.damaged-*"))) == 1
+
+
+def test_a_system_is_handed_over_answered_and_exchanged(run: Run, home: Path, engine: FakeEngine) -> None:
+    assert run("answer", "b1.7").code == 2
+    assert run("start", "b1.7").code == 0
+    report = home / "ros_tutor_ws/src/my_package/launch/courier_report.yaml"
+
+    choices = run("answer", "b1.7")  # nobody can be asked: the choices are listed
+    assert choices.code == 0
+    assert "qos" in line_of(choices.out, "  1  ")
+    assert "courier_planner.py" in choices.out
+    assert "say where, too" in run("answer", "b1.7", "qos").err
+    assert "none of the choices" in run("answer", "b1.7", "magic", "courier_driver.py").err
+
+    answered = run("answer", "b1.7", "qos", "courier_driver.py")
+    assert "the QoS of the two ends of a topic does not match, in courier_driver.py" in answered.out
+    assert "where: courier_driver.py" in report.read_text()
+    assert "+what: qos" in run("diff", "b1.7").out
+
+    run("check", "b1.7")
+    another = run("start", "b1.7", "--another")
+    assert "1 of 6 faults found and repaired" in another.out
+    assert "already there" not in another.out  # it would say where the fault is not
+    assert "nothing differs" in run("diff", "b1.7").err
+    assert "what:\n" in report.read_text()
+    assert "there is only one of it" in run("start", "i1.1", "--another").err
+    assert "nothing to answer" in run("answer", "i1.1").err
+
+
+def test_the_solution_is_that_of_the_fault_handed_over(run: Run, home: Path) -> None:
+    run("start", "b1.7")
+    report = (home / "ros_tutor_ws/src/my_package/launch/courier_report.yaml").read_text()
+    case = next(line for line in report.splitlines() if line.startswith("case:"))
+    assert f"\n{case}\n" in run("solution", "b1.7").out

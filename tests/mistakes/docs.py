@@ -94,6 +94,7 @@ PAGE_OF = {
     "unhandled_exceptions": "python",
     "unread_attributes": "python",
     "action_symptoms": "symptoms",
+    "system_symptoms": "symptoms",
     "ending_symptoms": "symptoms",
     "launch_symptoms": "symptoms",
     "node_symptoms": "symptoms",

@@ -16,6 +16,7 @@ from tutor.cli.solution import note_shown
 if TYPE_CHECKING:
     from tutor.content import Lesson
     from tutor.judge.submission import Submission
+    from tutor.workspace.drawn_cases import Drawn
 
 _COLORS = (("---", "1"), ("+++", "1"), ("@@", "36"), ("-", "31"), ("+", "32"))
 
@@ -29,12 +30,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the learner's changes to the skeleton; with --solution, the changes that lead to our solution."""
-    from tutor.workspace import find_submission
+    from tutor.content.cases import cases_of, read_report
+    from tutor.workspace import find_submission, read_source
+    from tutor.workspace.drawn_cases import Drawn
 
     lesson = context.load_course(arguments).find(arguments.exercise)
     workspace = context.require_workspace(arguments)
     submission = find_submission(lesson, arguments.path, workspace)
-    lines = list(_diff_lines(lesson, submission, solution=arguments.solution))
+    drawn = Drawn()
+    if (cases := cases_of(lesson)) is not None and (report := submission.files.get(cases.report)) is not None:
+        drawn = Drawn((read_report(read_source(report) or "").case,))
+    lines = list(_diff_lines(lesson, submission, drawn, solution=arguments.solution))
     other = "our solution" if arguments.solution else "the skeleton"
     if arguments.solution:
         note_shown(workspace, lesson.id)
@@ -45,16 +51,17 @@ def run(arguments: argparse.Namespace) -> int:
     return PASSED
 
 
-def _diff_lines(lesson: Lesson, submission: Submission, *, solution: bool) -> Iterator[str]:
+def _diff_lines(lesson: Lesson, submission: Submission, drawn: Drawn, *, solution: bool) -> Iterator[str]:
     from tutor.workspace import read_source
+    from tutor.workspace.drawn_cases import skeleton_text, solution_text
 
     for file in lesson.files:
         own = submission.files.get(file.name)
         if own is None:
             continue
-        ours = file.solution if solution else file.skeleton
+        ours = (solution_text if solution else skeleton_text)(lesson, file, drawn)
         theirs = (context.display_path(own), (read_source(own) or "").splitlines())
-        reference = (f"{ours.parent.name}/{file.name}", ours.read_text(encoding="utf-8").splitlines())
+        reference = (f"{'solution' if solution else 'skeleton'}/{file.name}", ours.splitlines())
         (before, old), (after, new) = (theirs, reference) if solution else (reference, theirs)
         yield from unified_diff(old, new, before, after, lineterm="")
 

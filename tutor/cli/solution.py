@@ -19,12 +19,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the files; if there are several, each below a comment with its name."""
+    from tutor.workspace.drawn_cases import solution_text
+
     lesson = context.load_course(arguments).find(arguments.exercise)
+    workspace = context.require_workspace(arguments)
+    drawn = workspace.cases(terminal.say).read(lesson.id)
     texts = []
     for file in lesson.files:
-        text = file.solution.read_text(encoding="utf-8").rstrip("\n") + "\n"
+        text = solution_text(lesson, file, drawn).rstrip("\n") + "\n"
         texts.append(f"# --- {file.name} ---\n{text}" if len(lesson.files) > 1 else text)
-    note_shown(context.require_workspace(arguments), lesson.id)
+    note_shown(workspace, lesson.id)
     terminal.out("\n\n".join(texts))
     return PASSED
 

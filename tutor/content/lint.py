@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
+from tutor.content.cases import FILE as CASES
+from tutor.content.lint_cases import lint_cases
 from tutor.content.model import Course, CriterionText, Lesson
 from tutor.content.places import find_line
 from tutor.content.problem import Problem
@@ -41,7 +43,7 @@ def lint_course(course: Course) -> list[Problem]:
             problems.append(Problem(source, text, line=find_line(source, key)))
         first = _first_line_of_body(source, lesson.body)
         problems += [Problem(source, text, line=first + line) for line, text in _lint_body(lesson.body)]
-        problems += _lint_folder(lesson)
+        problems += [*_lint_folder(lesson), *lint_cases(lesson)]
     return problems
 
 
@@ -179,15 +181,17 @@ def _lint_line(line: str, fence: re.Match[str] | None, fenced: bool) -> Iterator
 
 
 def _lint_folder(lesson: Lesson) -> Iterator[Problem]:
-    expected = {lesson.folder / "lesson.md"}
+    expected = {lesson.folder / "lesson.md", lesson.folder / CASES}
     for file in lesson.files:
         expected |= {file.skeleton, file.solution}
-        for path in (file.skeleton, file.solution):
+        both = (file.skeleton, file.solution)
+        for path in both:
             if not path.is_file():
                 yield Problem(path, "this file is missing")
             else:
                 yield from _lint_source(path)
-        if file.skeleton.is_file() and file.solution.is_file() and _same_content(file.skeleton, file.solution):
+        given = file.skeleton == file.solution
+        if not given and file.skeleton.is_file() and file.solution.is_file() and _same_content(*both):
             yield Problem(file.skeleton, "the skeleton is the solution")
     for partner in lesson.live.partners:
         if partner.beside and partner.beside not in [file.name for file in lesson.files]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from tutor.content import units
+from tutor.content.cases import cases_of
 from tutor.content.model import Course, Lesson
 from tutor.content.places import find_line, find_word
 from tutor.content.problem import Problem
@@ -46,8 +47,10 @@ def find_disagreements(lesson: Lesson, check: Check) -> Iterator[Problem]:
             "use one order",
             find_line(lesson_file, r"^criteria:"),
         )
+    cases = cases_of(lesson)
+    known = {cases.report, *cases.places} if cases is not None else set()  # what the launch file starts, or reads
     for file in lesson.files:
-        if file.name not in constants:
+        if file.name not in constants and file.name not in known:
             yield Problem(
                 check_file, f"the file {file.name} is named nowhere in it", "the names must agree: start this one"
             )

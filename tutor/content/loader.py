@@ -7,6 +7,7 @@ A course is a folder with
 - lessons/i1_1/lesson.md: YAML front matter between two --- lines, then the lesson in Markdown
 - lessons/i1_1/skeleton/: the files a learner starts from
 - lessons/i1_1/solution/: our solution
+- lessons/i1_1/cases.yaml: where a system with a fault is handed over, the faults that are drawn from (see `cases`)
 - checks/i1_1.py, or i1_1_ and what it is: the module or package that judges it (not read here)
 - course.yaml: its name and title (see `courses`); the bundled course has none
 """
@@ -18,6 +19,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from tutor.content.cases import FILE as CASES
 from tutor.content.courses import MANIFEST, Manifest, read_manifest
 from tutor.content.fields import Document, Fields
 from tutor.content.live import LiveTopic, LiveView, Partner
@@ -146,7 +148,10 @@ def _read_file(fields: Fields, folder: Path) -> LessonFile:
         raise fields.error("name", f"expected a plain file name, found {name!r}")
     required = fields.flag("required", True)
     fields.done()
-    return LessonFile(name, required, skeleton=folder / "skeleton" / name, solution=folder / "solution" / name)
+    skeleton, solution = folder / "skeleton" / name, folder / "solution" / name
+    if (folder / CASES).is_file() and not skeleton.is_file():
+        skeleton = solution  # this one is handed over as it is
+    return LessonFile(name, required, skeleton, solution)
 
 
 def _read_criterion(fields: Fields) -> CriterionText:

@@ -22,7 +22,8 @@ class Difficulty(StrEnum):
 class LessonFile:
     """One file of a submission, with the skeleton a learner starts from and our solution.
 
-    A file that is not `required` may be missing from a submission; criteria that depend on it are then not passed.
+    A file that is not `required` may be missing from a submission; criteria that depend on it are then not passed. Of a
+    lesson with cases (see `cases`), a file that is handed over without a fault has its solution as its skeleton.
     """
 
     name: str

@@ -25,6 +25,7 @@ from tutor.process import LearnerProcess, run_limits
 from tutor.process.log_folder import temporary_log_folder
 from tutor.ros.domain import reserve_domain
 from tutor.ros.observer import Observer
+from tutor.workspace.regular import read_regular
 
 T = TypeVar("T")
 
@@ -32,6 +33,9 @@ _MakeArgv = Callable[[dict[str, str], Path], list[str]]
 
 NODE_UP_LIMIT_S = 1.5
 """A process without a node after this time, plus any wait for a CPU, no longer holds up other starts."""
+
+MAX_TEXT_BYTES = 100_000
+"""A file of data that is larger is not read."""
 
 LAUNCH_OVERHEAD_S = 3.0
 """How much longer a launch takes than a node, since it starts and ends three processes."""
@@ -165,6 +169,13 @@ class RosBench:
 
     def has_file(self, file: str) -> bool:
         return file in self.submission.files
+
+    def read(self, file: str) -> str:
+        try:
+            content = read_regular(self.submission.files[file], MAX_TEXT_BYTES)
+        except (KeyError, OSError):
+            return ""
+        return (content or b"").decode("utf-8", "replace")
 
     async def facts(self, scenario: Scenario[T]) -> T:
         found: T = await self.get_facts(scenario)

@@ -25,12 +25,17 @@ from tutor.exercise.criterion_function import criterion
 from tutor.exercise.defaults import Defaults
 from tutor.exercise.ends_cleanly import EndsCleanly
 from tutor.exercise.error_words import SAYS_ERROR
+from tutor.exercise.faults import Faults
 from tutor.exercise.form import Custom, Form, check
 from tutor.exercise.handles_goal import HandlesGoal
+from tutor.exercise.has_endpoints import Endpoint, HasEndpoints
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
 from tutor.exercise.logs_at import LogsAt, StaysQuiet, Throttles
+from tutor.exercise.keeps_rate import KeepsRate
+from tutor.exercise.leads_to import LeadsTo
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
+from tutor.exercise.names_fault import NamesFault
 from tutor.exercise.nouns import (
     Action,
     LaunchFile,
@@ -56,6 +61,7 @@ from tutor.exercise.set_at_start import SetAtStart
 from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
 from tutor.exercise.told_events import Event, Feed
+from tutor.exercise.tells import Tells
 from tutor.exercise.watched_start import LogsText
 
 __all__ = [
@@ -69,19 +75,25 @@ __all__ = [
     "Contains",
     "Custom",
     "Defaults",
+    "Endpoint",
     "EndsCleanly",
     "Event",
     "Feed",
+    "Faults",
     "FieldEquals",
     "Fields",
     "Form",
     "HandlesGoal",
+    "HasEndpoints",
     "InRange",
+    "KeepsRate",
     "LaunchFile",
     "LogsAt",
+    "LeadsTo",
     "LogsParameter",
     "LogsText",
     "NamesBadValue",
+    "NamesFault",
     "Node",
     "OtherUnit",
     "PairCommunicates",
@@ -106,6 +118,7 @@ __all__ = [
     "SurvivesBadCall",
     "SwitchesOff",
     "Throttles",
+    "Tells",
     "Topic",
     "Varies",
     "check",

@@ -11,6 +11,8 @@ from typing import Protocol
 
 from tutor import __version__
 from tutor.content import Course, Lesson
+from tutor.content.cases import FILE as CASES
+from tutor.content.cases import has_cases
 from tutor.grade.capacity import COSTS, DEFAULT_COST, Cost
 from tutor.grade.results import Result, ResultFolder, Version, encode
 from tutor.grade.submission_files import digest_of, pack
@@ -217,6 +219,7 @@ def course_digest(lesson: Lesson) -> str:
     code = check.parent if check.name == "__init__.py" else check
     files = {"lesson.md": lesson.folder / "lesson.md"}
     files |= {f"skeleton/{file.name}": file.skeleton for file in lesson.files}
+    files |= {CASES: lesson.folder / CASES} if has_cases(lesson) else {}
     for top in (code, code.parent / "__init__.py"):
         below = top.rglob("*") if top.is_dir() else (top,)
         files |= {f"checks/{path.relative_to(code.parent)}": path for path in below if path.is_file()}

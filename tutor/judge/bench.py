@@ -231,6 +231,9 @@ class Bench(Protocol):
     def has_file(self, file: str) -> bool:
         """Whether the submission has this (optional) file."""
 
+    def read(self, file: str) -> str:
+        """The text of one of the submission's files, such as data that the learner has written; "" without it."""
+
     async def facts(self, scenario: Scenario[T]) -> T:
         """The facts of another scenario of this check, which runs only once however many scenarios ask for it."""
 

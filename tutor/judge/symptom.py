@@ -42,6 +42,9 @@ class Symptom(Enum):
     NOT_LAUNCHED = "a launch does not start what it should"
     WRONG_NAMES = "nodes or topics of a launch have other names than asked for"
     NOT_CONNECTED = "nodes of a launch do not reach each other"
+    SYSTEM_FAULT = "a system of several nodes does not do what it should"
+    SYSTEM_CHANGED = "a system works, and is not as it was handed over"
+    FAULT_NOT_NAMED = "the fault of a system is not reported, or another one is"
 
     def seen(
         self,

@@ -10,6 +10,7 @@ from difflib import get_close_matches
 from tutor.content import Counts
 from tutor.errors import CommandRefused, StorageError, WorkspaceError
 from tutor.judge.wording import counted
+from tutor.plain.answers import Answers
 from tutor.plain.checklist_commands import ChecklistCommands
 from tutor.plain.checks import Checks
 from tutor.plain.conversation import Conversation, DialogCommand
@@ -53,6 +54,7 @@ class Dialog:
             *self._nodes.commands,
             *Ros2Commands(self._conversation).commands,
             *Checks(self._conversation).commands,
+            *Answers(self._conversation).commands,
             *ChecklistCommands(self._conversation).commands,
             DialogCommand("help", "list all commands", self._help, aliases=("?",)),
             DialogCommand("quit", "stop everything and leave", self._quit, aliases=("exit", "bye")),

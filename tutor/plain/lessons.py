@@ -129,7 +129,7 @@ class Lessons:
                 return
         self._conversation.session.show_solution(lesson)
         for file in lesson.files:
-            lines = speech.code(file.solution.read_text(encoding="utf-8"))
+            lines = speech.code(self._conversation.session.handed_over.solution(lesson, file))
             self._conversation.say(f"{file.name}, {counted(len(lines), 'line')} of code:")
             for line in lines:
                 self._conversation.say(line)

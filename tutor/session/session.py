@@ -17,6 +17,7 @@ from tutor.content import Course, Lesson, LessonFile, Partner
 from tutor.content.courses import Courses
 from tutor.errors import StorageError
 from tutor.session import run_options
+from tutor.session.handed_over import HandedOver
 from tutor.session.node_command import NodeCommand
 from tutor.workspace import (
     AppState,
@@ -30,6 +31,7 @@ from tutor.workspace import (
     place_files,
     record,
     start,
+    start_another,
     states_of,
     versions_of,
     write_atomically,
@@ -58,6 +60,7 @@ class Session:
         self._tools: Path | None = None
         self.notify: Notify = lambda text: None
         """Called, from any thread, with a one-line message for the learner (damaged progress was set aside)."""
+        self.handed_over = HandedOver(lambda: self.workspace, lambda text: self.notify(text))
 
     @property
     def lessons(self) -> tuple[Lesson, ...]:
@@ -80,12 +83,12 @@ class Session:
         """Return the names of the required files that do not exist yet; the lesson cannot be checked without them."""
         return tuple(file.name for file in lesson.files if file.required and not self.path(file).exists())
 
-    def start(self, lesson: Lesson) -> Placed:
+    def start(self, lesson: Lesson, *, another: bool = False) -> Placed:
         """Put missing skeleton files into the workspace; existing files are not changed.
 
-        Raises WorkspaceError or StorageError.
+        `another`: another fault, in place of the files that are there. Raises WorkspaceError or StorageError.
         """
-        placed = start(lesson, self.workspace).files
+        placed = (start_another if another else start)(lesson, self.workspace).files
         self.workspace.courses(self.notify).add(self.courses)
         return placed
 
@@ -110,16 +113,12 @@ class Session:
                     f"({error.strerror})."
                 )
 
-    def reset(self, file: LessonFile) -> Placed:
+    def reset(self, lesson: Lesson, file: LessonFile) -> Placed:
         """Replace the learner's file with the skeleton; the file is kept as a backup.
 
         Raises WorkspaceError or StorageError.
         """
-        try:
-            skeleton = file.skeleton.read_bytes()
-        except OSError as error:
-            raise StorageError.of(f"read {file.skeleton}", error) from error
-        return place_files({self.path(file): skeleton}, force=True)
+        return place_files({self.path(file): self.handed_over.skeleton(lesson, file).encode()}, force=True)
 
     def app_state(self) -> AppState:
         """Read the app's saved state of this workspace."""

@@ -69,6 +69,8 @@ FIRST_FAILURE = Command("first_failure", ("F",), "First failure", "End checks at
 EVIDENCE = Command("evidence", ("i",), "Evidence", "Show or hide the evidence")
 EXPLAIN = Command("explain", ("x",), "Why", "Explain the mistake, with an example", footer=True)
 ATTEMPTS = Command("attempts", ("a",), "Attempts", "Show your attempts over time")
+ANSWER = Command("answer", ("A",), "Answer", "Say what is wrong with the system, and where", footer=True)
+ANOTHER = Command("another", ("N",), "Another", "Hand over another fault")
 HINT = Command("hint", ("h",), "Hint", "Show the next hint", footer=True)
 
 # Your code
@@ -122,7 +124,7 @@ QUIT = Command(
 
 GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
     ("Your node", (RUN, STOP, RESTART, PARTNER, OTHER_FILE, OPTIONS, RESTART_ON_SAVE)),
-    ("The check", (CHECK, CANCEL, WATCH, FIRST_FAILURE, EVIDENCE, EXPLAIN, ATTEMPTS, HINT)),
+    ("The check", (CHECK, CANCEL, WATCH, FIRST_FAILURE, EVIDENCE, EXPLAIN, ATTEMPTS, HINT, ANSWER, ANOTHER)),
     (
         "Your code",
         (START, EDIT, SAVE, FIND, FIND_NEXT, OWN_EDITOR, NEXT_FILE, SKELETON, CHANGES, SOLUTION, AGAINST, RESET),

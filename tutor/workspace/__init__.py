@@ -12,7 +12,7 @@ from tutor.workspace.progress import Attempt, ExerciseProgress, Help, Progress
 from tutor.workspace.progress_file import ProgressFile
 from tutor.workspace.recording import record
 from tutor.workspace.saving import Saved, back_up_file, overwrite_file, read_source
-from tutor.workspace.starting import TEMPLATE, Started, start, start_in
+from tutor.workspace.starting import TEMPLATE, Started, start, start_another, start_in
 from tutor.workspace.submission_lookup import (
     NOT_STARTED,
     find_submission,
@@ -63,6 +63,7 @@ __all__ = [
     "record",
     "solution",
     "start",
+    "start_another",
     "start_in",
     "states_of",
     "version_of",

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from tutor.errors import WorkspaceError
 from tutor.workspace.app_state import AppStateFile
+from tutor.workspace.drawn_cases import DrawnCases
 from tutor.workspace.last_checks import LastChecks
 from tutor.workspace.progress_file import ProgressFile, to_stderr
 from tutor.workspace.remembered_courses import RememberedCourses
@@ -17,6 +18,9 @@ MARKER = ".ros-tutor"
 """The subfolder that marks a folder as a workspace; it holds the progress and our other files."""
 
 PACKAGE = "my_package"
+
+DATA_SUFFIX = ".yaml"
+"""Files with parameters, and with what is known of a launched system, are beside its launch file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +40,11 @@ class Workspace:
         return self.root / "src" / PACKAGE
 
     def path_of(self, name: str) -> Path:
-        """Return where the exercise file `name` belongs: launch files in `launch/`, others in the Python package."""
-        return self.package / ("launch" if is_launch_file(name) else PACKAGE) / name
+        """Return where the exercise file `name` belongs: launch files, and what they read, in `launch/`.
+
+        Others are in the Python package.
+        """
+        return self.package / ("launch" if is_launch_file(name) or name.endswith(DATA_SUFFIX) else PACKAGE) / name
 
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:
         """Return the progress file; `notify` is called with one line if a damaged one had to be set aside."""
@@ -46,6 +53,10 @@ class Workspace:
     def courses(self, notify: Callable[[str], None] = to_stderr) -> RememberedCourses:
         """Return the file of the courses started here; `notify` is called with one line if one of them is gone."""
         return RememberedCourses(self.root / MARKER / "courses.json", notify)
+
+    def cases(self, notify: Callable[[str], None] = to_stderr) -> DrawnCases:
+        """Return the file of the faults drawn here; `notify` is called with one line if a damaged one was set aside."""
+        return DrawnCases(self.root / MARKER / "cases.json", notify)
 
     def app_state(self, notify: Callable[[str], None] = to_stderr) -> AppStateFile:
         """Return the app's state file; `notify` is called with one line if a damaged one had to be set aside."""

@@ -38,4 +38,6 @@ def record(
             last = progress.of(result.id).last
             at = now() if last is None or result.verdict is Status.ERROR else last.at
             workspace.last_checks(notify).write(LastCheck(at, result))
+            if result.verdict is Status.PASSED:
+                workspace.cases(notify).repaired(result.id)
     return progress

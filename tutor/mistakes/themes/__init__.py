@@ -69,4 +69,5 @@ from tutor.mistakes.themes import service_symptoms as service_symptoms
 from tutor.mistakes.themes import ending_symptoms as ending_symptoms
 from tutor.mistakes.themes import launch_symptoms as launch_symptoms
 from tutor.mistakes.themes import action_symptoms as action_symptoms
+from tutor.mistakes.themes import system_symptoms as system_symptoms
 from tutor.mistakes.themes import parameter_symptoms as parameter_symptoms

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import signal
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from textual.timer import Timer
@@ -332,19 +333,34 @@ class Files:
 
     async def _reset_now(self) -> None:
         model = self._host.model
-        file, path = model.file, model.path
+        lesson, file = model.lesson, model.file
+        try:
+            placed = await self.let_change((model.path,), model.session.reset, lesson, file)
+        except (WorkspaceError, StorageError) as error:
+            self._host.show_error(str(error))
+            return
+        if placed is not None:
+            where = f" Yours is kept as {short_path(placed.backups[0])}." if placed.backups else ""
+            self._host.say(f"{file.name} is the skeleton again.{where}", warn=True)
+
+    async def let_change[**P, T](
+        self, paths: Sequence[Path], change: Callable[P, T], *args: P.args, **options: P.kwargs
+    ) -> T | None:
+        """Save everything, let `change` write these files, and show them: they were not changed by somebody else.
+
+        Return None, without a change, if saving failed, which was reported: the editor holds the only copy. Raises
+        what `change` raises, and StorageError.
+        """
         async with self._lock:  # no read may see the state in between
             await self._write_changed()
-            if self._pane.is_unsaved(path):
-                return  # saving failed, which was reported: the editor holds the only copy
-            try:
-                placed = await asyncio.to_thread(model.session.reset, file)
+            if self._pane.unsaved_files():
+                return None
+            changed = await asyncio.to_thread(change, *args, **options)
+            for path in paths:
                 text = await asyncio.to_thread(read_source, path)
-            except (WorkspaceError, StorageError) as error:
-                self._host.show_error(str(error))
-                return
-            if text is not None:
-                self._disk[path], self._digests[path] = text, digest_of_text(text)
-                await self._pane.show_source(path, text, visible=path == model.path)
-        where = f" Yours is kept as {short_path(placed.backups[0])}." if placed.backups else ""
-        self._host.say(f"{file.name} is the skeleton again.{where}", warn=True)
+                if text is not None:
+                    self._disk[path], self._digests[path] = text, digest_of_text(text)
+                    shown = path == self._host.model.path
+                    if shown or self._pane.has_editor(path):
+                        await self._pane.show_source(path, text, visible=shown)
+        return changed

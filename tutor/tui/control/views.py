@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from enum import StrEnum
 from functools import partial
 
+from tutor.errors import StorageError
 from tutor.tui import commands, wording
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
@@ -61,12 +62,14 @@ class Views:
     async def _load_and_show(self, view: View) -> None:
         from tutor.tui.widgets.diffing import column_width, count_changes, diff_rows, side_by_side_rows
 
-        file = self._host.model.file
-        path = self._host.model.path
+        model = self._host.model
+        file, path = model.file, model.path
+        given = model.session.handed_over
+        read = given.skeleton if view in (View.SKELETON, View.CHANGES) else given.solution
         try:
-            other = (file.skeleton if view in (View.SKELETON, View.CHANGES) else file.solution).read_text("utf-8")
-        except OSError as error:
-            self._host.show_error(f"The file cannot be read: {error.strerror}")
+            other = read(model.lesson, file)
+        except StorageError as error:
+            self._host.show_error(f"The file cannot be read: {error}")
             return
         await self._files.refresh(path)
         self._host.show_page("code")

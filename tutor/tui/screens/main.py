@@ -20,6 +20,7 @@ from tutor.session import Session
 from tutor.session.findings import Findings
 from tutor.session.node import Phase
 from tutor.tui import commands, messages
+from tutor.tui.control.answers import Answers
 from tutor.tui.control.checklist import ChecklistController
 from tutor.tui.control.checks import Checks
 from tutor.tui.control.files import Files
@@ -62,6 +63,7 @@ class MainScreen(HostScreen):
         self.records = Records(self)
         self.files = Files(self, code, self.records)
         Views(self, code, self.files, self.records)
+        Answers(self, self.files)
         self.nodes = Nodes(self, self.files, self.preferences)
         self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
         self.checklist = ChecklistController(self, self.records)

@@ -1,0 +1,59 @@
+"""An exercise that hands over a system: the learner answers what is wrong and where, and asks for another fault."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tests.tui.conftest import open_app
+from tutor.content.cases import read_report
+from tutor.session import Session
+from tutor.tui.dialogs.answer import AnswerScreen
+
+
+async def test_the_answer_is_chosen_by_keys_and_written_into_the_report(session: Session) -> None:
+    lesson = session.course.find("b1.7")
+    session.start(lesson)
+    report = session.workspace.path_of("courier_report.yaml")
+    first = session.handed_over.drawn(lesson).current
+    async with open_app(session, (120, 36)) as me:
+        await go_to_lesson(me, "b1.7")
+        await me.press("A")
+        await me.sees("What is wrong?", "the QoS of the two ends of a topic does not match", "courier_battery.py")
+        await me.press("escape")
+        await me.sees_no("What is wrong?")
+        assert read_report(report.read_text()).what == ""
+        await me.press("A")
+        await me.until(lambda: isinstance(me.app.screen, AnswerScreen))
+        await me.press("down", "enter", "down", "down", "enter")
+        await me.sees("Reported: the two ends of a topic have different")
+        found = read_report(report.read_text())
+        assert (found.case, found.what, found.where, found.tries) == (first, "type", "courier_launch.py", 1)
+
+        await me.press("A")
+        await me.until(lambda: isinstance(me.app.screen, AnswerScreen))
+        await me.press("enter", "enter")  # what was answered before is chosen already
+        await me.until(lambda: not isinstance(me.app.screen, AnswerScreen))
+        assert read_report(report.read_text()) == found
+
+        await me.press("N")
+        await me.sees("Another fault for B1.7", "moved to a folder")
+        await me.press("enter")
+        await me.until(lambda: session.handed_over.drawn(lesson).current != first, "another one is drawn")
+        await me.sees("Another fault is handed over")
+        assert read_report(report.read_text()).what == ""
+
+
+async def test_other_exercises_have_nothing_to_answer(session: Session) -> None:
+    session.start(session.course.find("i1.1"))
+    async with open_app(session, (80, 24)) as me:
+        await me.press("A", "N")
+        await me.pilot.pause()
+        assert me.app.screen is me.main
+        await go_to_lesson(me, "b1.7")
+        await me.press("A")
+        await me.sees("not in your workspace yet, so there is nothing to answer")
+
+
+async def go_to_lesson(me: Any, id: str) -> None:
+    await me.main.go_to(me.main.model.session.course.find(id))
+    await me.until(lambda: me.main.model.lesson.id == id, id)

@@ -1,0 +1,87 @@
+"""A form: in a system, what we send on one topic leads to a value on another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from tutor.exercise.nouns import Topic
+from tutor.exercise.seen_run import MATCH_S, fits
+from tutor.exercise.system_run import Sent, SystemForm, SystemRun
+from tutor.judge.bench import Run
+from tutor.judge.trace import Sample
+from tutor.judge.verdict import Verdict, failed, passed, undecided
+from tutor.judge.waiting_for_nodes import SETTLE_S
+from tutor.judge.wording import output_tail
+
+
+@dataclass(frozen=True)
+class LeadsTo(SystemForm):
+    """A value that we send on one topic of a system leads to a value on another, through whatever nodes.
+
+    `to`: the topic where it shows. `pairs`: the values to send, one after the other, each with the one that it must
+    lead to. `within_s`: how long that may take, in seconds. The exercise's program must be a `LaunchFile`:
+
+        LeadsTo("tracks", TARGET, ANGLE, (("left", -1.0), ("right", 1.0)), within_s=2.0)
+    """
+
+    topic: Topic
+    to: Topic
+    pairs: tuple[tuple[Any, Any], ...]
+    within_s: float = 3.0
+
+    @property
+    def watched(self) -> tuple[Topic, ...]:
+        return (self.to,)
+
+    async def look(self, run: Run, sent: list[Sent]) -> None:
+        topic = self.topic
+        async with run.publisher(topic.name, topic.type) as publisher:
+            # A system in which nobody listens gets the message all the same: why nothing follows is not ours to say.
+            matched = await run.until(lambda: publisher.subscribers > 0, SETTLE_S)
+            await run.until(lambda: bool(run.samples_on(self.to.name)), SETTLE_S if matched else MATCH_S)
+            settled = run.now() + MATCH_S
+            await run.until(lambda: run.now() >= settled, MATCH_S)
+            for value, wanted in self.pairs:
+                message = publisher.publish(topic.message(value))
+                sent.append(Sent(topic.name, value, message.source_time))
+                limit_s = self.within_s if matched else MATCH_S
+                if not await run.until(lambda: self._find(run, sent[-1], wanted) is not None, limit_s):  # noqa: B023
+                    break
+
+    def judge(self, seen: SystemRun) -> Verdict:
+        topic, to = self.topic, self.to
+        first, last = self.pairs[0], self.pairs[-1]
+        expected = f"{first[0]!r} on {topic.name} leads to {first[1]} on {to.name} within {self.within_s:g} s"
+        if last != first:
+            expected += f", then {last[0]!r} to {last[1]}"
+        shown: list[str] = []
+        for (value, wanted), sent in zip(self.pairs, [s for s in seen.sent if s.topic == topic.name], strict=False):
+            found = self._find(seen.trace, sent, wanted)
+            took_s = found.source_time - sent.at if found is not None else 0.0
+            if found is None or took_s > self.within_s:
+                if seen.starved and not seen.broken and self._moves(seen, sent):
+                    return undecided("to time what its nodes do")
+                return self._failed(seen, expected, value, wanted, sent, shown)
+            shown.append(f"{value!r}: {to.show(found)} after {took_s:.1f} s")
+        if len(shown) < len(self.pairs):  # the launch has ended before
+            says = f"nothing takes what is sent on {topic.name}"
+            return failed(expected, "the system was gone", seen.not_as_it_should(says), output_tail(seen.trace))
+        return passed(expected, shown[-1], shown)
+
+    def _failed(self, seen: SystemRun, expected: str, value: Any, wanted: Any, sent: Sent, shown: list[str]) -> Verdict:
+        topic, to = self.topic, self.to
+        later = [sample for sample in seen.trace.samples_on(to.name) if sample.source_time >= sent.at]
+        reached = f"at the end, {to.show(later[-1])} on {to.name}" if later else f"no message came on {to.name}"
+        observed = f"{value!r} was sent; {reached}"
+        says = f"{value!r} on {topic.name} does not lead to {wanted} on {to.name} in time"
+        return failed(expected, observed, seen.not_as_it_should(says), [*shown, *output_tail(seen.trace)])
+
+    def _moves(self, seen: SystemRun, sent: Sent) -> bool:
+        """Whether anything changed after a value was sent."""
+        return len({str(self.to.value(s)) for s in seen.trace.samples_on(self.to.name) if s.source_time >= sent.at}) > 1
+
+    def _find(self, seen: Any, sent: Sent, wanted: Any) -> Sample | None:
+        """The first message that shows the value after another was sent, if it has come by now."""
+        samples = (sample for sample in seen.samples_on(self.to.name) if sample.source_time >= sent.at)
+        return next((sample for sample in samples if fits(wanted, self.to.value(sample))), None)
