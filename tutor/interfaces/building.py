@@ -15,15 +15,23 @@ from hashlib import sha256
 from pathlib import Path
 
 from tutor import __version__
-from tutor.interfaces import generating
+from tutor.interfaces import compiling
 from tutor.interfaces.compiling import CompileError, Job, Python, compile_package
-from tutor.interfaces.package import InterfacePackage, KnownTypes, find_packages, installed_shares, problems_of
+from tutor.interfaces.package import (
+    MAX_DEPTH,
+    InterfacePackage,
+    KnownTypes,
+    find_packages,
+    installed_shares,
+    problems_of,
+)
 from tutor.interfaces.problem import Problem
-from tutor.interfaces.toolchain import find_toolchain
+from tutor.interfaces.toolchain import Toolchain, find_toolchain
 from tutor.ros import prefixes, workspace_interfaces
 from tutor.ros.environment import RosEnvironment, tutor_env
 from tutor.workspace.locking import lock
 
+_GENERATOR = Path(__file__).with_name("generating.py")
 _STAMP = ".complete"
 _LOCK_LIMIT_S = 120.0
 _GENERATE_LIMIT_S = 120.0
@@ -65,14 +73,14 @@ class _Workspace:
 
 
 def build_workspace(
-    root: Path, ros: RosEnvironment, progress: Progress = lambda name, fraction: None, *, depth: int | None = None
+    root: Path, ros: RosEnvironment, progress: Progress = lambda name, fraction: None, *, depth: int = MAX_DEPTH
 ) -> list[Build]:
     """Build the interface packages below a folder where needed; return what became of each, by name.
 
     What is built for a workspace is found by `tutor.ros.workspace_interfaces`, from then on. `depth`: how many levels
     of folders are searched. Raises OSError if the cache folder cannot be written to.
     """
-    found = find_packages(root) if depth is None else find_packages(root, depth)
+    found = find_packages(root, depth)
     if not found:
         _link(root, [])
         return []
@@ -103,35 +111,37 @@ def _in_order(packages: Mapping[str, InterfacePackage]) -> Iterator[InterfacePac
         yield from visit(name, ())
 
 
-def _build(package: InterfacePackage, workspace: _Workspace, environment: Mapping[str, str], progress: Progress) -> Build:
+def _build(
+    package: InterfacePackage, workspace: _Workspace, environment: Mapping[str, str], progress: Progress
+) -> Build:
+    own = {name: workspace.builds[name].prefix for name in package.dependencies if name in workspace.builds}
+    used = tuple(path for path in own.values() if path is not None)
+    digest = _digest(package, workspace, used) if len(used) == len(own) else ""
+    prefix = workspace_interfaces.cache_root() / "built" / f"{package.name}-{digest}"
+    if digest and (prefix / _STAMP).is_file():
+        with suppress(OSError):
+            os.utime(prefix / _STAMP)
+        return Build(package, prefix)
     shares = workspace.shares()
     problems = tuple(problems_of(package, KnownTypes(package, shares, tuple(workspace.packages))))
-    failed = [name for name in package.dependencies if name in workspace.builds and not workspace.builds[name].prefix]
-    if failed and not problems:
-        problems = (Problem(package.folder, None, f"it uses {failed[0]}, which is not built"),)
+    if not problems and len(used) < len(own):
+        failed = next(name for name, path in own.items() if path is None)
+        problems = (Problem(package.folder, None, f"it uses {failed}, which is not built"),)
     if problems:
         return Build(package, problems=problems)
-    built = {name: workspace.builds[name] for name in package.dependencies if name in workspace.builds}
-    used = tuple(path for build in built.values() if (path := build.prefix))
-    digest = _digest(package, workspace, used)
-    prefix = workspace_interfaces.cache_root() / "built" / f"{package.name}-{digest}"
-    stamp = prefix / _STAMP
-    if not stamp.is_file():
-        tools = find_toolchain()
-        if isinstance(tools, str):
-            return Build(package, problems=(Problem(package.folder, None, tools),))
-        prefix.parent.mkdir(parents=True, exist_ok=True)
-        with _locked(prefix):
-            if not stamp.is_file():
-                progress(package.name, 0.0)
-                try:
-                    _make(package, workspace, environment, prefix, digest, used, shares, progress)
-                except CompileError as error:
-                    return Build(package, problems=(Problem(package.folder, None, f"it cannot be compiled: {error}"),))
-                progress(package.name, 1.0)
-                _remove_unused(prefix.parent)
-    with suppress(OSError):
-        os.utime(stamp)
+    tools = find_toolchain()
+    if isinstance(tools, str):
+        return Build(package, problems=(Problem(package.folder, None, tools),))
+    prefix.parent.mkdir(parents=True, exist_ok=True)
+    with _locked(prefix):
+        if not (prefix / _STAMP).is_file():
+            progress(package.name, 0.0)
+            try:
+                _make(package, workspace, environment, prefix, used, shares, tools, progress)
+            except CompileError as error:
+                return Build(package, problems=(Problem(package.folder, None, f"it cannot be compiled: {error}"),))
+            progress(package.name, 1.0)
+            _remove_unused(prefix.parent)
     return Build(package, prefix)
 
 
@@ -140,21 +150,18 @@ def _make(
     workspace: _Workspace,
     environment: Mapping[str, str],
     prefix: Path,
-    digest: str,
     used: Sequence[Path],
     shares: Mapping[str, Path],
+    tools: Toolchain,
     progress: Progress,
 ) -> None:
     """Make a package's prefix beside its place, and move it there. Raises CompileError and OSError."""
-    from tutor.interfaces.toolchain import Toolchain
-
-    tools = find_toolchain()
-    assert isinstance(tools, Toolchain)
     dependencies = _all_dependencies(package, workspace)
     with tempfile.TemporaryDirectory(prefix=".building-", dir=prefix.parent) as scratch_name:
         scratch = Path(scratch_name)
         made = scratch / "prefix"
         share, sources = made / "share" / package.name, made / "include" / package.name
+        introspection = scratch / "introspection" / package.name
         python = made / workspace_interfaces.SITE_PACKAGES / package.name
         arguments = {
             "package": package.name,
@@ -162,6 +169,7 @@ def _make(
             "files": list(package.files),
             "share": str(share),
             "sources": str(sources),
+            "introspection": str(introspection),
             "python": str(python),
             "scratch": str(scratch),
             "dependencies": {name: str(shares[name]) for name in dependencies if name in shares},
@@ -169,9 +177,17 @@ def _make(
         found = _generate(arguments, workspace.ros, environment, scratch)
         progress(package.name, 0.4)
         job = Job(
-            package.name, digest, sources, python, scratch, made / "lib", workspace.prefixes, tuple(used), dependencies
+            package.name,
+            (sources, introspection),
+            python,
+            scratch,
+            made / "lib",
+            workspace.prefixes,
+            tuple(used),
+            dependencies,
         )
         compile_package(job, tools, found, lambda fraction: progress(package.name, 0.4 + 0.6 * fraction))
+        shutil.copytree(introspection, sources, ignore=shutil.ignore_patterns("*.c"), dirs_exist_ok=True)
         for leftover in (*sources.rglob("*.c"), *sources.rglob("*.cpp"), *python.rglob("*.c")):
             leftover.unlink()
         _write_index(package, made, dependencies)
@@ -183,14 +199,22 @@ def _make(
         made.rename(prefix)
 
 
-def _generate(arguments: Mapping[str, object], ros: RosEnvironment, environment: Mapping[str, str], scratch: Path) -> Python:
+def _generate(
+    arguments: Mapping[str, object], ros: RosEnvironment, environment: Mapping[str, str], scratch: Path
+) -> Python:
     """Run the generators in the Python of the ROS in use. Raises CompileError."""
     given = scratch / "arguments.json"
     given.write_text(json.dumps(arguments), encoding="utf-8")
     try:
         ended = subprocess.run(
-            [str(ros.python), "-P", generating.__file__, str(given)],
-            **{"env": dict(environment), "capture_output": True, "text": True, "check": False, "timeout": _GENERATE_LIMIT_S},
+            [str(ros.python), "-P", str(_GENERATOR), str(given)],
+            env=dict(environment),
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=_GENERATE_LIMIT_S,
+            check=False,
         )
     except (OSError, subprocess.SubprocessError) as error:
         raise CompileError(str(error)) from error
@@ -234,15 +258,17 @@ def _write_index(package: InterfacePackage, prefix: Path, dependencies: Sequence
 
 
 def _digest(package: InterfacePackage, workspace: _Workspace, used: Sequence[Path]) -> str:
-    """Return what changes with whatever the built files depend on."""
+    """Return what changes with whatever the built files depend on; empty if a file cannot be read."""
     digest = sha256()
     first = (__version__, workspace.ros.python, workspace.ros.kind, workspace.ros.distro)
-    for part in (*first, *workspace.prefixes, *(path.name for path in used), *package.dependencies):
+    for part in (*first, *workspace.prefixes, *(path.name for path in used), package.name):
         digest.update(f"{part}\0".encode())
-    ours = Path(__file__).parent
-    contents = [ours / "generating.py", ours / "compiling.py", package.folder / "package.xml"]
-    for path in (*contents, *(package.folder / file for file in package.files)):
-        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    names = ("package.xml", "CMakeLists.txt", *package.files, *package.unlisted)
+    try:
+        for path in (_GENERATOR, Path(compiling.__file__), *(package.folder / name for name in names)):
+            digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    except OSError:
+        return ""
     return digest.hexdigest()[:16]
 
 

@@ -17,9 +17,10 @@ from tutor.interfaces.toolchain import Toolchain
 _FLAGS = ("-fPIC", "-O1", "-DNDEBUG", "-w")
 _RUNTIME = (
     *("rosidl_runtime_c", "rosidl_typesupport_c", "rosidl_typesupport_fastrtps_c", "rosidl_typesupport_fastrtps_cpp"),
-    *("rosidl_typesupport_interface", "fastcdr", "rmw", "rcutils"),
+    *("rosidl_typesupport_introspection_c", "fastcdr", "rmw", "rcutils"),
 )
-_OF_A_DEPENDENCY = ("rosidl_generator_c", "rosidl_typesupport_fastrtps_c", "rosidl_generator_py")
+_TYPE_SUPPORTS = ("rosidl_typesupport_fastrtps_c", "rosidl_typesupport_introspection_c")
+_OF_A_DEPENDENCY = ("rosidl_generator_c", *_TYPE_SUPPORTS, "rosidl_generator_py")
 _LIMIT_S = 300.0
 
 
@@ -43,8 +44,7 @@ class Job:
     """
 
     package: str
-    digest: str
-    sources: Path
+    sources: tuple[Path, ...]
     python: Path
     scratch: Path
     library_dir: Path
@@ -53,21 +53,15 @@ class Job:
     dependencies: tuple[str, ...]
 
 
-def library_name(package: str, digest: str) -> str:
-    """Return the name of a package's library, without lib and .so.
-
-    With the digest: a process that loads two of one name would get the first for both.
-    """
-    return f"{package}__interfaces_{digest}"
-
-
 def compile_package(job: Job, tools: Toolchain, python: Python, progress: Callable[[float], None]) -> None:
     """Compile the library and the module into place; `progress` is told the fraction done. Raises CompileError."""
-    includes = [f"-I{job.sources.parent}", *(f"-I{folder}" for folder in _include_folders(job)), *map("-I{}".format, python.includes)]
-    support = sorted(job.sources.glob("*/*.cpp")) + sorted(job.sources.glob("*/detail/*.cpp"))
+    folders = [*(folder.parent for folder in job.sources), *_include_folders(job), *python.includes]
+    includes = [f"-I{folder}" for folder in folders]
+    support = [path for folder in job.sources for path in sorted(folder.rglob("*.cpp"))]
     together = job.scratch / "type_support.cpp"  # they share their headers, which are most of the work
     together.write_text("".join(f'#include "{path}"\n' for path in support), encoding="utf-8")
-    c_sources = [*sorted(job.sources.glob("*/detail/*.c")), *sorted(job.python.glob("*/*_s.c"))]
+    c_sources = [path for folder in job.sources for path in sorted(folder.rglob("*.c"))]
+    c_sources += sorted(job.python.glob("*/*_s.c"))
     entry = next(job.python.glob("_*_s.ep.rosidl_typesupport_c.c"))
     commands = [
         [*tools.cpp, *_FLAGS, *includes, "-c", str(together), "-o", str(job.scratch / "type_support.o")],
@@ -84,21 +78,32 @@ def compile_package(job: Job, tools: Toolchain, python: Python, progress: Callab
         progress(done / (len(commands) + 1))
 
     _run_all(commands, count)
-    library = library_name(job.package, job.digest)
+    library, alias = (f"{job.package}__{name}" for name in _TYPE_SUPPORTS)  # each is loaded by its name
     job.library_dir.mkdir(parents=True, exist_ok=True)
-    folders = _library_folders(job)
-    search = [*(f"-L{folder}" for folder in folders), *(f"-Wl,-rpath,{folder}" for folder in folders)]
+    searched = _library_folders(job)
+    search = [option for folder in searched for option in (f"-L{folder}", f"-Wl,-rpath,{folder}")]
     objects = ["type_support.o", *(f"c{number}.o" for number in range(len(c_sources)))]
     _run(
         [
             *(*tools.cpp, "-shared", "-o", str(job.library_dir / f"lib{library}.so"), f"-Wl,-soname,lib{library}.so"),
             *(str(job.scratch / name) for name in objects),
-            *("-Wl,--no-as-needed", "-Wl,--allow-shlib-undefined", *search, *_libraries(job, folders)),
+            *("-Wl,--no-as-needed", "-Wl,--allow-shlib-undefined", *search, *_libraries(job, searched)),
         ]
     )
+    (job.library_dir / f"lib{alias}.so").symlink_to(f"lib{library}.so")
     module = job.python / f"{job.package}_s__rosidl_typesupport_c{python.suffix}"
     own = ["-Wl,-rpath,$ORIGIN/../../lib", f"-L{job.library_dir}", f"-l{library}"]
-    _run([*tools.c, "-shared", "-o", str(module), str(job.scratch / f"c{len(c_sources)}.o"), "-Wl,--allow-shlib-undefined", *own])
+    _run(
+        [
+            *tools.c,
+            "-shared",
+            "-o",
+            str(module),
+            str(job.scratch / f"c{len(c_sources)}.o"),
+            "-Wl,--allow-shlib-undefined",
+            *own,
+        ]
+    )
 
 
 def _include_folders(job: Job) -> list[Path]:
@@ -115,8 +120,7 @@ def _libraries(job: Job, folders: Sequence[Path]) -> list[str]:
     """Return the linker's options for the libraries that are there of those that the sources may use."""
     wanted = [*(f"{name}__{kind}" for name in job.dependencies for kind in _OF_A_DEPENDENCY), *_RUNTIME]
     present = [name for name in wanted if any((folder / f"lib{name}.so").exists() for folder in folders)]
-    ours = [path.name[3:-3] for prefix in job.built for path in (prefix / "lib").glob("lib*__interfaces_*.so")]
-    return [f"-l{name}" for name in (*ours, *present)]
+    return [f"-l{name}" for name in present]
 
 
 def _run_all(commands: Iterable[list[str]], done: Callable[[object], None]) -> None:
@@ -133,7 +137,13 @@ def _run_all(commands: Iterable[list[str]], done: Callable[[object], None]) -> N
 def _run(command: list[str]) -> None:
     try:
         ended = subprocess.run(
-            command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", timeout=_LIMIT_S, check=False
+            command,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=_LIMIT_S,
+            check=False,
         )
     except (OSError, subprocess.SubprocessError) as error:
         raise CompileError(str(error)) from error

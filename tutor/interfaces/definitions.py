@@ -38,13 +38,13 @@ _OTHER_NAMES = {
     "Header": "std_msgs/Header",
 }
 # Each field also becomes a member of a C and a C++ structure.
-_C_KEYWORDS = frozenset(
+_C_KEYWORDS = (
     "alignas alignof and_eq asm auto bitand bitor bool break case catch char class compl const const_cast constexpr"
     " continue decltype default delete do double dynamic_cast else enum explicit export extern false float for friend"
     " goto if inline int long mutable namespace new noexcept not_eq nullptr operator or_eq private protected public"
     " register reinterpret_cast restrict return short signed sizeof static static_assert static_cast struct switch"
     " template this thread_local throw true try typedef typeid typename union unsigned using virtual void volatile"
-    " wchar_t while xor xor_eq".split()
+    " wchar_t while xor xor_eq"
 )
 _FILE_NAME = re.compile(r"[A-Z][A-Za-z0-9]*")
 _FIELD_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
@@ -91,7 +91,8 @@ def _about_separators(kind: str, count: int) -> str:
     if kind == "msg":
         return "a line --- separates the parts of a .srv or .action file; a message has only one part"
     needed = "one line ---" if len(names) == 2 else "two lines ---"
-    return f"a .{kind} file has {needed} between {', '.join(names[:-1])} and {names[-1]}, and this one has {count or 'none'}"
+    parts = f"{', '.join(names[:-1])} and {names[-1]}"
+    return f"a .{kind} file has {needed} between {parts}, and this one has {count or 'none'}"
 
 
 def _reason(package: str, line: str, number: int, seen: dict[str, int], type_exists: TypeExists) -> str:
@@ -142,7 +143,7 @@ def _about_type(text: str, type_exists: TypeExists) -> str:
 def _about_field(name: str) -> str:
     if not _FIELD_NAME.fullmatch(name):
         return f"the name of a field is in lower_snake_case, and {name!r} is not"
-    if keyword.iskeyword(name) or name in _C_KEYWORDS:
+    if keyword.iskeyword(name) or name in _C_KEYWORDS.split():
         language = "Python" if keyword.iskeyword(name) else "C++"
         return f"{name} is a keyword of {language}, so it cannot be the name of a field"
     return ""

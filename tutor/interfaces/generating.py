@@ -6,6 +6,7 @@ It runs in the Python of the ROS in use and imports nothing of ours, only that R
 - `package`, and `files`: the .msg, .srv and .action files, relative to `folder`
 - `share`: an output folder for what an installed package keeps in its share folder
 - `sources`: an output folder for the C and C++ sources, whose parent is an include path
+- `introspection`: another one, for the sources of that type support, whose names are those of others
 - `python`: an output folder for the Python modules
 - `scratch`: a folder for files of its own
 - `dependencies`: the share folders of other packages, by name
@@ -27,8 +28,8 @@ from typing import Any
 
 from ament_index_python.packages import get_package_share_directory
 
-TYPESUPPORT = "rosidl_typesupport_fastrtps_c"
-"""The one type support that is built: that of the RMW which everything here runs with."""
+FASTRTPS, INTROSPECTION = "rosidl_typesupport_fastrtps_c", "rosidl_typesupport_introspection_c"
+"""The type supports that are built: those which the RMW uses that everything here runs with."""
 
 
 def main() -> None:
@@ -49,10 +50,11 @@ def _generate(arguments: dict[str, Any]) -> None:
     import rosidl_generator_type_description
     import rosidl_typesupport_c
     import rosidl_typesupport_fastrtps_c
+    import rosidl_typesupport_introspection_c
 
-    package, folder = arguments["package"], Path(arguments["folder"])
+    package, origin = arguments["package"], Path(arguments["folder"])
     share, sources = Path(arguments["share"]), Path(arguments["sources"])
-    idl_files = _write_definitions(package, folder, arguments["files"], share)
+    idl_files = _write_definitions(package, origin, arguments["files"], share)
     common = {
         "package_name": package,
         "idl_tuples": [f"{share}:{file}" for file in idl_files],
@@ -61,6 +63,7 @@ def _generate(arguments: dict[str, Any]) -> None:
         "target_dependencies": [],
     }
     scratch = Path(arguments["scratch"])
+    introspection = Path(arguments["introspection"])
 
     def run(generator: str, function: Any, output: Path, *more: Any, **extra: Any) -> None:
         templates = Path(get_package_share_directory(generator), "resource")
@@ -78,11 +81,12 @@ def _generate(arguments: dict[str, Any]) -> None:
     )
     hashes = [f"{file}:{share / Path(file).with_suffix('.json')}" for file in idl_files]
     run("rosidl_generator_c", rosidl_generator_c.generate_c, sources, type_description_tuples=hashes)
-    run(TYPESUPPORT, rosidl_typesupport_fastrtps_c.generate_typesupport_fastrtps_c, sources)
-    run("rosidl_typesupport_c", rosidl_typesupport_c.generate_c, sources, [TYPESUPPORT])
+    run(FASTRTPS, rosidl_typesupport_fastrtps_c.generate_typesupport_fastrtps_c, sources)
+    run(INTROSPECTION, rosidl_typesupport_introspection_c.generate_c, introspection)
+    run("rosidl_typesupport_c", rosidl_typesupport_c.generate_c, sources, [FASTRTPS, INTROSPECTION])
     run("rosidl_generator_py", rosidl_generator_py.generate_py, Path(arguments["python"]), ["rosidl_typesupport_c"])
-    for generator in ("rosidl_generator_c", TYPESUPPORT):
-        _write_visibility_header(generator, package, sources)
+    for generator, folder in (("rosidl_generator_c", sources), (FASTRTPS, sources), (INTROSPECTION, introspection)):
+        _write_visibility_header(generator, package, folder)
     (Path(arguments["python"]) / "__init__.py").touch()
 
 

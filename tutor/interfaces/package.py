@@ -15,7 +15,7 @@ from tutor.interfaces.cmake_lists import GENERATE, CMakeLists, read_cmake_lists
 from tutor.interfaces.problem import Problem
 from tutor.ros.prefixes import INTERFACE_INDEX
 
-_MAX_DEPTH = 5
+MAX_DEPTH = 5
 _SKIPPED = frozenset({"build", "install", "log", "node_modules", "venv"})
 _IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 _GROUP = "rosidl_interface_packages"
@@ -96,7 +96,7 @@ def _not_a_dependency(owner: str) -> str:
     return f"a type of {owner} needs DEPENDENCIES {owner} in {GENERATE}() of CMakeLists.txt"
 
 
-def find_packages(root: Path, depth: int = _MAX_DEPTH) -> list[InterfacePackage]:
+def find_packages(root: Path, depth: int = MAX_DEPTH) -> list[InterfacePackage]:
     """Return the interface packages below a workspace's folder, by name; of two with one name, the first.
 
     Like colcon: at any depth, none inside another package, none where a COLCON_IGNORE file lies.
@@ -120,7 +120,9 @@ def problems_of(package: InterfacePackage, types: KnownTypes) -> Iterator[Proble
         if name not in types.shares and name not in types.neighbours:
             near = difflib.get_close_matches(name, [*types.shares, *types.neighbours], n=1)
             guess = f"; is it {near[0]}?" if near else ""
-            yield Problem(cmake, package.cmake.line, f"there is no interface package {name}, named after DEPENDENCIES{guess}")
+            yield Problem(
+                cmake, package.cmake.line, f"there is no interface package {name}, named after DEPENDENCIES{guess}"
+            )
     for file in package.files:
         path = package.folder / file
         if path.is_file():
@@ -134,8 +136,8 @@ def _of_the_package(package: InterfacePackage) -> Iterator[Problem]:
         yield Problem(
             manifest,
             None,
-            f"a package of type {package.build_type} cannot build interfaces ({where}): they need a package of their own,"
-            " made with ros2 pkg create --build-type ament_cmake",
+            f"a package of type {package.build_type} cannot build interfaces ({where}):"
+            " they need a package of their own, made with ros2 pkg create --build-type ament_cmake",
         )
         return
     if package.cmake.line is None:
@@ -161,13 +163,17 @@ def _of_the_package(package: InterfacePackage) -> Iterator[Problem]:
             yield Problem(cmake, line, f"{file} must lie in the folder {kind}, as {kind}/{path.name}")
         elif not path.is_file():
             near = difflib.get_close_matches(file, package.unlisted, n=1)
-            yield Problem(cmake, line, f"{file} is listed, and there is no such file" + (f"; is it {near[0]}?" if near else ""))
+            yield Problem(
+                cmake, line, f"{file} is listed, and there is no such file" + (f"; is it {near[0]}?" if near else "")
+            )
 
 
 def _read(folder: Path) -> InterfacePackage | None:
     """Return the package in a folder; None if it has to do with no interfaces."""
     present = tuple(
-        path.relative_to(folder).as_posix() for kind in definitions.KINDS for path in sorted((folder / kind).glob(f"*.{kind}"))
+        path.relative_to(folder).as_posix()
+        for kind in definitions.KINDS
+        for path in sorted((folder / kind).glob(f"*.{kind}"))
     )
     lists = folder / "CMakeLists.txt"
     text = lists.read_text(encoding="utf-8", errors="replace") if lists.is_file() else ""

@@ -15,7 +15,7 @@ class Problem:
     reason: str
 
     def text(self, root: Path | None = None) -> str:
-        """Return one sentence that begins with the place, such as `src/p/msg/Reading.msg:3: ...`; relative to `root`."""
+        """Return one sentence that begins with the place, relative to `root`: `src/p/msg/Reading.msg:3: ...`."""
         shown = self.file.relative_to(root) if root is not None and self.file.is_relative_to(root) else self.file
         return f"{shown}: {self.reason}" if self.line is None else f"{shown}:{self.line}: {self.reason}"
 

@@ -33,7 +33,7 @@ def find_toolchain(environ: Mapping[str, str] = os.environ) -> Toolchain | str:
 
 def _compiler(variable: str, names: tuple[str, ...], environ: Mapping[str, str]) -> tuple[str, ...]:
     given = shlex.split(environ.get(variable, ""))
-    for words in ([given] if given else [[name] for name in names]):
+    for words in [given] if given else [[name] for name in names]:
         if shutil.which(words[0], path=environ.get("PATH")):
             return tuple(words)
     return ()

@@ -6,13 +6,20 @@ folder of links to its own, so that a terminal opened before a change finds what
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
+import importlib
+import importlib.util
 import os
-from collections.abc import Iterator, Mapping, MutableMapping
+import sys
+from collections.abc import Iterable, Mapping, MutableMapping
 from pathlib import Path
 
 SITE_PACKAGES = Path("python")
 """The folder of a prefix from which Python imports the package."""
+
+_FOLDERS = {"AMENT_PREFIX_PATH": Path("."), "PYTHONPATH": SITE_PACKAGES, "LD_LIBRARY_PATH": Path("lib")}
+"""The variables by which a process finds a prefix, and which of its folders belongs into each."""
 
 
 def cache_root(environ: Mapping[str, str] = os.environ) -> Path:
@@ -46,23 +53,33 @@ def add(env: MutableMapping[str, str], workspace: Path) -> None:
     add_prefixes(env, built(workspace))
 
 
-def add_prefixes(env: MutableMapping[str, str], found: list[Path]) -> None:
+def add_prefixes(env: MutableMapping[str, str], found: Iterable[Path]) -> None:
     """Make processes with this environment find the packages in these prefixes."""
-    for name, folders in (
-        ("AMENT_PREFIX_PATH", found),
-        ("PYTHONPATH", [prefix / SITE_PACKAGES for prefix in found]),
-        ("LD_LIBRARY_PATH", [prefix / "lib" for prefix in found]),
-    ):
-        if folders:
-            before = [entry for entry in env.get(name, "").split(os.pathsep) if entry]
-            env[name] = os.pathsep.join(dict.fromkeys([*map(str, folders), *before]))
+    found = list(found)
+    for name, below in _FOLDERS.items():
+        if found:
+            env[name] = _joined([*(str(prefix / below) for prefix in found), *_entries(env, name)])
 
 
-def kept(environ: Mapping[str, str], name: str) -> Iterator[str]:
-    """Yield the entries of a PATH-like variable that are in built packages."""
-    for entry in environ.get(name, "").split(os.pathsep):
-        if entry and is_built(entry):
-            yield entry
+def keep(env: MutableMapping[str, str], environ: Mapping[str, str]) -> None:
+    """Add to `env` what `add` has added to `environ`, which is the environment of a sourced terminal, say."""
+    for name in _FOLDERS:
+        if found := [entry for entry in _entries(environ, name) if is_built(entry)]:
+            env[name] = _joined([*found, *_entries(env, name)])
+
+
+def activate(prefix: Path, package: str) -> None:
+    """Make `import PACKAGE` work in this process, which is prepared for rclpy. Does nothing if it already does.
+
+    Raises OSError if a library cannot be loaded.
+    """
+    if importlib.util.find_spec(package) is not None:
+        return
+    for library in sorted((prefix / "lib").glob("*.so")):  # see tutor.ros.bundled_interfaces
+        ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
+    sys.path.append(str(prefix / SITE_PACKAGES))
+    importlib.invalidate_caches()
+    os.environ["AMENT_PREFIX_PATH"] = _joined([*_entries(os.environ, "AMENT_PREFIX_PATH"), str(prefix)])
 
 
 def is_built(entry: str | Path) -> bool:
@@ -71,3 +88,11 @@ def is_built(entry: str | Path) -> bool:
         return Path(entry).is_relative_to(cache_root())
     except OSError:
         return False
+
+
+def _entries(environ: Mapping[str, str], name: str) -> list[str]:
+    return [entry for entry in environ.get(name, "").split(os.pathsep) if entry]
+
+
+def _joined(parts: Iterable[str]) -> str:
+    return os.pathsep.join(dict.fromkeys(parts))
