@@ -65,14 +65,15 @@ def read_cmake_lists(text: str) -> CMakeLists:
                 listed += files
                 dependencies += packages
     unknown = any("$" in file or "*" in file for file in listed)
-    files = () if unknown else tuple(dict.fromkeys(file.removeprefix("./") for file in listed))
-    return CMakeLists(project, tuple(found), files, tuple(dict.fromkeys(dependencies)), line, ends)
+    spelled_out = () if unknown else tuple(dict.fromkeys(file.removeprefix("./") for file in listed))
+    return CMakeLists(project, tuple(found), spelled_out, tuple(dict.fromkeys(dependencies)), line, ends)
 
 
 def _commands(text: str) -> Iterator[Command]:
     text = _COMMENT.sub(lambda comment: re.sub(r"[^\n]", " ", comment[0]), text)
     for start in _COMMAND.finditer(text):
-        arguments, depth = [], 1
+        arguments: list[str] = []
+        depth = 1
         for argument in _ARGUMENT.finditer(text, start.end()):
             depth += bool(argument[3]) - bool(argument[4])
             if depth == 0:

@@ -53,7 +53,7 @@ class Job:
     dependencies: tuple[str, ...]
 
 
-def compile_package(job: Job, tools: Toolchain, python: Python, progress: Callable[[float], None]) -> None:
+def compile_package(job: Job, tools: Toolchain, python: Python, progress: Callable[[float], object]) -> None:
     """Compile the library and the module into place; `progress` is told the fraction done. Raises CompileError."""
     folders = [*(folder.parent for folder in job.sources), *_include_folders(job), *python.includes]
     includes = [f"-I{folder}" for folder in folders]

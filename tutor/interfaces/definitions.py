@@ -77,13 +77,16 @@ def problems_of(package: str, file: Path, type_exists: TypeExists) -> Iterator[P
             yield Problem(file, number, reason)
 
 
-def type_names(file: Path) -> Iterator[tuple[str, str]]:
-    """Yield the package (empty: the file's own) and the name of each message type that a file uses."""
-    for line in file.read_text(encoding="utf-8-sig", errors="replace").splitlines():
+def definition_of(file: Path) -> tuple[str, ...]:
+    """Return the fields of a file without problems, each as in "float64 value", and --- between its parts."""
+    found = []
+    for line in file.read_text(encoding="utf-8-sig").splitlines():
         words = line.partition("#")[0].split()
-        if words and (found := _TYPE.fullmatch(words[0])) and found["base"] not in PRIMITIVES:
-            package, _, name = found["base"].rpartition("/")
-            yield package, name
+        if words == ["---"]:
+            found.append("---")
+        elif len(words) > 1 and "=" not in "".join(words[1:]):
+            found.append(f"{words[0]} {words[1]}")
+    return tuple(found)
 
 
 def _about_separators(kind: str, count: int) -> str:

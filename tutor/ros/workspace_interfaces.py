@@ -9,7 +9,6 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import importlib
-import importlib.util
 import os
 import sys
 from collections.abc import Iterable, Mapping, MutableMapping
@@ -69,17 +68,17 @@ def keep(env: MutableMapping[str, str], environ: Mapping[str, str]) -> None:
 
 
 def activate(prefix: Path, package: str) -> None:
-    """Make `import PACKAGE` work in this process, which is prepared for rclpy. Does nothing if it already does.
+    """Make `import PACKAGE` mean this one in this process, which is prepared for rclpy, unless it has imported one.
 
     Raises OSError if a library cannot be loaded.
     """
-    if importlib.util.find_spec(package) is not None:
+    if package in sys.modules:
         return
     for library in sorted((prefix / "lib").glob("*.so")):  # see tutor.ros.bundled_interfaces
         ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
-    sys.path.append(str(prefix / SITE_PACKAGES))
+    sys.path[:] = [str(prefix / SITE_PACKAGES), *(entry for entry in sys.path if entry != str(prefix / SITE_PACKAGES))]
     importlib.invalidate_caches()
-    os.environ["AMENT_PREFIX_PATH"] = _joined([*_entries(os.environ, "AMENT_PREFIX_PATH"), str(prefix)])
+    os.environ["AMENT_PREFIX_PATH"] = _joined([str(prefix), *_entries(os.environ, "AMENT_PREFIX_PATH")])
 
 
 def is_built(entry: str | Path) -> bool:
