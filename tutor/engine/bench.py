@@ -154,6 +154,7 @@ class RosBench:
                     restrict_environment(env)
                 # A program may have deleted its own folder: its next start then reports that.
                 cwd = path.parent if path.parent.is_dir() else log_dir
+                unbuilt = {build.package: build.problems[0] for build in self.interface_builds() if build.problems}
                 async with await LearnerProcess.start(
                     argv,
                     env=env,
@@ -163,7 +164,7 @@ class RosBench:
                     on_change=facts.notify,
                 ) as process:
                     with _raise_if_killed(process), _limited(process):
-                        yield RosRun(path, parameters, domain_id, process, observer, facts)
+                        yield RosRun(path, parameters, domain_id, process, observer, facts, unbuilt)
                     if process.killed:
                         self.sigkilled.append(path)
             finally:

@@ -36,7 +36,12 @@ class Workspace:
         return self.root / "src" / PACKAGE
 
     def path_of(self, name: str) -> Path:
-        """Return where the exercise file `name` belongs: launch files in `launch/`, others in the Python package."""
+        """Return where the exercise file `name` belongs: launch files in `launch/`, others in the Python package.
+
+        A path, such as my_interfaces/package.xml, is one in `src`: it begins with another package.
+        """
+        if "/" in name:
+            return self.root / "src" / name
         return self.package / ("launch" if is_launch_file(name) else PACKAGE) / name
 
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:

@@ -144,7 +144,7 @@ def _describe_missing(lesson: Lesson, file: LessonFile, place: Path, workspace: 
     if workspace is not None:
         advice = similar or f"; `{command('start', lesson.id)}` puts the skeleton there"
         return f"{lesson.id} needs {file.name}, but {place} does not exist{advice}"
-    if not similar and not any(place.parent.iterdir()):
+    if not similar and place.parent.is_dir() and not any(place.parent.iterdir()):
         return f"{lesson.id} needs {file.name}, but the folder {place.parent} is empty"
     return f"{lesson.id} needs {file.name}, but it is not in {place.parent}{similar}"
 
