@@ -7,6 +7,7 @@ from pathlib import Path
 
 from tutor.bundled_ros.ros2 import sources
 from tutor.content import Lesson
+from tutor.engine import loading
 from tutor.engine.environment import package_folder
 from tutor.errors import EngineError
 from tutor.interfaces import Build, build_workspace
@@ -39,8 +40,9 @@ def use_own(lesson: Lesson, ros: RosEnvironment, say: Say = lambda text: None) -
         if build.prefix is None:
             raise EngineError(build.problems[0].reason)
         try:
-            workspace_interfaces.activate(build.prefix, build.name)
-        except OSError as error:
+            with loading.changes_trusted():
+                workspace_interfaces.activate(build.prefix, build.name)
+        except (ImportError, OSError) as error:
             raise EngineError(f"the types of {build.name} cannot be loaded: {error}") from error
 
 

@@ -68,9 +68,9 @@ def keep(env: MutableMapping[str, str], environ: Mapping[str, str]) -> None:
 
 
 def activate(prefix: Path, package: str) -> None:
-    """Make `import PACKAGE` mean this one in this process, which is prepared for rclpy, unless it has imported one.
+    """Import a package from this prefix into this process, which is prepared for rclpy, unless it has imported one.
 
-    Raises OSError if a library cannot be loaded.
+    Raises OSError if a library cannot be loaded, and ImportError.
     """
     if package in sys.modules:
         return
@@ -79,6 +79,9 @@ def activate(prefix: Path, package: str) -> None:
     sys.path[:] = [str(prefix / SITE_PACKAGES), *(entry for entry in sys.path if entry != str(prefix / SITE_PACKAGES))]
     importlib.invalidate_caches()
     os.environ["AMENT_PREFIX_PATH"] = _joined([str(prefix), *_entries(os.environ, "AMENT_PREFIX_PATH")])
+    for module in (prefix / SITE_PACKAGES / package).glob("*/__init__.py"):
+        importlib.import_module(f"{package}.{module.parent.name}")
+    importlib.import_module(f"{package}.{package}_s__rosidl_typesupport_c")
 
 
 def is_built(entry: str | Path) -> bool:

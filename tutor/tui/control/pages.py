@@ -150,7 +150,8 @@ class Pages:
             pane.set_lesson(self._host.model.lesson)
             pane.set_own_nodes_running(self._node_is_running())
             session = self._host.model.session
-            pane.call_after_refresh(pane.start_watching, lambda: watcher_command(session.domain))
+            root = session.workspace.root
+            pane.call_after_refresh(pane.start_watching, lambda: watcher_command(session.domain, workspace=root))
         return pane
 
     def open_terminal(self) -> TerminalPane:
