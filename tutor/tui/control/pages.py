@@ -154,6 +154,11 @@ class Pages:
             pane.call_after_refresh(pane.start_watching, lambda: watcher_command(session.domain, workspace=root))
         return pane
 
+    def restart_live(self) -> None:
+        """Have the live page, if it is open, watch with the message types that are built now."""
+        if self.live:
+            self.live.restart_watching()
+
     def open_terminal(self) -> TerminalPane:
         """Return the terminal page; the first call creates it."""
         if not (pane := self.terminal):
