@@ -90,7 +90,10 @@ def compile_package(job: Job, tools: Toolchain, python: Python, progress: Callab
             *("-Wl,--no-as-needed", "-Wl,--allow-shlib-undefined", *search, *_libraries(job, searched)),
         ]
     )
-    (job.library_dir / f"lib{alias}.so").symlink_to(f"lib{library}.so")
+    # An empty library that needs the other, for a process that finds libraries by the names of those it has loaded.
+    beside = ["-Wl,--no-as-needed", "-Wl,--allow-shlib-undefined", f"-L{job.library_dir}", f"-l{library}"]
+    named = [f"-Wl,-soname,lib{alias}.so", "-Wl,-rpath,$ORIGIN"]
+    _run([*tools.c, "-shared", "-o", str(job.library_dir / f"lib{alias}.so"), *named, *beside])
     module = job.python / f"{job.package}_s__rosidl_typesupport_c{python.suffix}"
     own = ["-Wl,-rpath,$ORIGIN/../../lib", f"-L{job.library_dir}", f"-l{library}"]
     _run(
