@@ -81,7 +81,6 @@ def write_patched(lesson: Lesson, changes: Sequence[Change], folder: Path) -> No
     folder.mkdir(parents=True)
     for name, source in patched(lesson, changes).items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(source, encoding="utf-8")
 
 
