@@ -27,13 +27,13 @@ class Command:
 class CMakeLists:
     """What is said about interfaces.
 
-    `files`, as listed, relative to the package; empty if they are not spelled out but, say, globbed. `line` is that of
+    `files`, as listed, relative to the package; None if they are not spelled out but, say, globbed. `line` is that of
     `rosidl_generate_interfaces`, and None if it is not called.
     """
 
     project: str
     found: tuple[str, ...]
-    files: tuple[str, ...]
+    files: tuple[str, ...] | None
     dependencies: tuple[str, ...]
     line: int | None
     ends_with_package: bool
@@ -65,7 +65,7 @@ def read_cmake_lists(text: str) -> CMakeLists:
                 listed += files
                 dependencies += packages
     unknown = any("$" in file or "*" in file for file in listed)
-    spelled_out = () if unknown else tuple(dict.fromkeys(file.removeprefix("./") for file in listed))
+    spelled_out = None if unknown else tuple(dict.fromkeys(file.removeprefix("./") for file in listed))
     return CMakeLists(project, tuple(found), spelled_out, tuple(dict.fromkeys(dependencies)), line, ends)
 
 

@@ -184,8 +184,7 @@ def _read(folder: Path) -> InterfacePackage | None:
     name = (manifest.findtext("name") or folder.name).strip()
     build_type = (manifest.findtext("export/build_type") or "ament_cmake").strip()
     member = any((group.text or "").strip() == _GROUP for group in manifest.iter("member_of_group"))
-    globbed = cmake.line is not None and not cmake.files
-    files = present if globbed else cmake.files
+    files = present if cmake.files is None else cmake.files
     unlisted = tuple(file for file in present if file not in files)
     return InterfacePackage(name, folder, cmake, files, unlisted, build_type, member)
 
