@@ -130,6 +130,9 @@ def test_a_bad_definition_is_named_and_what_was_built_before_is_not_used(tmp_pat
     place = "src/once_interfaces/msg/Once.msg:2"
     assert [problem.text(tmp_path).partition(": ")[0] for problem in build.problems] == [place]
     assert workspace_interfaces.built(tmp_path) == []
+    done = _run(tmp_path, tmp_path, "-c", "import once_interfaces.msg")
+    assert "ModuleNotFoundError: No module named 'once_interfaces'" in done.stderr
+    assert f"once_interfaces is in your workspace, but it is not built: {place}: there is no type float" in done.stderr
 
 
 def test_without_a_compiler_one_sentence_says_how_to_get_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

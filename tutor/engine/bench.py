@@ -148,6 +148,7 @@ class RosBench:
                     source_workspace(env, machine.ros, path, machine.tools)
                 elif machine.tools is not None:
                     sourced.add_programs(env, machine.tools)
+                env.pop(workspace_interfaces.REASONS, None)  # the report says it
                 workspace_interfaces.add_prefixes(env, [build.prefix for build in self.interfaces if build.prefix])
                 argv = make_argv(env, ours)
                 if sandbox is not None:

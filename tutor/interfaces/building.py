@@ -273,19 +273,26 @@ def _digest(package: InterfacePackage, workspace: _Workspace, used: Sequence[Pat
 
 
 def _link(root: Path, builds: Sequence[Build]) -> None:
-    """Make the links of a workspace lead to what is built of it now. One that fails keeps what was last built of it."""
+    """Make the links of a workspace lead to what is built of it now. In place of one that failed is the reason.
+
+    Nothing older is left of it: a type that is not what its file says would mislead.
+    """
     folder = workspace_interfaces.links_folder(root)
     if not builds and not folder.is_dir():
         return
     folder.mkdir(parents=True, exist_ok=True)
     for link in folder.iterdir():
-        if link.name not in [build.name for build in builds]:
+        if not link.name.startswith(".") and link.name.partition(".")[0] not in [build.name for build in builds]:
             link.unlink(missing_ok=True)
     for build in builds:
         link = folder / build.name
+        reason = folder / f"{build.name}.unbuilt"
         if build.prefix is None:
             link.unlink(missing_ok=True)
-        elif not link.is_symlink() or Path(os.readlink(link)) != build.prefix:
+            reason.write_text(build.problems[0].text(root), encoding="utf-8")
+            continue
+        reason.unlink(missing_ok=True)
+        if not link.is_symlink() or Path(os.readlink(link)) != build.prefix:
             temporary = folder / f".{build.name}.{os.getpid()}"
             temporary.unlink(missing_ok=True)
             temporary.symlink_to(build.prefix)

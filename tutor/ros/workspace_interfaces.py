@@ -17,6 +17,9 @@ from pathlib import Path
 SITE_PACKAGES = Path("python")
 """The folder of a prefix from which Python imports the package."""
 
+REASONS = "ROS_TUTOR_INTERFACES"
+"""The variable that names a folder with a text for each package that could not be built: NAME.unbuilt."""
+
 _FOLDERS = {"AMENT_PREFIX_PATH": Path("."), "PYTHONPATH": SITE_PACKAGES, "LD_LIBRARY_PATH": Path("lib")}
 """The variables by which a process finds a prefix, and which of its folders belongs into each."""
 
@@ -48,8 +51,17 @@ def built(workspace: Path) -> list[Path]:
 
 
 def add(env: MutableMapping[str, str], workspace: Path) -> None:
-    """Make processes with this environment find the built packages of a workspace, before any others of their names."""
+    """Make processes with this environment find the built packages of a workspace, before any others of their names.
+
+    A Python program that imports one that could not be built is told why (see `bundled_ros/startup`).
+    """
     add_prefixes(env, built(workspace))
+    env.pop(REASONS, None)
+    try:
+        if (folder := links_folder(workspace)).is_dir():
+            env[REASONS] = str(folder)
+    except OSError:
+        pass
 
 
 def add_prefixes(env: MutableMapping[str, str], found: Iterable[Path]) -> None:
