@@ -61,6 +61,15 @@ class Workspace:
         return LastChecks(self.root / MARKER / "last-checks", notify)
 
 
+def path_beside(folder: Path, name: str) -> Path:
+    """Return where the exercise file `name` is expected if the exercise's program is in `folder`.
+
+    A path, which begins with another package, may also be beside the Python package that the folder is, as in `src`.
+    """
+    beside = folder.parent.parent / name
+    return beside if "/" in name and not (folder / name).exists() and beside.exists() else folder / name
+
+
 def is_launch_file(name: str) -> bool:
     """Whether an exercise's file is a launch file, judging by its name."""
     return name.endswith(("_launch.py", ".launch.py"))

@@ -13,7 +13,7 @@ from tutor.invocation import command
 from tutor.judge.result import CriterionResult, ExerciseResult, Lookup
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Verdict
-from tutor.workspace.layout import Workspace, is_launch_file
+from tutor.workspace.layout import Workspace, is_launch_file, path_beside
 
 NOT_STARTED = "not started"
 _MAX_LISTED = 20
@@ -84,9 +84,9 @@ def _places(lesson: Lesson, path: Path | None, workspace: Workspace | None) -> d
     if path is None or home.exists:
         return {name: home.path_of(name) for name in names}
     if path.is_dir():
-        return {name: path / name for name in names}
+        return {name: path_beside(path, name) for name in names}
     represented = path.name if path.name in names else names[0]
-    return {name: path if name == represented else path.parent / name for name in names}
+    return {name: path if name == represented else path_beside(path.parent, name) for name in names}
 
 
 def _absolute(path: Path) -> Path:
