@@ -143,7 +143,7 @@ def _read_difficulty(fields: Fields) -> Difficulty:
 def _read_file(fields: Fields, folder: Path) -> LessonFile:
     name = fields.text("name")
     if any(part in ("", "..") or part.startswith(".") for part in name.split("/")):
-        raise fields.error("name", f"expected a file name, or a path from its package on, found {name!r}")
+        raise fields.error("name", f"expected a file name, found {name!r}")
     required = fields.flag("required", True)
     fields.done()
     return LessonFile(name, required, skeleton=folder / "skeleton" / name, solution=folder / "solution" / name)
