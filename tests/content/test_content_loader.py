@@ -165,7 +165,7 @@ def test_a_missing_course_is_reported(lesson_folder: Path, tmp_path: Path) -> No
         ("difficulty: easy", "difficulty: hard", 4, "difficulty", "'hard' is not one of easy, medium, challenge"),
         ("objective:", "objektive:", 2, "objective", "this field is missing"),
         ("title: First Steps", "title: First Steps\nextra: 1", 4, "extra", "there is no such field"),
-        ("mover.py", "../mover.py", 8, "files[1].name", "expected a plain file name, found '../mover.py'"),
+        ("mover.py", "../mover.py", 8, "files[1].name", "expected a file name, found '../mover.py'"),
         ("text: It stops", "text: [It, stops]", 14, "criteria[2].text", "expected a text, found a list"),
         ("hint: Stop it.", "tip: Stop it.", 13, "criteria[2].hint", "this field is missing"),
         ("bonus: true", "bonus: yep", 15, "criteria[2].bonus", "expected true or false, found a text"),

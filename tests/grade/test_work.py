@@ -552,3 +552,20 @@ def test_the_same_learner_under_two_names(made: Class) -> None:
     made.add(f"i1-1-ana/{PUBLISHER}", f"i2-2-ana/{LAUNCH}")
     works = made.find(roster=[{"github": "ana", "name": "Ana Ruiz"}])
     assert [key for key, work in works.items() if work.files] == ["ana i1.1", "ana i2.2"]
+
+
+TYPES = [f"my_interfaces/{name}" for name in ("msg/Reading.msg", "srv/InRange.srv", "CMakeLists.txt", "package.xml")]
+
+
+def test_a_package_of_types_is_found_beside_the_program_or_its_package(made: Class) -> None:
+    made.add("ana/tank_sensor.py", *(f"ana/{name}" for name in TYPES))
+    package = "bob/src/my_package"
+    made.add(f"{package}/package.xml", f"{package}/my_package/__init__.py", f"{package}/my_package/tank_sensor.py")
+    made.add(*(f"bob/src/{name}" for name in TYPES))
+    made.add("eve/tank_sensor.py")
+    ana, bob, eve = made.find("b1.3").values()
+    assert ana.main == "."
+    assert set(TYPES) <= set(ana.files)
+    assert bob.main == "my_package/my_package"
+    assert {"my_interfaces/msg/Reading.msg", "my_package/my_package/tank_sensor.py"} <= set(bob.files)
+    assert "there is no my_interfaces/msg/Reading.msg" in eve.missing

@@ -87,6 +87,7 @@ PAGE_OF = {
     "clocks": "python",
     "comparisons": "python",
     "hidden_modules": "python",
+    "interfaces": "topics",
     "imports": "python",
     "python": "python",
     "syntax": "python",

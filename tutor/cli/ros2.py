@@ -8,6 +8,7 @@ import shlex
 import sys
 
 from tutor.cli import context
+from tutor.cli.interfaces import build_interfaces
 from tutor.errors import UsageError
 
 
@@ -26,11 +27,13 @@ def run(arguments: argparse.Namespace) -> int:
     from tutor import interpreter, private_folders
     from tutor.bundled_ros.ros2.starting import ros2_command
     from tutor.errors import CommandError
+    from tutor.ros import workspace_interfaces
     from tutor.ros.environment import detect, learner_env
     from tutor.workspace import domain_of
 
     ros = detect()
     workspace = context.choose_workspace(arguments)
+    build_interfaces(workspace)
     domain = domain_of(workspace)
     env = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
     if ros.kind == "bundled":
@@ -42,6 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
             isolated=False,
         )
         env["ROS_TUTOR_WORKSPACE"] = str(workspace.root)
+    workspace_interfaces.add(env, workspace.root)
     try:
         command = [*ros2_command(ros, env), *(arguments.words or ["--help"])]
     except CommandError as error:

@@ -8,6 +8,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from tutor.cli import context, terminal
+from tutor.cli.interfaces import build_interfaces
 from tutor.errors import UsageError
 from tutor.invocation import command
 
@@ -39,6 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
     path = session.path(file)
     if not path.is_file():
         raise UsageError(f"{path} does not exist; `{command('start', lesson.id)}` puts the skeleton there")
+    build_interfaces(session.workspace)
     try:
         node = session.node_command(file, RunOptions())
     except CommandError as error:

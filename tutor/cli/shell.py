@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 from tutor.cli import context, terminal
+from tutor.cli.interfaces import build_interfaces
 from tutor.errors import UsageError
 
 
@@ -24,6 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
     from tutor.workspace import domain_of
 
     workspace = context.choose_workspace(arguments)
+    build_interfaces(workspace)
     with private_folders.temporary("shell") as tools:
         try:
             shell = shell_command(workspace, tools)

@@ -50,7 +50,8 @@ def find_disagreements(lesson: Lesson, check: Check) -> Iterator[Problem]:
     cases = cases_of(lesson)
     known = {cases.report, *cases.places} if cases is not None else set()  # what the launch file starts, or reads
     for file in lesson.files:
-        if file.name not in constants and file.name not in known:
+        name = file.name.partition("/")[0]  # of a path, the package must be named
+        if name not in constants and file.name not in known:
             yield Problem(
                 check_file, f"the file {file.name} is named nowhere in it", "the names must agree: start this one"
             )

@@ -144,8 +144,8 @@ def _read_difficulty(fields: Fields) -> Difficulty:
 
 def _read_file(fields: Fields, folder: Path) -> LessonFile:
     name = fields.text("name")
-    if "/" in name or name.startswith("."):
-        raise fields.error("name", f"expected a plain file name, found {name!r}")
+    if any(part in ("", "..") or part.startswith(".") for part in name.split("/")):
+        raise fields.error("name", f"expected a file name, found {name!r}")
     required = fields.flag("required", True)
     fields.done()
     skeleton, solution = folder / "skeleton" / name, folder / "solution" / name

@@ -22,6 +22,7 @@ class Difficulty(StrEnum):
 class LessonFile:
     """One file of a submission, with the skeleton a learner starts from and our solution.
 
+    `name` is a plain file name, or the path of a file in a package of its own, such as my_interfaces/msg/Reading.msg.
     A file that is not `required` may be missing from a submission; criteria that depend on it are then not passed. Of a
     lesson with cases (see `cases`), a file that is handed over without a fault has its solution as its skeleton.
     """

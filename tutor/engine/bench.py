@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Iterator, Mapping
+from collections.abc import AsyncIterator, Callable, Iterator, Mapping, Sequence
 from contextlib import asynccontextmanager, contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,17 +12,21 @@ from typing import Any, TypeVar
 from tutor.bundled_ros.ros2 import overlay, sourced
 from tutor.bundled_ros.ros2.starting import ros2_command
 from tutor.engine.environment import node_env, package_root, source_workspace
+from tutor.engine.interfaces import root_of, seen_builds
 from tutor.engine.isolation import restrict_environment
 from tutor.engine.machine import Machine
 from tutor.engine.progress import ScenarioProgress
 from tutor.engine.run import RosRun
 from tutor.engine.waits import CollectedFacts
 from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
+from tutor.interfaces import Build
 from tutor.judge.bench import Run, Scenario
+from tutor.judge.interface_build import InterfaceBuild
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MAX_CHARACTERS
 from tutor.process import LearnerProcess, run_limits
 from tutor.process.log_folder import temporary_log_folder
+from tutor.ros import workspace_interfaces
 from tutor.ros.domain import reserve_domain
 from tutor.ros.observer import Observer
 from tutor.workspace.regular import read_regular
@@ -52,7 +56,8 @@ class RosBench:
 
     `get_facts` returns the facts of another scenario; `on_facts` gets what this one reports before it ends.
     `expected_s`: the check's; of several waiting starts, the one with the longest goes first (a start may give its
-    own). `sigkilled`: the files whose process was ended by SIGKILL.
+    own). `interfaces`: what became of the submission's interface packages. `sigkilled`: the files whose process was
+    ended by SIGKILL.
     """
 
     machine: Machine
@@ -61,6 +66,7 @@ class RosBench:
     on_facts: Callable[[object], None]
     progress: ScenarioProgress
     expected_s: float = 0.0
+    interfaces: Sequence[Build] = ()
     sigkilled: list[Path] = field(default_factory=list)
 
     @asynccontextmanager
@@ -147,11 +153,14 @@ class RosBench:
                     source_workspace(env, machine.ros, path, machine.tools)
                 elif machine.tools is not None:
                     sourced.add_programs(env, machine.tools)
+                env.pop(workspace_interfaces.REASONS, None)  # the report says it
+                workspace_interfaces.add_prefixes(env, [build.prefix for build in self.interfaces if build.prefix])
                 argv = make_argv(env, ours)
                 if sandbox is not None:
                     restrict_environment(env)
                 # A program may have deleted its own folder: its next start then reports that.
                 cwd = path.parent if path.parent.is_dir() else log_dir
+                unbuilt = {build.package: build.problems[0] for build in self.interface_builds() if build.problems}
                 async with await LearnerProcess.start(
                     argv,
                     env=env,
@@ -161,11 +170,14 @@ class RosBench:
                     on_change=facts.notify,
                 ) as process:
                     with _raise_if_killed(process), _limited(process):
-                        yield RosRun(path, parameters, domain_id, process, observer, facts)
+                        yield RosRun(path, parameters, domain_id, process, observer, facts, unbuilt)
                     if process.killed:
                         self.sigkilled.append(path)
             finally:
                 observer.close()
+
+    def interface_builds(self) -> Sequence[InterfaceBuild]:
+        return seen_builds(self.interfaces, root_of(next(iter(self.submission.files.values()))))
 
     def has_file(self, file: str) -> bool:
         return file in self.submission.files

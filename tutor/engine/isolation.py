@@ -22,6 +22,7 @@ from typing import Self
 
 from tutor import private_folders
 from tutor.engine.environment import node_env, package_folder, start_fork_server
+from tutor.engine.interfaces import build_beside
 from tutor.engine.scheduling import kept_turn_socket
 from tutor.errors import EngineError
 from tutor.judge.result import Restriction
@@ -205,7 +206,8 @@ class Sandbox:
             new_folder.mkdir()
         _copy_submission(folder, copy)
         env = node_env(ros, 0, Path(os.devnull), None)
-        readable = [*readable_folders(env), tools, self._given]
+        built = [build.prefix for build in build_beside(folder / "package.xml", ros) if build.prefix]
+        readable = [*readable_folders(env), tools, self._given, *built]
         writable = {folder: copy, self._logs: self._logs, Path("/tmp"): tmp, Path("/dev/shm"): shm}
         command = isolation.command(readable, writable)
         restrict_environment(env)

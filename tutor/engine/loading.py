@@ -15,6 +15,7 @@ import re
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
 from importlib.abc import MetaPathFinder
@@ -178,6 +179,17 @@ def refuse_changed_modules() -> None:
     """Raise ImportError for any module that is imported from now on and whose file has changed since now."""
     others = [finder for finder in sys.meta_path if not isinstance(finder, _UnchangedFinder)]
     sys.meta_path[:] = [_UnchangedFinder(), *others]
+
+
+@contextmanager
+def changes_trusted() -> Iterator[None]:
+    """Within the block, import what has changed as well: what we have just built ourselves."""
+    finders = [finder for finder in sys.meta_path if isinstance(finder, _UnchangedFinder)]
+    sys.meta_path[:] = [finder for finder in sys.meta_path if finder not in finders]
+    try:
+        yield
+    finally:
+        sys.meta_path[:] = [*finders, *(finder for finder in sys.meta_path if finder not in finders)]
 
 
 class _UnchangedFinder(MetaPathFinder):

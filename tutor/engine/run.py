@@ -58,6 +58,7 @@ class RosRun:
         process: LearnerProcess,
         observer: Observer,
         facts: CollectedFacts,
+        unbuilt: Mapping[str, str],
     ) -> None:
         self._path = path
         self._given = dict(given)
@@ -65,6 +66,7 @@ class RosRun:
         self._process = process
         self._observer = observer
         self._facts = facts
+        self._unbuilt = unbuilt
         self._graph: tuple[float, Graph] = (0.0, Graph())
         self._waits = Waits(process, observer, facts.changed, self._is_known)
         self.interrupted_at: float | None = None
@@ -284,6 +286,7 @@ class RosRun:
             output=tuple(self.output),
             dropped_lines=self._process.dropped_lines,
             exit=self.exit,
+            unbuilt=self._unbuilt,
         )
 
     @cached_property

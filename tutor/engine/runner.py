@@ -10,9 +10,11 @@ from typing import Any
 
 from tutor.content import Lesson
 from tutor.engine.explanation import explain, first_todo, items_not_shown, point_to_todo, read_all_sources
+from tutor.engine.interfaces import build_beside, use_own
 from tutor.engine.machine import Machine
 from tutor.engine.scenarios import Scenarios
 from tutor.errors import Fault
+from tutor.interfaces import Build
 from tutor.judge.bench import Scenario, was_slowed
 from tutor.judge.check import Check, Criterion
 from tutor.judge.events import WAITING, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress
@@ -43,6 +45,7 @@ class Runner:
         *,
         first: bool = False,
     ) -> None:
+        self._machine = machine
         self._limit_s = machine.limits.check_s
         self._check = check
         self._texts = {text.id: text for text in lesson.criteria}
@@ -74,6 +77,7 @@ class Runner:
         self._started = time.monotonic()
         if self._limit_s is not None:
             self._deadline = asyncio.get_running_loop().time() + self._limit_s
+        self._scenarios.interfaces = await self._build_interfaces()
         digests, given = digests_of(self._submission.files), given_criteria(self._lesson, self._submission)
         sources = read_all_sources(self._submission)
         needed = _with_dependencies(self._check, self._shown)
@@ -102,6 +106,18 @@ class Runner:
             result = replace(result, remarks=self._remarks(sources, results))
         self._on_event(ExerciseJudged(result))
         return result
+
+    async def _build_interfaces(self) -> Sequence[Build]:
+        """Build the message types that the submission and the exercise define, if any. Raises EngineError."""
+        loop, exercise = asyncio.get_running_loop(), self._check.exercise
+
+        def say(text: str) -> None:
+            for criterion in self._shown:
+                loop.call_soon_threadsafe(self._on_event, Progress(exercise, criterion.id, 0.0, text))
+
+        first = next(iter(self._submission.files.values()))
+        await asyncio.to_thread(use_own, self._lesson, self._machine.ros, say)
+        return await asyncio.to_thread(build_beside, first.resolve(), self._machine.ros, say)
 
     def _remarks(self, sources: Mapping[str, str], results: Sequence[CriterionResult]) -> tuple[Remark, ...]:
         from tutor.mistakes import remarks  # late, as in `explain`

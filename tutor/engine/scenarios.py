@@ -15,6 +15,7 @@ from tutor.engine.machine import Machine
 from tutor.engine.progress import NOTHING, ScenarioProgress, SoFar
 from tutor.engine.waits import TOO_BUSY
 from tutor.errors import MachineTooBusy
+from tutor.interfaces import Build
 from tutor.judge.bench import Scenario
 from tutor.judge.submission import Submission
 
@@ -52,6 +53,8 @@ class Scenarios:
         self._progress: dict[Scenario[Any], tuple[float, str, SoFar]] = {}
         self._published: set[str] = set()
         self._started = math.inf
+        self.interfaces: Sequence[Build] = ()
+        """What became of the submission's interface packages; to be set before the first scenario."""
 
     def task_of(self, scenario: Scenario[Any]) -> asyncio.Task[Any]:
         """Return the task that gathers a scenario's facts, the last one if it was repeated; start it on first use."""
@@ -115,6 +118,7 @@ class Scenarios:
             lambda facts: self._on_facts(scenario, facts),
             ScenarioProgress(on_progress, self._requested, self._published),
             self._expected_s,
+            self.interfaces,
         )
         async with self._machine.starts.scenarios.running(alone=alone):
             if alone and self._is_too_late():

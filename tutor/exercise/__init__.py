@@ -20,6 +20,7 @@ How the program is started, how long is waited, and what the machine may be to b
 """
 
 from tutor.exercise.argument_moves import ArgumentMovesNamespace, ArgumentMovesTopic
+from tutor.exercise.builds_interfaces import BuildsInterfaces
 from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.criterion_function import criterion
 from tutor.exercise.defaults import Defaults
@@ -71,6 +72,7 @@ __all__ = [
     "ArgumentMovesNamespace",
     "ArgumentMovesTopic",
     "AtLeast",
+    "BuildsInterfaces",
     "CallsAll",
     "Contains",
     "Custom",

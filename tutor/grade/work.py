@@ -16,6 +16,7 @@ from tutor.grade.learners import Learner, with_unique_ids
 from tutor.grade.roster import Roster
 from tutor.grade.submission_files import digest_of, files_below, is_own_file
 from tutor.judge.result import Lookup
+from tutor.workspace.layout import path_beside
 
 _MAX_LISTED = 20
 
@@ -131,7 +132,10 @@ def _places(handed: HandedIn, lesson: Lesson) -> Iterator[_Place]:
         if handed.folder is None:
             own = {name: handed.files[name] for name in wanted if name in handed.files}
         else:
-            paths = {name: handed.folder / folder / name for name in wanted if name in names}
+            place = handed.folder / folder
+            paths = {name: place / name for name in wanted if name in names}
+            if paths:  # of another package, only beside the program
+                paths |= {name: path_beside(place, name) for name in wanted if "/" in name}
             own = {name: path for name, path in paths.items() if is_own_file(path, handed.folder)}
         if own:
             yield _Place(handed, folder, own)
@@ -152,6 +156,8 @@ def _take(place: _Place, lesson: Lesson) -> Work:
         return Work(handed.learner, lesson.id, handed.files, ".", digest_of(handed.files))
     folder = handed.folder / place.folder
     base = _package_folder(folder, handed.folder)
+    while not all(path.is_relative_to(base) for path in place.files.values()) and base != handed.folder:
+        base = base.parent  # that holds both packages
     files = files_below(base, handed.folder)
     files |= {path.relative_to(base).as_posix(): path for path in place.files.values()}
     return Work(handed.learner, lesson.id, files, folder.relative_to(base).as_posix(), digest_of(files))

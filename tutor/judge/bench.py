@@ -13,6 +13,7 @@ from typing import Any, Protocol, TypeVar
 
 from tutor.errors import MachineTooBusy as MachineTooBusy
 from tutor.errors import NeedsInstalledRos as NeedsInstalledRos
+from tutor.judge.interface_build import InterfaceBuild
 from tutor.judge.trace import (
     CallAnswer,
     Echo,
@@ -227,6 +228,9 @@ class Bench(Protocol):
         The run covers the whole launch: its process is the launch itself; its graph, logs and samples are those of all
         nodes. Packages resolve as in a built workspace. Every process is gone when the context exits.
         """
+
+    def interface_builds(self) -> Sequence[InterfaceBuild]:
+        """What became of the interface packages beside the submission's files, which were built before its start."""
 
     def has_file(self, file: str) -> bool:
         """Whether the submission has this (optional) file."""

@@ -41,6 +41,8 @@ class Symptom(Enum):
     ENDS_BADLY = "the program ends on Ctrl+C, but not cleanly"
     NOT_LAUNCHED = "a launch does not start what it should"
     WRONG_NAMES = "nodes or topics of a launch have other names than asked for"
+    NOT_BUILT = "a package of message types is not built, or lacks one"
+    OTHER_TYPES = "a message type has other fields than agreed on"
     NOT_CONNECTED = "nodes of a launch do not reach each other"
     SYSTEM_FAULT = "a system of several nodes does not do what it should"
     SYSTEM_CHANGED = "a system works, and is not as it was handed over"

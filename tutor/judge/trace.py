@@ -165,7 +165,7 @@ class Trace:
     """Everything observed in one run of the learner's process.
 
     `folder`: the folder of the learner's file. `output` is bounded: `dropped_lines` counts the lines dropped from its
-    middle.
+    middle. `unbuilt`: the interface packages beside the file that could not be built, and why, in a sentence each.
 
     Three fields come from the source, and only shape the wording of a diagnosis, never a verdict (see
     `tutor.source`). `uncalled_main`: the file defines `main` but never calls it. `launch_arguments`: the names of
@@ -185,6 +185,7 @@ class Trace:
     output: tuple[OutputLine, ...] = ()
     dropped_lines: int = 0
     exit: Exit | None = None
+    unbuilt: Mapping[str, str] = field(default_factory=dict)
 
     def samples_on(self, topic: str) -> tuple[Sample, ...]:
         """The samples of one topic, oldest first."""

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from tutor import __version__
-from tutor.ros import bundled_interfaces, prefixes
+from tutor.ros import bundled_interfaces, prefixes, workspace_interfaces
 from tutor.ros.bundled_interfaces import PYTHON
 from tutor.ros.discovery import PROFILE, isolated_discovery, loopback_multicast_works, prompt_discovery
 
@@ -113,6 +113,7 @@ def learner_env(
     env = _ros_env(ros, environ, first_on_path=[] if package_root is None else [package_root])
     env.update(_discovery_env(ros, isolated, environ))
     if not isolated:
+        workspace_interfaces.keep(env, environ)
         env[UNBUFFERED] = environ.get(UNBUFFERED) or UNBUFFERED_BY_US
     env["ROS_DOMAIN_ID"] = str(domain_id)
     env["ROS_LOG_DIR"] = str(log_dir)
@@ -128,6 +129,8 @@ def tutor_env(ros: RosEnvironment, *, isolated: bool, environ: Mapping[str, str]
     env.update(_discovery_env(ros, isolated, environ))
     if isolated:
         env["RMW_FASTRTPS_USE_QOS_FROM_XML"] = "1"  # the memory policy of our own endpoints, see the profile
+    else:
+        workspace_interfaces.keep(env, environ)
     for name in ("ROS_DOMAIN_ID", "ROS_LOG_DIR"):
         if name in environ:
             env[name] = environ[name]

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from tutor.ros import bundled_interfaces
+from tutor.ros import bundled_interfaces, workspace_interfaces
 from tutor.ros.bundled_interfaces import PYTHON
 
 SITE_PACKAGES = Path("lib") / PYTHON / "site-packages"
@@ -43,7 +43,7 @@ def indexed(index: Path, prefixes: Iterable[Path]) -> dict[str, Path]:
 def is_bundled(entry: str | Path) -> bool:
     """Return whether a path is in the bundled ROS: our own environment, or what we add to it."""
     path = Path(entry)
-    return any(path.is_relative_to(root) for root in _own_roots())
+    return any(path.is_relative_to(root) for root in _own_roots()) or workspace_interfaces.is_built(path)
 
 
 def is_foreign_ros(entry: str | Path) -> bool:

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 from tutor import interpreter
-from tutor.ros import prefixes, shared_memory
+from tutor.ros import prefixes, shared_memory, workspace_interfaces
 from tutor.ros.environment import RosEnvironment, tutor_env
 
 _RESTARTED_VARIABLE = "_ROS_TUTOR_RESTARTED"
@@ -102,7 +102,8 @@ def _identity(ros: RosEnvironment) -> tuple[object, ...]:
 
 def _has_wrong_libraries(ros: RosEnvironment) -> bool:
     wrong = prefixes.is_bundled if ros.kind == "system" else prefixes.is_foreign_ros
-    return any(wrong(entry) for entry in prefixes.entries(_initial_environ(), "LD_LIBRARY_PATH"))
+    present = prefixes.entries(_initial_environ(), "LD_LIBRARY_PATH")
+    return any(wrong(entry) and not workspace_interfaces.is_built(entry) for entry in present)
 
 
 @cache

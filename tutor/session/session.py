@@ -256,11 +256,14 @@ class Session:
         """
         from tutor import private_folders
         from tutor.bundled_ros.ros2 import sourced
+        from tutor.interfaces import build_workspace
         from tutor.ros import shared_memory
         from tutor.ros.environment import detect, learner_env
 
         ros = detect()
         shared_memory.require_enough()
+        if self.workspace.exists:
+            build_workspace(self.workspace.root, ros)  # what is not built is explained elsewhere
         log_dir = private_folders.logs()
         env = learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
         tools = self._terminal_tools()

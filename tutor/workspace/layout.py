@@ -42,8 +42,11 @@ class Workspace:
     def path_of(self, name: str) -> Path:
         """Return where the exercise file `name` belongs: launch files, and what they read, in `launch/`.
 
-        Others are in the Python package.
+        Others are in the Python package. A path, such as my_interfaces/package.xml, is one in `src`: it begins with
+        another package.
         """
+        if "/" in name:
+            return self.root / "src" / name
         return self.package / ("launch" if is_launch_file(name) or name.endswith(DATA_SUFFIX) else PACKAGE) / name
 
     def progress(self, notify: Callable[[str], None] = to_stderr) -> ProgressFile:
@@ -65,6 +68,15 @@ class Workspace:
     def last_checks(self, notify: Callable[[str], None] = to_stderr) -> LastChecks:
         """Return the last checks; `notify` is called with one line if a damaged file had to be set aside."""
         return LastChecks(self.root / MARKER / "last-checks", notify)
+
+
+def path_beside(folder: Path, name: str) -> Path:
+    """Return where the exercise file `name` is expected if the exercise's program is in `folder`.
+
+    A path, which begins with another package, may also be beside the Python package that the folder is, as in `src`.
+    """
+    beside = folder.parent.parent / name
+    return beside if "/" in name and not (folder / name).exists() and beside.exists() else folder / name
 
 
 def is_launch_file(name: str) -> bool:

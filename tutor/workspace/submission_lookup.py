@@ -13,7 +13,7 @@ from tutor.invocation import command
 from tutor.judge.result import CriterionResult, ExerciseResult, Lookup
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Verdict
-from tutor.workspace.layout import Workspace, is_launch_file
+from tutor.workspace.layout import Workspace, is_launch_file, path_beside
 
 NOT_STARTED = "not started"
 _MAX_LISTED = 20
@@ -84,9 +84,9 @@ def _places(lesson: Lesson, path: Path | None, workspace: Workspace | None) -> d
     if path is None or home.exists:
         return {name: home.path_of(name) for name in names}
     if path.is_dir():
-        return {name: path / name for name in names}
+        return {name: path_beside(path, name) for name in names}
     represented = path.name if path.name in names else names[0]
-    return {name: path if name == represented else path.parent / name for name in names}
+    return {name: path if name == represented else path_beside(path.parent, name) for name in names}
 
 
 def _absolute(path: Path) -> Path:
@@ -144,7 +144,7 @@ def _describe_missing(lesson: Lesson, file: LessonFile, place: Path, workspace: 
     if workspace is not None:
         advice = similar or f"; `{command('start', lesson.id)}` puts the skeleton there"
         return f"{lesson.id} needs {file.name}, but {place} does not exist{advice}"
-    if not similar and not any(place.parent.iterdir()):
+    if not similar and place.parent.is_dir() and not any(place.parent.iterdir()):
         return f"{lesson.id} needs {file.name}, but the folder {place.parent} is empty"
     return f"{lesson.id} needs {file.name}, but it is not in {place.parent}{similar}"
 

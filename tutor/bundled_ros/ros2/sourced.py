@@ -11,6 +11,7 @@ from pathlib import Path
 from tutor import interpreter, private_folders
 from tutor.bundled_ros.ros2 import absent, sources
 from tutor.bundled_ros.ros2.starting import ros2_command
+from tutor.ros import workspace_interfaces
 from tutor.ros.environment import RosEnvironment, learner_env, system_env
 from tutor.ros.prefixes import PACKAGE_INDEX, SITE_PACKAGES, entries, is_bundled, join_entries
 
@@ -67,10 +68,14 @@ def add_programs(env: dict[str, str], tools: Path) -> None:
 
 
 def add_workspace(env: dict[str, str], workspace: Path) -> None:
-    """Make `ros2` and Python find the packages of this workspace. With an installed ROS 2, see also `setup_file`."""
+    """Make `ros2` and Python find the packages of this workspace. With an installed ROS 2, see also `setup_file`.
+
+    Its message types are found as far as they are built (see `tutor.interfaces`).
+    """
     env[WORKSPACE] = str(workspace)
     if roots := _import_roots(workspace):
         env["PYTHONPATH"] = join_entries([*roots, *entries(env, "PYTHONPATH")])
+    workspace_interfaces.add(env, workspace)
 
 
 def add_built_packages(env: dict[str, str], workspace: Path) -> None:

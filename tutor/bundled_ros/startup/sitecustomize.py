@@ -1,9 +1,9 @@
-"""Makes rclpy's experimental EventsExecutor run callbacks in the wheels of the bundled ROS.
+"""Makes rclpy's experimental EventsExecutor run callbacks, and says why an interface package is not there.
 
-Python imports this at the start of every program that has this folder in PYTHONPATH. A wait without a limit ends at
-`time_point::max()`, which overflows in the C++ library that the wheels were built with: rclpy then waits in a busy
-loop, and with its queue of events locked for ever, so that no callback runs. A limit of 30 years has the same meaning
-and does not overflow.
+Python imports this at the start of every program that has this folder in PYTHONPATH. In the wheels, a wait without a
+limit ends at `time_point::max()`, which overflows in the C++ library that they were built with: rclpy then waits in a
+busy loop, and with its queue of events locked for ever, so that no callback runs. A limit of 30 years has the same
+meaning and does not overflow.
 """
 
 from __future__ import annotations
@@ -39,6 +39,28 @@ class EventsExecutorFinder:
 
         vars(spec.loader)["exec_module"] = execute_and_change
         return spec
+
+
+class UnbuiltPackageFinder:
+    """Asked last, for what nothing else has found: adds to Python's message why a package of the workspace is missing.
+
+    `ROS_TUTOR_INTERFACES` names the folder that has a text with the reason for each package that could not be built.
+    """
+
+    @staticmethod
+    def find_spec(name: str, path: Sequence[str] | None = None, target: ModuleType | None = None) -> ModuleSpec | None:
+        """Return None. Raises ModuleNotFoundError, with the reason, for a package that is not built."""
+        folder = os.environ.get("ROS_TUTOR_INTERFACES")
+        if folder is None or path is not None or not name.isidentifier():
+            return None
+        try:
+            with open(os.path.join(folder, f"{name}.unbuilt"), encoding="utf-8") as file:
+                reason = file.read()
+        except OSError:
+            return None
+        error = ModuleNotFoundError(f"No module named {name!r}", name=name)
+        error.add_note(f"{name} is in your workspace, but it is not built: {reason}")
+        raise error
 
 
 def limit_waits(executor_class: Any) -> None:
@@ -79,4 +101,5 @@ def _run_next() -> None:
 
 if __name__ == "sitecustomize":
     sys.meta_path.insert(0, EventsExecutorFinder)
+    sys.meta_path.append(UnbuiltPackageFinder)
     _run_next()

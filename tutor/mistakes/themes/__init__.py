@@ -13,6 +13,7 @@ from tutor.mistakes.themes import clients as clients
 from tutor.mistakes.themes import waiting_clients as waiting_clients
 from tutor.mistakes.themes import missing_attributes as missing_attributes
 from tutor.mistakes.themes import hidden_modules as hidden_modules
+from tutor.mistakes.themes import interfaces as interfaces
 from tutor.mistakes.themes import missing_responses as missing_responses
 from tutor.mistakes.themes import known_exceptions as known_exceptions
 from tutor.mistakes.themes import logged_exceptions as logged_exceptions

@@ -150,8 +150,14 @@ class Pages:
             pane.set_lesson(self._host.model.lesson)
             pane.set_own_nodes_running(self._node_is_running())
             session = self._host.model.session
-            pane.call_after_refresh(pane.start_watching, lambda: watcher_command(session.domain))
+            root = session.workspace.root
+            pane.call_after_refresh(pane.start_watching, lambda: watcher_command(session.domain, workspace=root))
         return pane
+
+    def restart_live(self) -> None:
+        """Have the live page, if it is open, watch with the message types that are built now."""
+        if self.live:
+            self.live.restart_watching()
 
     def open_terminal(self) -> TerminalPane:
         """Return the terminal page; the first call creates it."""

@@ -66,6 +66,7 @@ class LivePane(Vertical):
         self._automatic = AutomaticTopics(self.state)
         self._worker: Worker[None] | None = None
         self._command: Callable[[], WatcherCommand] | None = None
+        self._restart_with: Callable[[], WatcherCommand] | None = None
         self._composed = False
         self._wants_focus = False
         self._wanted_tab = ""
@@ -110,6 +111,12 @@ class LivePane(Vertical):
         if self._worker is not None:
             self._worker.cancel()
 
+    def restart_watching(self) -> None:
+        """Start the watcher process again, if it is running: a process knows only the types that it started with."""
+        if self._worker is not None and self._command is not None:
+            self._restart_with = self._command
+            self.stop_watching()
+
     async def close_down(self) -> None:
         """Stop the watcher process, and wait until it is gone."""
         if (child := self._watcher.child) is not None:
@@ -125,6 +132,9 @@ class LivePane(Vertical):
 
     def _show_end(self) -> None:
         self._worker = None
+        if self.is_attached and (command := self._restart_with) is not None:
+            self._restart_with = None
+            self.call_later(self.start_watching, command)
         if self.is_attached:
             self._show_all()
             if failure := self._watcher.failure:

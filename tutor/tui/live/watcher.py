@@ -29,11 +29,19 @@ class WatcherCommand:
     domain: int
 
 
-def watcher_command(domain: int, environ: Mapping[str, str] = os.environ) -> WatcherCommand:
-    """Return the command to watch a domain, with the discovery settings of the user's own nodes. Reads the disk."""
+def watcher_command(
+    domain: int, environ: Mapping[str, str] = os.environ, *, workspace: Path | None = None
+) -> WatcherCommand:
+    """Return the command to watch a domain, with the discovery settings of the user's own nodes. Reads the disk.
+
+    `workspace`: the one whose built message types are known to it.
+    """
+    from tutor.ros import workspace_interfaces
     from tutor.ros.environment import detect, tutor_env  # late import: keeps the first paint fast
 
     env = tutor_env(detect(environ), isolated=False, environ=environ)
+    if workspace is not None:
+        workspace_interfaces.add(env, workspace)
     return WatcherCommand(interpreter.module_command("tutor.live"), {**env, "ROS_DOMAIN_ID": str(domain)}, domain)
 
 

@@ -25,6 +25,7 @@ from tutor.tui.control.checklist import ChecklistController
 from tutor.tui.control.checks import Checks
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
+from tutor.tui.control.interfaces import Interfaces
 from tutor.tui.control.nodes import Logs, Nodes
 from tutor.tui.control.pages import LessonCommands, Pages
 from tutor.tui.control.preferences import Preferences
@@ -67,6 +68,7 @@ class MainScreen(HostScreen):
         self.nodes = Nodes(self, self.files, self.preferences)
         self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
         self.checklist = ChecklistController(self, self.records)
+        self.interfaces = Interfaces(self, self.pages.restart_live)
         self.reports = Reports(self, self.pages, self.preferences)
         Logs(self, log)
         self.lesson_commands = LessonCommands(self, self.pages)
@@ -107,6 +109,7 @@ class MainScreen(HostScreen):
         self.pages.show_criteria_tab()
         await self.go_to(self.model.lesson, page if page in commands.PAGES else "lesson")
         self.records.read_all()
+        self.interfaces.watch()
 
     # --- commands ---
 

@@ -32,6 +32,7 @@ class StatusBar(Horizontal):
         & > #bar-lesson { width: 1fr; }
         & > #bar-save { color: $foreground; display: none; }
         & > #bar-progress { color: $quiet; }
+        & > #bar-build { color: $busy; display: none; }
         & > #bar-check { color: $busy; }
         & > #bar-node { color: $quiet; }
     }
@@ -46,6 +47,7 @@ class StatusBar(Horizontal):
         yield SteadyStatic(id="bar-lesson")
         yield SteadyStatic(id="bar-progress")
         yield SteadyStatic(id="bar-save")
+        yield SteadyStatic(id="bar-build")
         yield SteadyStatic(id="bar-check")
         yield SteadyStatic(id="bar-node")
 
@@ -81,6 +83,12 @@ class StatusBar(Horizontal):
             f"checking {findings.exercise.upper()} {findings.fraction:4.0%}" if findings and findings.checking else ""
         )
         static = self.query_one("#bar-check", Static)
+        static.update(text)
+        static.display = bool(text)
+
+    def show_build(self, text: str) -> None:
+        """Show which message types are being built; nothing if none are."""
+        static = self.query_one("#bar-build", Static)
         static.update(text)
         static.display = bool(text)
 
