@@ -26,6 +26,7 @@ from tutor.exercise.defaults import Defaults
 from tutor.exercise.ends_cleanly import EndsCleanly
 from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.form import Custom, Form, check
+from tutor.exercise.given_system import GivenPublisher
 from tutor.exercise.handles_goal import HandlesGoal
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
 from tutor.exercise.logs_parameter import LogsParameter
@@ -52,9 +53,11 @@ from tutor.exercise.serves import Answers, Serves
 from tutor.exercise.service_calls import Question
 from tutor.exercise.set_at_run_time import SetAtRunTime
 from tutor.exercise.set_at_start import SetAtStart
+from tutor.exercise.shows_each import ShowsEach
 from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
 from tutor.exercise.watched_start import LogsText
+from tutor.ros_model import QoS
 
 __all__ = [
     "SAYS_ERROR",
@@ -71,6 +74,7 @@ __all__ = [
     "FieldEquals",
     "Fields",
     "Form",
+    "GivenPublisher",
     "HandlesGoal",
     "InRange",
     "LaunchFile",
@@ -83,6 +87,7 @@ __all__ = [
     "Parameter",
     "Program",
     "Publishes",
+    "QoS",
     "Question",
     "RateAtRunTime",
     "RateAtStart",
@@ -96,6 +101,7 @@ __all__ = [
     "SetsRate",
     "ShownByEcho",
     "ShownIn",
+    "ShowsEach",
     "StartsPair",
     "SurvivesBadCall",
     "SwitchesOff",
