@@ -1,4 +1,4 @@
-"""B1.1 Why Nothing Arrives: a late subscriber that gets a kept map, each reading of a lossy sensor, and a whole burst."""
+"""B1.1 Why Nothing Arrives: a late subscriber gets a kept map, each reading of a lossy sensor, and a whole burst."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A system that is given: publishers of ours that are there before the learner's node starts, and what it logs of them."""
+"""A system that is given: publishers of ours that are there before the learner's node, and what it logs of them."""
 
 from __future__ import annotations
 
@@ -34,6 +34,9 @@ LOST_AT_FIRST = 1
 The node may not have discovered the publisher yet when the publisher has already discovered it.
 """
 
+RELIABLE = QoS()
+"""What a publisher with a plain depth offers: reliable and volatile."""
+
 Sends = Literal["before", "one by one", "at once"]
 
 
@@ -51,7 +54,7 @@ class GivenPublisher:
     topic: Topic
     values: Callable[[], Sequence[Any]]
     sends: Sends = "one by one"
-    offers: QoS = QoS()
+    offers: QoS = RELIABLE
 
     def offer(self, values: Sequence[Any]) -> Offer:
         """The publisher as the bench makes it, with what it has published before the node starts."""

@@ -234,9 +234,9 @@ class Bench(Protocol):
         """Start one of the submission's files; every trace of the process is gone when the context exits.
 
         `parameters` are passed as `--ros-args -p name:=value`. `watch` maps topics to types; they are subscribed to
-        before the process starts; `offers` are publishers that are there by then. `expected_s`: roughly how long this run, and everything that depends on it, takes
-        with our own solution, in wall-clock seconds (default: the check's `expected_s`). It only decides which of
-        many runs starts first.
+        before the process starts, and `offers` are publishers that are there by then. `expected_s`: roughly how long
+        this run, and everything that depends on it, takes with our own solution, in wall-clock seconds (default: the
+        check's `expected_s`). It only decides which of many runs starts first.
         """
 
     def launch(self, file: str, *, arguments: Mapping[str, str] | None = None) -> AbstractAsyncContextManager[Run]:

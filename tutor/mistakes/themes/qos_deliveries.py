@@ -73,9 +73,10 @@ def late_subscriber(case: Case) -> Iterator[Found]:
     """
     connected = _connected(case)
     ours = case.about("ours")
-    if case.about("kept") and connected and ours.qos.durability == "transient_local":
-        if all(subscription.qos.durability == "volatile" for subscription in connected):
-            yield Found({"topic": ours.topic})
+    if not case.about("kept") or not connected or ours.qos.durability != "transient_local":
+        return
+    if all(subscription.qos.durability == "volatile" for subscription in connected):
+        yield Found({"topic": ours.topic})
 
 
 @mistake(
@@ -83,8 +84,8 @@ def late_subscriber(case: Case) -> Iterator[Found]:
     name="best effort where each message counts",
     explains=[Symptom.MESSAGES_LOST, Symptom.NOTHING_RECEIVED],
     evidence=Evidence.RUN,
-    says="the publisher on {topic} is reliable, but the subscription asks for best effort: what gets lost on its way is "
-    "never sent again",
+    says="the publisher on {topic} is reliable, but the subscription asks for best effort: what gets lost on its way "
+    "is never sent again",
     do="Let the subscription ask for the reliability that the publisher offers.",
     example=in_run(
         Symptom.MESSAGES_LOST, graph=_subscribed(QoS(reliability="best_effort")), ours=_offering(QoS()), sent=9, shown=9
@@ -109,12 +110,12 @@ def best_effort(case: Case) -> Iterator[Found]:
 
     Lesson: b1.1, on reliability.
     """
-    connected = _connected(case)
-    if case.symptom is Symptom.NOTHING_RECEIVED and not case.about("kept"):
+    connected, ours = _connected(case), case.about("ours")
+    if not connected or ours.qos.reliability != "reliable":
         return
-    if connected and case.about("ours").qos.reliability == "reliable":
-        if all(subscription.qos.reliability == "best_effort" for subscription in connected):
-            yield Found({"topic": case.about("ours").topic})
+    counts = case.symptom is Symptom.MESSAGES_LOST or case.about("kept")
+    if counts and all(subscription.qos.reliability == "best_effort" for subscription in connected):
+        yield Found({"topic": ours.topic})
 
 
 @mistake(
@@ -152,7 +153,7 @@ def short_queue(case: Case) -> Iterator[Found]:
     for file in case.files:
         for call in file.calls("create_subscription"):
             depth = _depth(file, argument(call, "qos_profile"))
-            if name in (ast.unparse(call)) and depth is not None:
+            if name in ast.unparse(call) and depth is not None:
                 if depth < sent:
                     where = f" ({case.place(file.name, call.lineno)})"
                     yield found(file, call, topic=ours.topic, sent=sent, shown=shown, depth=depth, where=where)
