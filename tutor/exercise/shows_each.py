@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import partial
-from typing import Any
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.given_system import SHOWN_WITHIN_S, GivenPublisher, GivenSystem, Heard, SystemSeen
@@ -88,7 +86,7 @@ class ShowsEach(Form):
             Symptom.NOT_LOGGED,
             **about,
             what=f"what arrives on {topic.name}",
-            recognise=partial(_shows, first),
+            recognise=lambda text: says(text, first),
             at_end=found.ending.output if found.ending is not None else (),
             says=f"{first} was published on {topic.name}, and no log message of the node has it",
             do=f"Follow a message on {topic.name} through its callback to the node's logger.",
@@ -100,11 +98,6 @@ class ShowsEach(Form):
         ends = [end.qos for end in found.trace.graph.subscriptions if end.topic == heard.ours.topic]
         wants_kept = any((end.reliability, end.durability) == ("reliable", "transient_local") for end in ends)
         return heard.matched and (self.publisher.sends != "before" or wants_kept or not ends)
-
-
-def _shows(value: Any, text: str) -> bool:
-    """Whether a line shows a value; a function of a module, so that facts with it can be kept."""
-    return says(text, value)
 
 
 def _evidence(heard: Heard, requested: Iterable[TopicEndpoint], found: SystemSeen) -> Iterator[str]:
