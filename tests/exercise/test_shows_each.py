@@ -105,7 +105,7 @@ def test_what_is_missing_or_comes_twice_is_said_by_its_mistake(
 
 
 def test_both_ends_are_shown_as_ros2_topic_info_does_with_the_warning_of_rclpy() -> None:
-    warning = log("New publisher discovered on topic '/sound', offering incompatible QoS.", 30)
+    warning = log("New publisher discovered on topic 'sound', offering incompatible QoS.", 30)
     other = log("New publisher discovered on topic '/soundtrack', offering incompatible QoS.", 30)
     failure = judge(heard(SOUND, matched=False), run(SOUND, QoS(), logs=[other, warning]))
     assert tuple(failure.evidence) == (

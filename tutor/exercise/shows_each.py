@@ -102,13 +102,14 @@ class ShowsEach(Form):
 
 def _evidence(heard: Heard, requested: Iterable[TopicEndpoint], found: SystemSeen) -> Iterator[str]:
     """Both ends as `ros2 topic info -v` shows them, and what rclpy has warned of."""
-    ends = [*requested]
+    ends, topic = [*requested], heard.ours.topic
+    names = (topic, topic.removeprefix("/"))  # rclpy names it as the node does
     if ends:
-        yield f"offered on {heard.ours.topic}: {_in_words(heard.ours.qos)}"
+        yield f"offered on {topic}: {_in_words(heard.ours.qos)}"
     for end in ends:
         yield f"requested by {end.node}: {_in_words(end.qos)}"
     for record in found.trace.logs:
-        if "incompatible QoS" in record.text and f"'{heard.ours.topic}'" in record.text:
+        if "incompatible QoS" in record.text and any(f"'{name}'" in record.text for name in names):
             yield str(record)
 
 
