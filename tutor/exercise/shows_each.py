@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from tutor.exercise.form import Exercise, Form
-from tutor.exercise.given_system import SHOWN_WITHIN_S, GivenPublisher, GivenSystem, Heard, SystemSeen
+from tutor.exercise.given_system import GivenPublisher, GivenSystem, Heard, SystemSeen
 from tutor.exercise.receives import says
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
@@ -74,7 +74,7 @@ class ShowsEach(Form):
         topic = self.publisher.topic
         about = {"topic": topic.name, "type": topic.type, "ours": heard.ours}
         first = next(value for value, messages in zip(heard.sent, heard.shown, strict=True) if not messages)
-        observed = f"{topic.field}: {first} was published, and is in no log message after {SHOWN_WITHIN_S:g} s"
+        observed = f"{topic.field}: {first} was published, and no log message has it"
         if shown and self.publisher.sends == "at once":
             observed = f"{len(heard.sent)} messages sent, {shown} in the log"
             newest = bool(heard.shown[-1])

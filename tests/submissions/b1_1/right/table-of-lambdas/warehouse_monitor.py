@@ -21,16 +21,16 @@ TABLE = [
 
 
 def main():
-    with rclpy.init():
-        node = rclpy.create_node("warehouse_monitor")
-        for kind, topic, profile in TABLE:
-            node.create_subscription(
-                kind, topic, lambda message, topic=topic: node.get_logger().info(f"{topic} -> {message.data}"), profile
-            )
-        try:
-            rclpy.spin(node)
-        except (KeyboardInterrupt, ExternalShutdownException):
-            pass
+    rclpy.init()
+    node = rclpy.create_node("warehouse_monitor")
+    for kind, topic, profile in TABLE:
+        node.create_subscription(
+            kind, topic, lambda message, topic=topic: node.get_logger().info(f"{topic} -> {message.data}"), profile
+        )
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        rclpy.try_shutdown()
 
 
 main()
