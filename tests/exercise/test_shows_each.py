@@ -113,3 +113,10 @@ def test_both_ends_are_shown_as_ros2_topic_info_does_with_the_warning_of_rclpy()
         "requested by /node: Reliability: RELIABLE, Durability: VOLATILE",
         str(warning),
     )
+
+
+def test_an_authors_mistake_is_said_in_one_sentence() -> None:
+    with pytest.raises(ValueError, match="'twice' is no way to send: take before, one by one, at once"):
+        replace(SOUND, sends="twice")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="/rings: what is sent before the node starts must be kept"):
+        replace(RINGS, sends="before")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from tutor.exercise.node_parameters import DumpSilentNode
 from tutor.exercise.nouns import Program, Topic
@@ -47,6 +47,7 @@ class GivenPublisher:
     `values`: returns those of the topic's field, one message each; draw them at random, so that nothing else would show
     them, all different, and none a part of another. `sends`: "before" the node starts, "one by one", each once the one
     before is shown, or all "at once". `offers`: its QoS; it keeps as many messages as there are values.
+    Raises ValueError for another word, and if what is sent "before" is not kept (durability transient local).
 
         MAP = GivenPublisher(Topic("/map", STRING), names, sends="before", offers=QoS(durability="transient_local"))
     """
@@ -55,6 +56,12 @@ class GivenPublisher:
     values: Callable[[], Sequence[Any]]
     sends: Sends = "one by one"
     offers: QoS = RELIABLE
+
+    def __post_init__(self) -> None:
+        if self.sends not in get_args(Sends):
+            raise ValueError(f"{self.topic.name}: {self.sends!r} is no way to send: take {', '.join(get_args(Sends))}")
+        if self.sends == "before" and self.offers.durability != "transient_local":
+            raise ValueError(f"{self.topic.name}: what is sent before the node starts must be kept: transient_local")
 
     def offer(self, values: Sequence[Any]) -> Offer:
         """The publisher as the bench makes it, with what it has published before the node starts."""
