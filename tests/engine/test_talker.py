@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from tests.engine.helpers import FILE, Scene, node
-from tutor.judge.bench import Publisher, Run
+from tutor.judge.bench import Offer, Publisher, Run
 from tutor.ros_model import QoS
 
 CHATTER, STRING = "/chatter", "std_msgs/msg/String"
@@ -83,3 +83,25 @@ node.create_subscription(String, "chatter", renew, 10)
             talker.publish({"data": str(count)})
             assert await run.until(lambda count=count: talker.matches == count, STARTUP_S), talker.matches  # type: ignore[misc]
         assert await run.until(lambda: talker.subscribers == 1, STARTUP_S)
+
+
+async def test_publishers_that_are_offered_are_there_before_the_node_and_keep_what_they_published_for_it(
+    scene: Scene,
+) -> None:
+    late = """
+from rclpy.qos import QoSProfile, DurabilityPolicy
+latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+node.create_subscription(String, "gate", lambda message: node.get_logger().info(message.data), latched)
+node.create_subscription(String, "sound", lambda message: node.get_logger().info(message.data), 10)
+"""
+    kept = Offer("/gate", STRING, QoS(durability="transient_local"), 1, ({"data": "shut"}, {"data": "open"}))
+    lossy = Offer("/sound", STRING, QoS(reliability="best_effort"), 1)
+    async with scene.bench(node(late)).start(FILE, offers=[kept, lossy]) as run:
+        await wait_for_match(run, run.offered("/gate"))
+        assert await run.until(lambda: any(log.text == "open" for log in run.logs), STARTUP_S), run.trace()
+        assert await run.until(lambda: len(run.graph.subscriptions) == 2, STARTUP_S)
+        assert run.offered("/sound").subscribers == 0
+        assert run.offered("/sound").endpoint.qos == QoS(reliability="best_effort")
+        assert not any(log.text == "shut" for log in run.logs)
+        assert run.graph.publishers == ()
+        assert await run.until(lambda: any("incompatible QoS" in log.text for log in run.logs), STARTUP_S)

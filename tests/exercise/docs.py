@@ -23,6 +23,8 @@ NOUNS = (
     "Program",
     "LaunchFile",
     "Topic",
+    "GivenPublisher",
+    "QoS",
     "Parameter",
     "ShownIn",
     "SetsRate",

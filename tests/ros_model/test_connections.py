@@ -45,7 +45,7 @@ def test_a_connection_has_a_problem_for_each_incompatible_policy() -> None:
         "The publisher offers reliability best_effort",
         "The publisher offers durability volatile",
     ]
-    assert pair.problems[0].endswith("match.")
+    assert pair.problems[0].endswith("Let the subscription ask for best_effort, or the publisher offer reliable.")
 
 
 def test_with_different_types_only_the_types_are_reported() -> None:

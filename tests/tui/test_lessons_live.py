@@ -311,3 +311,20 @@ async def test_b1_6(session: Session) -> None:
             "● running  battery_monitor.py", "The battery reports", "The battery is low: ", "The battery is hot: "
         )
         await me.sees("Broken readings: ")
+
+
+async def test_b1_1(session: Session) -> None:
+    async with reading(session, "b1.1") as me:
+        code = me.file.read_text(encoding="utf-8")
+        me.file.write_text(code.replace("self.on_range, RANGE_QOS", "self.on_range, 10"), encoding="utf-8")
+        me.reads("Press `b` first: that starts the given warehouse", "Run your node with `r`")
+        await me.sees("● running  warehouse", "Published the map hall-")
+        me.reads("there is one warning at the start", "New publisher discovered on topic 'range'")
+        for text in ("map: hall-", "publisher discovered on topic 'range'", "parcel: lorry-1-200"):
+            await me.until(lambda text=text: any(text in line for line in me.background()), text)  # type: ignore[misc]
+        me.reads("**Graph** (`G`): where a publisher and a subscription do not fit, the line is broken")
+        await me.press("4", "G")
+        await me.sees("✗ 1 connection does not work", "/warehouse ──✗ /warehouse_monitor", "asks for reliable")
+        me.reads("choose `/range`, and the line above its messages says what the publisher offers")
+        await me.press("T", "down", "down")
+        await me.sees("/range  std_msgs/Int32 · best effort, volatile", "data: ")

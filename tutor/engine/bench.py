@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping, Sequence
-from contextlib import asynccontextmanager, contextmanager, suppress
+from contextlib import ExitStack, asynccontextmanager, closing, contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -20,7 +20,7 @@ from tutor.engine.run import RosRun
 from tutor.engine.waits import CollectedFacts
 from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
 from tutor.interfaces import Build
-from tutor.judge.bench import Run, Scenario
+from tutor.judge.bench import Offer, Run, Scenario
 from tutor.judge.interface_build import InterfaceBuild
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MAX_CHARACTERS
@@ -29,6 +29,7 @@ from tutor.process.log_folder import temporary_log_folder
 from tutor.ros import workspace_interfaces
 from tutor.ros.domain import reserve_domain
 from tutor.ros.observer import Observer
+from tutor.ros.talker import Talker
 from tutor.workspace.regular import read_regular
 
 T = TypeVar("T")
@@ -77,6 +78,7 @@ class RosBench:
         parameters: Mapping[str, Any] | None = None,
         watch: Mapping[str, str] | None = None,
         log_level: str = "",
+        offers: Sequence[Offer] = (),
         expected_s: float | None = None,
     ) -> AsyncIterator[Run]:
         path = self.submission.files[file].resolve()
@@ -86,7 +88,9 @@ class RosBench:
             return argv
 
         expected_s = self.expected_s if expected_s is None else expected_s
-        async with self._start(path, make_argv, parameters or {}, watch or {}, expected_s=expected_s) as run:
+        async with self._start(
+            path, make_argv, parameters or {}, watch or {}, offers=offers, expected_s=expected_s
+        ) as run:
             yield run
 
     @asynccontextmanager
@@ -112,6 +116,7 @@ class RosBench:
         parameters: Mapping[str, Any],
         watch: Mapping[str, str],
         *,
+        offers: Sequence[Offer] = (),
         terminal: bool = False,
         nodes: int = 1,
         expected_s: float,
@@ -119,7 +124,7 @@ class RosBench:
         """Run a command as `_run` does once it has a start slot; free the slot once the run has this many nodes."""
         async with (
             self.machine.starts.slot(expected_s) as up,
-            self._run(path, make_argv, parameters, watch, terminal=terminal) as run,
+            self._run(path, make_argv, parameters, watch, offers, terminal=terminal) as run,
             _report_when_up(run, nodes, up),
             self.progress.follow(run, watch),
         ):
@@ -132,6 +137,7 @@ class RosBench:
         make_argv: _MakeArgv,
         parameters: Mapping[str, Any],
         watch: Mapping[str, str],
+        offers: Sequence[Offer],
         *,
         terminal: bool,
     ) -> AsyncIterator[RosRun]:
@@ -142,12 +148,14 @@ class RosBench:
             _as_engine_errors(),
             reserve_domain() as domain_id,
             sandbox.folders() if sandbox else _folders() as (log_dir, ours),
+            ExitStack() as talking,
         ):
             observer = Observer(domain_id, facts.notify)
             try:
                 observer.watch_logs()
                 for topic, type_name in watch.items():
                     observer.watch(topic, type_name)
+                talkers = {offer.topic: _talk(talking, domain_id, offer) for offer in offers}
                 env = node_env(machine.ros, domain_id, log_dir, package_root(path))
                 if sandbox is None:  # else it would see the folders of its workspace
                     source_workspace(env, machine.ros, path, machine.tools)
@@ -170,7 +178,7 @@ class RosBench:
                     on_change=facts.notify,
                 ) as process:
                     with _raise_if_killed(process), _limited(process):
-                        yield RosRun(path, parameters, domain_id, process, observer, facts, unbuilt)
+                        yield RosRun(path, parameters, domain_id, process, observer, facts, unbuilt, talkers)
                     if process.killed:
                         self.sigkilled.append(path)
             finally:
@@ -205,6 +213,14 @@ def _folders() -> Iterator[tuple[Path, Path]]:
     """Create the log folder of a run that is not isolated, which is also for files of ours."""
     with temporary_log_folder() as log_dir:
         yield log_dir, log_dir
+
+
+def _talk(talking: ExitStack, domain_id: int, offer: Offer) -> Talker:
+    """Create a publisher, which leaves the graph with `talking`, and publish what it has published before a start."""
+    talker = talking.enter_context(closing(Talker(domain_id, offer.topic, offer.type, offer.qos, offer.depth)))
+    for message in offer.messages:
+        talker.publish(message)
+    return talker
 
 
 @asynccontextmanager

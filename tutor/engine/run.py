@@ -59,8 +59,10 @@ class RosRun:
         observer: Observer,
         facts: CollectedFacts,
         unbuilt: Mapping[str, str],
+        talkers: Mapping[str, Talker],
     ) -> None:
         self._path = path
+        self._talkers = talkers
         self._given = dict(given)
         self._domain_id = domain_id
         self._process = process
@@ -219,6 +221,9 @@ class RosRun:
     async def publisher(self, topic: str, type: str) -> AsyncIterator[Talker]:
         with contextlib.closing(Talker(self._domain_id, topic, type)) as talker:
             yield talker
+
+    def offered(self, topic: str) -> Talker:
+        return self._talkers[topic]
 
     @asynccontextmanager
     async def goal_client(self, action: str, type: str) -> AsyncIterator[GoalSender]:

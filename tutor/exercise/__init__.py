@@ -28,6 +28,7 @@ from tutor.exercise.ends_cleanly import EndsCleanly
 from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.faults import Faults
 from tutor.exercise.form import Custom, Form, check
+from tutor.exercise.given_system import GivenPublisher
 from tutor.exercise.handles_goal import HandlesGoal
 from tutor.exercise.has_endpoints import Endpoint, HasEndpoints
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
@@ -59,11 +60,13 @@ from tutor.exercise.serves import Answers, Serves
 from tutor.exercise.service_calls import Question
 from tutor.exercise.set_at_run_time import SetAtRunTime
 from tutor.exercise.set_at_start import SetAtStart
+from tutor.exercise.shows_each import ShowsEach
 from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
 from tutor.exercise.told_events import Event, Feed
 from tutor.exercise.tells import Tells
 from tutor.exercise.watched_start import LogsText
+from tutor.ros_model import QoS
 
 __all__ = [
     "SAYS_ERROR",
@@ -85,6 +88,7 @@ __all__ = [
     "FieldEquals",
     "Fields",
     "Form",
+    "GivenPublisher",
     "HandlesGoal",
     "HasEndpoints",
     "InRange",
@@ -102,6 +106,7 @@ __all__ = [
     "Parameter",
     "Program",
     "Publishes",
+    "QoS",
     "Question",
     "RateAtRunTime",
     "RateAtStart",
@@ -115,6 +120,7 @@ __all__ = [
     "SetsRate",
     "ShownByEcho",
     "ShownIn",
+    "ShowsEach",
     "StartsPair",
     "StaysQuiet",
     "SurvivesBadCall",

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager
+from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
 from tutor.errors import MachineTooBusy as MachineTooBusy
@@ -28,7 +29,7 @@ from tutor.judge.trace import (
     Trace,
 )
 from tutor.judge.tracebacks import Frame
-from tutor.ros_model import Graph, Parameter, TopicEndpoint
+from tutor.ros_model import Graph, Parameter, QoS, TopicEndpoint
 
 T = TypeVar("T")
 
@@ -37,8 +38,22 @@ Handler = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 """Answers one service request (fields to values) with a response (fields to values)."""
 
 
+@dataclass(frozen=True, slots=True)
+class Offer:
+    """A publisher of ours that is there before a process starts, and has published `messages` by then.
+
+    `qos`: what it offers, of which only reliability and durability are taken. `depth`: how many messages it keeps.
+    """
+
+    topic: str
+    type: str
+    qos: QoS
+    depth: int
+    messages: tuple[Mapping[str, Any], ...] = ()
+
+
 class Publisher(Protocol):
-    """Our publisher on the learner's domain, with a talker's QoS: reliable, volatile, depth 10."""
+    """Our publisher on the learner's domain; unless an `Offer` says more, reliable, volatile, and of depth 10."""
 
     @property
     def endpoint(self) -> TopicEndpoint:
@@ -170,6 +185,9 @@ class Run(Protocol):
         Messages published before a subscription is matched are lost (see `Publisher.subscribers`).
         """
 
+    def offered(self, topic: str) -> Publisher:
+        """Our publisher on this topic that was there before the process started (see `Offer`)."""
+
     def goal_client(self, action: str, type: str) -> AbstractAsyncContextManager[GoalClient]:
         """Create an action client in a node and participant of our own; both leave the graph when the context exits."""
 
@@ -212,14 +230,16 @@ class Bench(Protocol):
         parameters: Mapping[str, Any] | None = None,
         watch: Mapping[str, str] | None = None,
         log_level: str = "",
+        offers: Sequence[Offer] = (),
         expected_s: float | None = None,
     ) -> AbstractAsyncContextManager[Run]:
         """Start one of the submission's files; every trace of the process is gone when the context exits.
 
         `parameters` are passed as `--ros-args -p name:=value`. `watch` maps topics to types; they are subscribed to
-        before the process starts. `log_level`: passed as `--ros-args --log-level`, as in "debug". `expected_s`: roughly
-        how long this run, and everything that depends on it, takes with our own solution, in wall-clock seconds
-        (default: the check's `expected_s`). It only decides which of many runs starts first.
+        before the process starts, and `offers` are publishers that are there by then. `log_level`: passed as
+        `--ros-args --log-level`, as in "debug". `expected_s`: roughly how long this run, and everything that depends on
+        it, takes with our own solution, in wall-clock seconds (default: the check's `expected_s`). It only decides
+        which of many runs starts first.
         """
 
     def launch(self, file: str, *, arguments: Mapping[str, str] | None = None) -> AbstractAsyncContextManager[Run]:

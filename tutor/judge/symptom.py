@@ -18,6 +18,8 @@ class Symptom(Enum):
     NO_ANSWER = "the node is up and answers no request"
     NO_MESSAGES = "no message was published"
     NOTHING_RECEIVED = "what we published had no effect"
+    MESSAGES_LOST = "only some of the messages that were published arrive, or may arrive"
+    SHOWN_AGAIN = "a message that arrived once is shown more than once"
     WRONG_VALUES = "the values published are wrong"
     WRONG_RATE = "messages come at another rate than asked for"
     CHANGE_IGNORED = "a parameter's value has no effect"

@@ -12,7 +12,7 @@ from rclpy.serialization import deserialize_message
 
 from tutor.ros.interfaces import interface_class
 from tutor.ros.messages import RECEIVED_PER_KEPT_BYTE, placeholder_message
-from tutor.ros.qos import subscription_profile
+from tutor.ros.qos import to_rclpy
 from tutor.ros_model import QoS
 
 QUEUE_DEPTH = 1000
@@ -66,7 +66,7 @@ class Intake:
     def _subscribe(self) -> Any:
         # rclpy also passes the message info to a callback with two parameters, but its annotations allow only one.
         callback: Any = self._receive
-        qos = subscription_profile(self._requested, self._depth)
+        qos = to_rclpy(self._requested, self._depth)
         return self._node.create_subscription(
             self._type, self._topic, callback, qos, callback_group=self._group, raw=True
         )

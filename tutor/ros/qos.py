@@ -21,8 +21,8 @@ def from_rclpy(profile: QoSProfile) -> QoS:
     )
 
 
-def subscription_profile(qos: QoS, depth: int) -> QoSProfile:
-    """Return the profile of a subscription of ours, which requests only this reliability and durability."""
+def to_rclpy(qos: QoS, depth: int) -> QoSProfile:
+    """Return the profile of an endpoint of ours, which offers or requests only this reliability and durability."""
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST,
         depth=depth,

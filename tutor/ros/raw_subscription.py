@@ -20,7 +20,7 @@ from rclpy.subscription import Subscription
 from tutor.ros.batches import DEPTH, Received, never_called, take_all, wait_for_any
 from tutor.ros.interfaces import interface_class
 from tutor.ros.participant import OUR_PREFIX, create_node
-from tutor.ros.qos import subscription_profile
+from tutor.ros.qos import to_rclpy
 from tutor.ros_model import QoS
 
 GATHER_S = 0.01
@@ -46,7 +46,7 @@ class RawSubscription:
     def subscribe(self, topic: str, type_name: str, qos: QoS, on_batch: Callable[[list[Received]], None]) -> None:
         """Subscribe to a topic; `on_batch` is called in the dedicated thread. Raises UnknownType."""
         message_type = interface_class(type_name)
-        profile = subscription_profile(qos, DEPTH)
+        profile = to_rclpy(qos, DEPTH)
 
         def resubscribe() -> None:
             self._destroy(topic)

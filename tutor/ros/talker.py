@@ -14,26 +14,31 @@ from tutor.judge.trace import Sample
 from tutor.ros.fields import assign
 from tutor.ros.interfaces import interface_class
 from tutor.ros.participant import OUR_PREFIX, create_node, new_context
-from tutor.ros_model import TopicEndpoint
+from tutor.ros.qos import to_rclpy
+from tutor.ros_model import QoS, TopicEndpoint
 
 DEPTH = 10
-"""The queue depth of ROS's demo talkers, which use the default QoS: reliable and volatile."""
+"""The queue depth of ROS's demo talkers."""
+
+DEFAULT_QOS = QoS()
+"""What they offer: reliable and volatile."""
 
 
 class Talker:
     """Implements `Publisher` of `tutor.judge.bench` on real DDS. Raises UnknownType if the type is not installed."""
 
-    def __init__(self, domain_id: int, topic: str, type_name: str) -> None:
+    def __init__(self, domain_id: int, topic: str, type_name: str, qos: QoS = DEFAULT_QOS, depth: int = DEPTH) -> None:
+        """`qos`: what it offers, of which only reliability and durability are taken. `depth`: how many it keeps."""
         self._type: Any = interface_class(type_name)
         self._context = new_context(domain_id)
         name = f"{OUR_PREFIX}_talker"
         self._node = create_node(self._context, name)
-        self._publisher: Publisher = self._node.create_publisher(self._type, topic, DEPTH)
+        self._publisher: Publisher = self._node.create_publisher(self._type, topic, to_rclpy(qos, depth))
         with self._publisher.handle:
             self._matched: Any = rclpy_implementation.EventHandle(
                 self._publisher.handle, QoSPublisherEventType.RCL_PUBLISHER_MATCHED
             )
-        self._endpoint = TopicEndpoint(topic, type_name, f"/{name}")
+        self._endpoint = TopicEndpoint(topic, type_name, f"/{name}", qos)
 
     @property
     def endpoint(self) -> TopicEndpoint:

@@ -45,7 +45,7 @@ class QoSMismatch:
     @property
     def hint(self) -> str:
         """How to fix it."""
-        return f"give both the same {self.policy}: with a plain depth, such as 10, instead of a QoSProfile they match"
+        return f"let the subscription ask for {self.offered}, or the publisher offer {self.requested}"
 
 
 def incompatible_policies(offered: QoS, requested: QoS) -> Iterator[QoSMismatch]:

@@ -37,6 +37,7 @@ from tutor.mistakes.themes import uncalled_functions as uncalled_functions
 from tutor.mistakes.themes import message_fields as message_fields
 from tutor.mistakes.themes import published_values as published_values
 from tutor.mistakes.themes import qos as qos
+from tutor.mistakes.themes import qos_deliveries as qos_deliveries
 from tutor.mistakes.themes import timer_periods as timer_periods
 from tutor.mistakes.themes import parameter_effects as parameter_effects
 from tutor.mistakes.themes import timer_rates as timer_rates
@@ -66,6 +67,7 @@ from tutor.mistakes.themes import lasting_threads as lasting_threads
 from tutor.mistakes.themes import sleeping_loops as sleeping_loops
 from tutor.mistakes.themes import unhandled_exceptions as unhandled_exceptions
 from tutor.mistakes.themes import node_symptoms as node_symptoms
+from tutor.mistakes.themes import message_symptoms as message_symptoms
 from tutor.mistakes.themes import service_symptoms as service_symptoms
 from tutor.mistakes.themes import ending_symptoms as ending_symptoms
 from tutor.mistakes.themes import launch_symptoms as launch_symptoms

@@ -8,10 +8,10 @@ from collections.abc import Iterable, Iterator
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.ros_model import Graph, QoS, TopicEndpoint, incompatible_policies
+from tutor.ros_model import Graph, QoS, QoSMismatch, TopicEndpoint, incompatible_policies
 
 
-def _mismatches(case: Case) -> Iterable[str]:
+def _mismatches(case: Case) -> Iterable[tuple[str, QoSMismatch]]:
     ours = case.about("ours")
     topic = case.about("topic", ours.topic if ours else None)
     graph = case.trace.graph
@@ -19,7 +19,7 @@ def _mismatches(case: Case) -> Iterable[str]:
     for publisher in publishers:
         for subscription in (endpoint for endpoint in graph.subscriptions if endpoint.topic == publisher.topic):
             for mismatch in incompatible_policies(publisher.qos, subscription.qos):
-                yield f"on {publisher.topic}, {mismatch}"
+                yield publisher.topic, mismatch
 
 
 @mistake(
@@ -27,8 +27,8 @@ def _mismatches(case: Case) -> Iterable[str]:
     name="incompatible QoS",
     explains=(Symptom.NOTHING_RECEIVED, Symptom.NOT_CONNECTED),
     evidence=Evidence.RUN,
-    says="{mismatch}",
-    do="Let the subscription ask for no more than the publisher offers, as a plain depth instead of a QoSProfile does.",
+    says="on {topic}, {mismatch}",
+    do="Let the subscription ask for no more {policy} than the publisher offers, or let the publisher offer more.",
     example=in_run(
         Symptom.NOTHING_RECEIVED,
         graph=Graph(
@@ -56,7 +56,8 @@ def incompatible_qos(case: Case) -> Iterator[Found]:
 
     See it: `ros2 topic info -v TOPIC` shows the QoS of both ends; rclpy warns of "incompatible QoS" in the log.
     """
-    yield from (Found({"mismatch": mismatch}) for mismatch in _mismatches(case))
+    for topic, mismatch in _mismatches(case):
+        yield Found({"topic": topic, "mismatch": mismatch, "policy": mismatch.policy})
 
 
 @mistake(

@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+"""Exercise B1.1: log all that a warehouse publishes, and miss nothing."""
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+# TODO 1: find out what the publishers offer, with ros2 topic info -v or in
+#         Live. Then import from rclpy.qos what you need, and the types of
+#         the messages from std_msgs.msg.
+
+
+class WarehouseMonitor(Node):
+    """Listens to a warehouse that was there before."""
+
+    def __init__(self) -> None:
+        super().__init__("warehouse_monitor")
+        # TODO 2: subscribe to /map (String). It has been published already.
+
+        # TODO 3: subscribe to /range (Int32). Its sensor is lossy.
+
+        # TODO 4: subscribe to /parcels (String). Up to 200 come at once.
+
+        self.get_logger().info("Waiting for the warehouse")
+
+    # TODO 5: write the callbacks: one log message for each message, with
+    #         its data.
+
+
+def main() -> None:
+    """Run the node until Ctrl+C. This part is complete."""
+    rclpy.init()
+    node = WarehouseMonitor()
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()
