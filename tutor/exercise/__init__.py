@@ -23,10 +23,12 @@ from tutor.exercise.argument_moves import ArgumentMovesNamespace, ArgumentMovesT
 from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.criterion_function import criterion
 from tutor.exercise.defaults import Defaults
+from tutor.exercise.during_goal import DuringGoal
 from tutor.exercise.ends_cleanly import EndsCleanly
 from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.form import Custom, Form, check
-from tutor.exercise.handles_goal import HandlesGoal
+from tutor.exercise.handles_goal import HandlesGoal, SendsFeedback
+from tutor.exercise.handles_two_goals import HandlesTwoGoals
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
@@ -48,6 +50,7 @@ from tutor.exercise.rate_at_start import RateAtStart
 from tutor.exercise.receives import Receives
 from tutor.exercise.rejects import Rejects, RejectsAtomically
 from tutor.exercise.running_node import Fields, Node
+from tutor.exercise.sends_goal import HandlesRejection, SendsGoal
 from tutor.exercise.serves import Answers, Serves
 from tutor.exercise.service_calls import Question
 from tutor.exercise.set_at_run_time import SetAtRunTime
@@ -55,6 +58,7 @@ from tutor.exercise.set_at_start import SetAtStart
 from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
 from tutor.exercise.watched_start import LogsText
+from tutor.judge.bench import GoalReplies
 
 __all__ = [
     "SAYS_ERROR",
@@ -67,11 +71,15 @@ __all__ = [
     "Contains",
     "Custom",
     "Defaults",
+    "DuringGoal",
     "EndsCleanly",
     "FieldEquals",
     "Fields",
     "Form",
+    "GoalReplies",
     "HandlesGoal",
+    "HandlesRejection",
+    "HandlesTwoGoals",
     "InRange",
     "LaunchFile",
     "LogsParameter",
@@ -89,6 +97,8 @@ __all__ = [
     "Receives",
     "Rejects",
     "RejectsAtomically",
+    "SendsFeedback",
+    "SendsGoal",
     "Serves",
     "Service",
     "SetAtRunTime",

@@ -147,6 +147,16 @@ class GoalAnswer:
 
 
 @dataclass(frozen=True, slots=True)
+class ServedGoal:
+    """A goal that our own action server got. `feedback`: how many messages it has sent; `ended`: it has the result."""
+
+    goal: Mapping[str, Any]
+    accepted: bool
+    feedback: int = 0
+    ended: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Echo:
     """What `ros2 topic echo` would have shown. `types`: all types on the topic; with more than one, echo refuses.
 

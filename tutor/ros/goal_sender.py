@@ -90,11 +90,11 @@ class GoalSender(Observer):
         if self._handle.accepted:
             self._handle.get_result_async().add_done_callback(self._take_result)
 
-    def _take_feedback(self, message: Any) -> None:
+    def _take_feedback(self, message: Any, info: Any) -> None:
         if bytes(message.goal_id.uuid) != self._goal_id:  # another client's
             return
-        now = time.time()
-        self._call_on_loop(self._add_feedback, Sample(self._action, to_plain(message.feedback), now, now))
+        sample = Sample(self._action, to_plain(message.feedback), info["source_timestamp"] * 1e-9, time.time())
+        self._call_on_loop(self._add_feedback, sample)
 
     def _take_cancel(self, done: Any) -> None:
         self._call_on_loop(self._note, {"cancel_accepted": bool(done.result().goals_canceling)})
