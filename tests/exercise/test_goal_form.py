@@ -39,7 +39,8 @@ REFUSED = GoalAnswer(accepted=False)
         ("rejected", GoalAnswer(), "no answer", "does not answer a goal"),
         ("canceled", DONE, "wrong goal", "it is succeeded, not canceled"),
         ("canceled", replace(RUNNING, cancel_accepted=False), "wrong goal", "cancel_callback"),
-        ("canceled", replace(RUNNING, cancel_accepted=True), "no answer", "does not end it"),
+        ("canceled", replace(RUNNING, cancel_accepted=True), "wrong goal", "still runs 3 s after it accepted"),
+        ("canceled", RUNNING, "wrong goal", "gets no answer"),
     ],
 )
 def test_a_goal_ends_as_it_should(ends: Outcome, answer: GoalAnswer, cause: str, words: str) -> None:

@@ -107,7 +107,8 @@ class HandlesGoal(Form):
         if outcome != self.ends:
             ended = "it is accepted" if self.ends == "rejected" else f"it is {outcome}"
             if self.ends == "canceled" and answer.cancel_accepted is None:
-                return wrong(f"{ended}, and our request to cancel it came too late", _LET_IN)
+                do = "Let the goal take its time, and let the node take in requests meanwhile."
+                return wrong(f"{ended}, not canceled: it ended before our request was taken in", do)
             accept = "Let the goal_callback return GoalResponse.ACCEPT for it."
             return wrong(f"{ended}, not {self.ends}", accept if outcome == "rejected" else STEPS[self.ends])
         if len(answer.feedback) < self.feedback:

@@ -112,17 +112,18 @@ class HandlesTwoGoals(Form):
         # Of a goal that is not taken in, or waits for its turn, the other one is the reason.
         for which in (1, 0) if found.of_goals[1].accepted is None else (0, 1):
             name, answer, wanted = ("first", "second")[which], found.of_goals[which], self.ends[which]
-            says, do = f"the {name} goal {ended[which]}, instead of being {wanted}", _STEPS[wanted]
+            says, do, shared = f"the {name} goal {ended[which]}, instead of being {wanted}", _STEPS[wanted], False
             if outcome_of(answer) == wanted:
                 result = None if self.result is None else of_goal(self.result, goals[which])
                 if wanted != "succeeded" or result is None or agrees(answer.result or {}, result):
                     continue
                 says = f"the {name} goal ends with {dict(answer.result or {})}, not {dict(result)}"
                 do = "Keep what belongs to one goal in local variables of its callback: two of them may be in it at once."
+                shared = has_more(answer.result or {}, result)
             elif answer.accepted is None:
                 says, do = "the second goal gets no answer while the first one runs", _LET_IN
             about = {"action": action.name, "wanted": wanted, "found": outcome_of(answer), "answer": answer}
-            why = found.symptom(Symptom.WRONG_GOAL, says=says, do=do, second=which == 1, **about)
+            why = found.symptom(Symptom.WRONG_GOAL, says=says, do=do, shared=shared, **about)
             return failed(expected, observed, why, tail)
         return passed(expected, observed)
 
@@ -133,3 +134,9 @@ class HandlesTwoGoals(Form):
 
 
 _LET_IN = "Let the node take in requests while a goal runs: see what runs its execute callback meanwhile."
+
+
+def has_more(got: Fields, wanted: Fields) -> bool:
+    """Whether a list has items that do not belong there."""
+    lists = [(got.get(name), value) for name, value in wanted.items() if isinstance(value, list | tuple)]
+    return any(isinstance(items, list | tuple) and any(item not in own for item in items) for items, own in lists)
