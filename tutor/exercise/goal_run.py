@@ -125,7 +125,8 @@ async def pursue(
 class SendGoal:
     """Start without parameters, and send a goal; see `pursue`.
 
-    `feedback`: how many messages of it are waited for. `all_feedback`: wait also for what the result may have overtaken.
+    `feedback`: how many messages of it are waited for. `all_feedback`: wait also for those that the result may have
+    overtaken.
     """
 
     program: Program

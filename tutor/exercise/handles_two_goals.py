@@ -33,7 +33,7 @@ ALONE_S = 0.6
 """How long the first goal runs before the second one comes."""
 
 _STEPS = {
-    "aborted": "Let the goal that runs find out that there is a newer one; then call abort() on its handle, and return.",
+    "aborted": "Let the goal that runs see that there is a newer one; then call abort() on its handle, and return.",
     "succeeded": "Let each goal go its own way to the end: keep what belongs to one goal in local variables.",
     "rejected": "Let the goal_callback look at whether a goal is running, and return GoalResponse.REJECT.",
     "canceled": "Let the goal that runs find out that it is to be canceled; then call canceled() on its handle.",
@@ -118,7 +118,7 @@ class HandlesTwoGoals(Form):
                 if wanted != "succeeded" or result is None or agrees(answer.result or {}, result):
                     continue
                 says = f"the {name} goal ends with {dict(answer.result or {})}, not {dict(result)}"
-                do = "Keep what belongs to one goal in local variables of its callback: two of them may be in it at once."
+                do = "Keep what belongs to one goal in local variables of its callback, since two may be in it at once."
                 shared = has_more(answer.result or {}, result)
             elif answer.accepted is None:
                 says, do = "the second goal gets no answer while the first one runs", _LET_IN

@@ -32,9 +32,10 @@ class SendsGoal(Form):
     """A client, run without arguments, sends a goal to our action server, shows feedback and result, and exits with 0.
 
     Our server comes up about a second after it has started, so it has to wait for it. `replies`: returns what our
-    server sends; draw it at random, so that the client cannot know it. `shows`: what must be shown of a message of
-    feedback and of the result, in the log or in the output: a number or a text that nothing else would show. `within_s`:
-    how long the run may take, in seconds. Where the file is missing, the criterion fails, and the check goes on.
+    server sends; draw it at random, so that the client cannot know it. `shows`: what must be shown of each message of
+    feedback (half of them are enough: some may be overtaken by the result) and of the result, in the log or in the
+    output: a number or a text that nothing else would show. `within_s`: how long the run may take, in seconds. Where
+    the file is missing, the criterion fails, and the check goes on.
 
         SendsGoal("client", Program("client.py"), COUNT, replies, shows=lambda message: message["sequence"][-1])
     """
@@ -126,7 +127,9 @@ class HandlesRejection(Form):
         file = self.of.client.file
         expected = f"{file} says that its goal was rejected, and ends by itself within {self.of.within_s:g} s"
         if seen.trace is None or accepted.trace is None:
-            return failed(expected, f"there is no {file}", Symptom.CALLS_MISSING.seen(Trace(file), file=file, beside=""))
+            return failed(
+                expected, f"there is no {file}", Symptom.CALLS_MISSING.seen(Trace(file), file=file, beside="")
+            )
         evidence = output_tail(seen.trace, 6)
         if (ended := self.of.not_ended(seen)) is not None:
             return failed(expected, ended[0], ended[1], evidence)

@@ -119,11 +119,17 @@ def cancel_request_not_looked_at(case: Case) -> Iterator[Found]:
 
     Bad:
 
+        def __init__(self):
+            self.server = ActionServer(self, Gate, 'gate', self.open_gate, cancel_callback=self.agree)
+
         def open_gate(self, goal_handle):
             for angle in range(90):
                 self.motor.turn_to(angle)
 
     Good:
+
+        def __init__(self):
+            self.server = ActionServer(self, Gate, 'gate', self.open_gate, cancel_callback=self.agree)
 
         def open_gate(self, goal_handle):
             for angle in range(90):
@@ -139,7 +145,7 @@ def cancel_request_not_looked_at(case: Case) -> Iterator[Found]:
     answer = case.about("answer")
     asked = case.about("wanted") == "canceled" and answer is not None and answer.cancel_accepted
     if asked and answer.outcome != "canceled" and not case.program.mentions(*_LOOKS):
-        yield Found()
+        yield from (found(file, call) for file in case.files for call in file.calls("ActionServer"))
 
 
 @mistake(

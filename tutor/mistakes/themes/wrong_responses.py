@@ -141,7 +141,9 @@ def shared_state(case: Case) -> Iterator[Found]:
     if not case.about("shared"):
         return
     if case.symptom is Symptom.WRONG_GOAL:
-        yield Found({"what": "a goal that came while another one ran ended with what belongs to that one", "call": "goal"})
+        yield Found(
+            {"what": "a goal that came while another one ran ended with what belongs to that one", "call": "goal"}
+        )
     else:
         what = "one call was answered with the result of another that was made at the same time"
         yield Found({"what": what, "call": "call"})

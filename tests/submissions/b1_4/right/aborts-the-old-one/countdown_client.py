@@ -28,7 +28,7 @@ class Client(Node):
     def on_answer(self, future):
         if future.result().accepted:
             future.result().get_result_async().add_done_callback(self.on_result)
-            self.handle = future.result()
+            self.goal = future.result()
         else:
             self.get_logger().fatal('abgelehnt')
             self.exit_code = 3
