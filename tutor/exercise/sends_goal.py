@@ -81,14 +81,14 @@ class SendsGoal(Form):
             early = "" if accepted[0].ended else " before there was one"
             do = "Ask the goal handle for the result, wait until it is there, and log what is in it."
             says = f"the client ends{early or ' without having shown the result'}"
-            why = _seen(seen, Symptom.NOT_LOGGED, says=says, do=do, what="the result", missing="result")
+            why = _seen(seen, Symptom.NOT_TOLD, says=says, do=do, what="the result", missing="result")
             return failed(expected, f"{how}{early}; the result {result} is not shown", why, evidence)
         told = [self.shows(message) for message in seen.replies.feedback]
         shown = [value for value in told if is_shown(seen.trace, value)]
         if len(shown) < SHOWN_SHARE * len(told):
             says = f"of {len(told)} feedback messages, it shows {len(shown)}"
             do = "Give send_goal_async() a feedback_callback, and log there what each message says."
-            why = _seen(seen, Symptom.NOT_LOGGED, says=says, do=do, what="the feedback", missing="feedback")
+            why = _seen(seen, Symptom.NOT_TOLD, says=says, do=do, what="the feedback", missing="feedback")
             return failed(expected, f"{how}; {says}", why, evidence)
         return passed(expected, f"{how}; {len(shown)} feedback messages and the result shown", evidence)
 
@@ -144,7 +144,7 @@ class HandlesRejection(Form):
             says = "the client's goal is rejected, and it says nothing about that"
             do = "Look at whether the goal was accepted, before you ask for its result, and log an error if not."
             about = {"what": "that the goal was rejected", "rejected": True}
-            why = _seen(seen, Symptom.NOT_LOGGED, says=says, do=do, missing="", **about)
+            why = _seen(seen, Symptom.NOT_TOLD, says=says, do=do, missing="", **about)
             return failed(expected, f"{how}, and nothing that it says is about that", why, evidence)
         return passed(expected, how, [*list(new)[:1], *evidence])
 

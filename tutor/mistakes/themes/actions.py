@@ -196,10 +196,10 @@ def goal_blocks_executor(case: Case) -> Iterator[Found]:
 
 @mistake(
     "acceptance-not-looked-at",
-    explains=[Symptom.NOT_LOGGED, Symptom.WRONG_EXIT_CODE],
+    explains=[Symptom.NOT_TOLD, Symptom.WRONG_EXIT_CODE],
     says="{line} asks for the result of a goal, but nothing looks at whether the goal was accepted: {code}",
     do="Look at the goal handle's accepted first, and say so if the goal was rejected.",
-    example=in_run(Symptom.NOT_LOGGED, rejected=True),
+    example=in_run(Symptom.NOT_TOLD, rejected=True),
 )
 def acceptance_not_looked_at(case: Case) -> Iterator[Found]:
     """A client asks for the result of a goal that may have been rejected.
