@@ -23,7 +23,7 @@ SAID = ("sending 5", "feedback: [11111]", "feedback: [11111, 22222]", "result: a
 
 def ran(*said: str, code: int | None = 0, goals: int = 1, ended: bool = True, **more: Any) -> GoalClientRun:
     """A run of a client that logged this, and got all that there was."""
-    served = (ServedGoal({"order": 5}, True, 2, ended),) * goals
+    served = (ServedGoal({"order": 5}, True, 0.0, 2, ended),) * goals
     seen = trace(logs=tuple(map(log, said)), exit=exited(code) if code is not None else None)
     return GoalClientRun(seen, REPLIES, served, seen.exit, **more)
 

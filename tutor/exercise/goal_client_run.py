@@ -9,7 +9,7 @@ from math import inf
 from tutor.exercise.client_run import MIN_CPU_WAIT_AT_LIMIT_S, MIN_CPU_WAIT_S, ClientWatch
 from tutor.exercise.nouns import GOAL_SERVICE, Action, Program
 from tutor.exercise.service_calls import STUCK_CALL_S
-from tutor.judge.bench import Bench, GoalReplies, GoalServer, Run
+from tutor.judge.bench import Bench, GoalReplies, GoalServer
 from tutor.judge.stuck_nodes import StuckTest
 from tutor.judge.trace import Exit, ServedGoal, Trace
 from tutor.judge.tracebacks import Frame
@@ -79,10 +79,16 @@ class RunGoalClient:
         ):
             bench.report_progress(0.2, "running the client, before there is a server")
             answered = lambda: sum(1 + goal.feedback + goal.ended for goal in server.goals)  # noqa: E731
-            watch = ClientWatch(bench, run, test, server.open, answered)
+            watch, waited_s = ClientWatch(bench, run, test, server.open, answered), 0.0
+
+            def look() -> None:
+                nonlocal waited_s
+                watch.look()
+                waited_s = max(waited_s, run.node_cpu_wait_s())  # nothing is known of it once the client has ended
+
             await run.wait_for_exit(
                 self.within_s,
-                meanwhile=watch.look,
+                meanwhile=look,
                 all_sent=lambda: watch.up_at is not None and _all_told(server),
                 given_up=lambda: test.is_stuck() and _all_told(server),
             )
@@ -92,7 +98,7 @@ class RunGoalClient:
             trace, goals, ended = run.trace(), tuple(server.goals), run.exit
             stuck = await run.dump_stacks() if ended is None else ()
             clients = tuple(client for client in watch.clients if client.name.endswith(GOAL_SERVICE))
-            slowed = _was_slowed(run, watch, goals, ended)
+            slowed = waited_s >= HARDLY_WAITED_SHARE * watched_s if goals else _missed_server(watch, ended)
             return GoalClientRun(trace, replies, goals, ended, stuck, clients, watched_s, slowed)
 
 
@@ -105,8 +111,6 @@ def _takes_s(replies: GoalReplies) -> float:
     return (len(replies.feedback) + 1) * replies.step_s + 2.0
 
 
-def _was_slowed(run: Run, watch: ClientWatch, goals: tuple[ServedGoal, ...], ended: Exit | None) -> bool:
-    """Whether the machine may be to blame for a client that did not find our server, or missed feedback."""
-    if goals:
-        return watch.cpu_wait_s >= HARDLY_WAITED_SHARE * (run.now() - run.started_at)
+def _missed_server(watch: ClientWatch, ended: Exit | None) -> bool:
+    """Whether the machine may be to blame for a client that did not find our server."""
     return watch.cpu_wait_s >= (MIN_CPU_WAIT_S if ended is not None else MIN_CPU_WAIT_AT_LIMIT_S)

@@ -140,7 +140,8 @@ class HandlesRejection(Form):
         if tracebacks.find_tracebacks(seen.trace.output) or seen.exit.signal is not None:
             why = _seen(seen, Symptom.WRONG_EXIT_CODE, missing="", rejected=True)
             return failed(expected, f"{how} and a traceback", why, evidence)
-        if not (new := said(seen.trace) - said(accepted.trace)) and not _warned(seen.trace, accepted.trace):
+        new = said(seen.trace, seen.goals[0].at) - said(accepted.trace)
+        if not new and not _warned(seen.trace, accepted.trace):
             says = "the client's goal is rejected, and it says nothing about that"
             do = "Look at whether the goal was accepted, before you ask for its result, and log an error if not."
             about = {"what": "that the goal was rejected", "rejected": True}
@@ -156,11 +157,14 @@ def is_shown(trace: Trace, value: Any) -> bool:
     return any(pattern.search(text) for text in texts)
 
 
-def said(trace: Trace) -> set[str]:
-    """What a program has said, without numbers and signs: lines that differ only in their numbers are the same."""
-    lines = [log.text for log in trace.logs]
+def said(trace: Trace, since: float = 0.0) -> set[str]:
+    """What a program has said, without numbers and signs: lines that differ only in their numbers are the same.
+
+    `since`: from when on; what it prints may be held back in a buffer, and so count later.
+    """
+    lines = [log.text for log in trace.logs if log.stamp >= since]
     # On the console, a log message has a head with its level, time and logger.
-    lines += [re.sub(r"^\[\w+\] \[[\d.]+\] \[[^\]]*\]: ", "", line.text) for line in trace.output]
+    lines += [re.sub(r"^\[\w+\] \[[\d.]+\] \[[^\]]*\]: ", "", line.text) for line in trace.output if line.at >= since]
     return {shape for line in lines if (shape := "".join(re.findall(r"[^\W\d_]+", line)))}
 
 

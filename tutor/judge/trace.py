@@ -148,10 +148,14 @@ class GoalAnswer:
 
 @dataclass(frozen=True, slots=True)
 class ServedGoal:
-    """A goal that our own action server got. `feedback`: how many messages it has sent; `ended`: it has the result."""
+    """A goal that our own action server got.
+
+    `at`: when it came in. `feedback`: how many messages it has sent so far. `ended`: the result is there.
+    """
 
     goal: Mapping[str, Any]
     accepted: bool
+    at: float = 0.0
     feedback: int = 0
     ended: bool = False
 

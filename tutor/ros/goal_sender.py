@@ -45,11 +45,12 @@ class GoalSender(Observer):
             callback_group=self._gate,
         )
         self._goal_id = b""
+        take: Any = self._take_feedback  # with the message's info, which rclpy's types do not know
         # Not through the client: the result may overtake feedback, and rclpy drops what comes after it.
         self._feedback = self.node.create_subscription(
             self._type.Impl.FeedbackMessage,
             f"{action}/_action/feedback",
-            self._take_feedback,
+            take,
             QoSProfile(depth=MAX_FEEDBACK),
             callback_group=self._gate,
         )

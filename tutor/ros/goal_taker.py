@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
@@ -66,7 +67,7 @@ class GoalTaker(Observer):
 
     def _decide(self, goal: Any) -> GoalResponse:
         accepts = self._replies.accepts and len(self._goals) < MAX_GOALS
-        self._call_on_loop(self._add, ServedGoal(to_plain(goal), accepts))
+        self._call_on_loop(self._add, ServedGoal(to_plain(goal), accepts, time.time()))
         return GoalResponse.ACCEPT if accepts else GoalResponse.REJECT
 
     def _begin(self, handle: Any) -> None:
