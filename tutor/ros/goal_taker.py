@@ -43,6 +43,10 @@ class GoalTaker(Observer):
         return tuple(self._goals)
 
     def open(self) -> None:
+        # In the executor's thread: rclpy adds the server to the node before it is complete, so a goal might come early.
+        self._executor.create_task(self._create)
+
+    def _create(self) -> None:
         self._server = ActionServer(
             self.node,
             self._type,
@@ -53,7 +57,6 @@ class GoalTaker(Observer):
             cancel_callback=lambda _: CancelResponse.ACCEPT,
             callback_group=self._gate,
         )
-        self._executor.wake()
 
     def drop_received(self) -> None:
         if self._server is not None:
