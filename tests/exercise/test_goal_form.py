@@ -9,7 +9,7 @@ import pytest
 
 from tests.checks.builders import NO_NODE, assert_failed, assert_passed, graph, judge_of, trace
 from tutor.exercise import Action, HandlesGoal, Program, check
-from tutor.exercise.handles_goal import GoalRun, Outcome
+from tutor.exercise.goal_run import GoalRun, Outcome
 from tutor.judge.trace import GoalAnswer, Sample
 
 COUNT = Action("/count", "example_interfaces/action/Fibonacci")
