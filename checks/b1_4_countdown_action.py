@@ -48,10 +48,9 @@ def steps(goal: Mapping[str, Any]) -> Sequence[Mapping[str, Any]]:
 
 
 def replies() -> GoalReplies:
-    """Numbers that a client cannot know, so that it has to show what it gets."""
-    *numbers, last = random.sample(range(10_000, 99_999), 5)
-    feedback = tuple({"sequence": numbers[: length + 1]} for length in range(len(numbers)))
-    return GoalReplies(True, feedback, {"sequence": [*numbers, last]})
+    """Numbers that a client cannot know, so that it has to show what it gets; each message has others."""
+    *feedback, result = (random.sample(range(thousand, thousand + 1000), 3) for thousand in range(10_000, 15_000, 1000))
+    return GoalReplies(True, tuple({"sequence": numbers} for numbers in feedback), {"sequence": result})
 
 
 goal = HandlesGoal("goal", COUNTDOWN, short, result=counted)
