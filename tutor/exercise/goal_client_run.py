@@ -9,11 +9,11 @@ from math import inf
 from tutor.exercise.client_run import MIN_CPU_WAIT_AT_LIMIT_S, MIN_CPU_WAIT_S, ClientWatch
 from tutor.exercise.nouns import GOAL_SERVICE, Action, Program
 from tutor.exercise.service_calls import STUCK_CALL_S
-from tutor.judge.bench import Bench, GoalReplies, GoalServer
+from tutor.judge.bench import Bench, GoalReplies, GoalServer, MachineTooBusy
 from tutor.judge.stuck_nodes import StuckTest
 from tutor.judge.trace import Exit, ServedGoal, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting_for_nodes import HARDLY_WAITED_SHARE, IDLE_S, wait_until_seen
+from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE, HARDLY_WAITED_SHARE, IDLE_S, wait_until_seen
 from tutor.ros_model import ServiceEndpoint
 
 
@@ -79,12 +79,14 @@ class RunGoalClient:
         ):
             bench.report_progress(0.2, "running the client, before there is a server")
             answered = lambda: sum(1 + goal.feedback + goal.ended for goal in server.goals)  # noqa: E731
-            watch, waited_s = ClientWatch(bench, run, test, server.open, answered), 0.0
+            watch = ClientWatch(bench, run, test, server.open, answered)
+            waited_s, our_wait_s = 0.0, run.our_cpu_wait_s()
 
             def look() -> None:
                 nonlocal waited_s
                 watch.look()
-                waited_s = max(waited_s, run.node_cpu_wait_s())  # nothing is known of it once the client has ended
+                if run.exit is None:  # nothing is known of it later
+                    waited_s = run.node_cpu_wait_s()
 
             await run.wait_for_exit(
                 self.within_s,
@@ -98,7 +100,10 @@ class RunGoalClient:
             trace, goals, ended = run.trace(), tuple(server.goals), run.exit
             stuck = await run.dump_stacks() if ended is None else ()
             clients = tuple(client for client in watch.clients if client.name.endswith(GOAL_SERVICE))
-            slowed = waited_s >= HARDLY_WAITED_SHARE * watched_s if goals else _missed_server(watch, ended)
+            waited_s += run.our_cpu_wait_s() - our_wait_s
+            if not goals and ended is not None and waited_s >= CPU_WAIT_SHARE * watched_s:
+                raise MachineTooBusy("this machine is too busy for a client to find our action server in time")
+            slowed = waited_s >= HARDLY_WAITED_SHARE * watched_s or (not goals and _missed_server(watch, ended))
             return GoalClientRun(trace, replies, goals, ended, stuck, clients, watched_s, slowed)
 
 
