@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exercise B1.4: a node that sends one goal to /countdown, then ends."""
+"""Exercise B1.4: a node that sends one goal, then ends."""
 
 import sys
 
@@ -19,13 +19,13 @@ class CountdownClient(Node):
         # TODO 8: create the action client.
 
     def run(self) -> bool:
-        """Send the goal and wait for its end. Return whether it succeeded."""
+        """Send the goal and wait. Return whether it succeeded."""
         # TODO 9: - wait for the action server, but not forever,
         #         - send a goal, with a callback that logs the newest
         #           number of each feedback message,
-        #         - wait for the answer; if the goal was rejected, log an
-        #           error and return False,
-        #         - ask for the result, wait for it, and log its numbers.
+        #         - wait for the answer; if the goal was rejected, log
+        #           an error and return False,
+        #         - ask for the result, wait for it, and log it.
 
         self.get_logger().warning("This client sends nothing yet")
         return True

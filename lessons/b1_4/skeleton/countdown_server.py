@@ -28,8 +28,8 @@ class CountdownServer(Node):
 
     # TODO 4: reject a goal whose order is below 0.
 
-    # TODO 5: let a goal be canceled, and a new goal replace the one that
-    #         is running: look out for both between two numbers.
+    # TODO 5: let a goal be canceled, and let a new goal replace the
+    #         running one: look out for both between two numbers.
 
 
 def main() -> None:
