@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.engine.helpers import NODE, Scene, assert_failed_for, statuses
-from tutor.exercise import Action, HandlesGoal, Node, Program, check, criterion
+from tutor.exercise import Action, HandlesGoal, HandlesTwoGoals, Node, Program, SendsFeedback, check, criterion
 
 COUNT = Action("/count", "example_interfaces/action/Fibonacci")
 
@@ -18,10 +18,16 @@ async def short(node: Node) -> None:
     node.expect((await node.send_goal(COUNT, cancel_after=1, order=40)).outcome, "canceled", do="Let it be canceled.")
 
 
+NUMBERS = [0, 1, 1, 2, 3, 5]
+
+counts = HandlesGoal("counts", COUNT, {"order": 5}, feedback=4, result={"sequence": NUMBERS})
+
 CHECK = check(
     "t1",
     Program("node.py"),
-    HandlesGoal("counts", COUNT, {"order": 5}, feedback=4, result={"sequence": [0, 1, 1, 2, 3, 5]}),
+    counts,
+    SendsFeedback("tells", counts, [{"sequence": NUMBERS[:length]} for length in range(3, 7)], may_miss=1, over_s=0.1),
+    HandlesTwoGoals("both", COUNT, ({"order": 40}, {"order": 5}), ("succeeded", "succeeded")),
     HandlesGoal("stops", COUNT, {"order": 40}, ends="canceled", feedback=2),
     HandlesGoal("refuses", COUNT, {"order": -1}, ends="rejected"),
     HandlesGoal("gives-up", COUNT, {"order": 100}, ends="aborted", within_s=3.0),
@@ -97,13 +103,13 @@ async def test_a_server_that_sends_its_feedback_at_once_passes(scene: Scene) -> 
     ("change", "criterion", "mistake", "words"),
     [
         ("Server.name = 'counter'", "counts", "action-missing", "/counter of type"),
-        ("Server.succeed = lambda self, handle: None", "counts", "wrong-goal", "it is aborted, not succeeded"),
+        ("Server.succeed = lambda self, handle: None", "counts", "goal-without-an-end", "it is aborted, not succeeded"),
         ("Server.first = 1", "counts", "wrong-goal", "[1, 1, 2, 3, 5, 8]"),
         ("Server.feedback = 0", "counts", "wrong-goal", "0 feedback messages"),
         ("Server.accept = lambda self, goal: GoalResponse.REJECT", "counts", "wrong-goal", "it is rejected"),
         ("Server.accept = lambda self, goal: GoalResponse.ACCEPT", "refuses", "wrong-goal", "it is accepted"),
         ("Server.succeed = lambda self, handle: threading.Event().wait()", "counts", "no-answer", "does not end it"),
-        ("Server.answer = CancelResponse.REJECT", "stops", "wrong-goal", "request to cancel it is not"),
+        ("Server.answer = CancelResponse.REJECT", "stops", "cancel-not-accepted", "request to cancel it is not"),
         ("Server.count = lambda self, handle: 1 / 0", "counts", "unhandled-exception", "division by zero"),
         ("Server.count = lambda self, handle: handle.succeed() or Fibonacci.Result()", "stops", "wrong-goal", "succ"),
         (
@@ -112,6 +118,9 @@ async def test_a_server_that_sends_its_feedback_at_once_passes(scene: Scene) -> 
             "wrong-goal",
             "succ",
         ),
+        ("Server.feedback = 0", "tells", "wrong-goal", "0 feedback messages"),
+        ("Server.step_s = 0.0", "tells", "wrong-goal", "all feedback within 0.0"),
+        ("Server.step_s = 0.5", "both", "wrong-goal", "the first goal still runs after 6 s"),
         ("Server.first = 1", "short", "wrong-goal", "[1, 1, 2]"),
         ("Server.name = 'counter'", "short", "action-missing", "no action server"),
     ],

@@ -9,7 +9,7 @@ import pytest
 
 from tests.checks.builders import NO_NODE, assert_failed, assert_passed, graph, judge_of, trace
 from tutor.exercise import Action, HandlesGoal, Program, check
-from tutor.exercise.handles_goal import GoalRun, Outcome
+from tutor.exercise.goal_run import GoalRun, Outcome
 from tutor.judge.trace import GoalAnswer, Sample
 
 COUNT = Action("/count", "example_interfaces/action/Fibonacci")
@@ -39,7 +39,8 @@ REFUSED = GoalAnswer(accepted=False)
         ("rejected", GoalAnswer(), "no answer", "does not answer a goal"),
         ("canceled", DONE, "wrong goal", "it is succeeded, not canceled"),
         ("canceled", replace(RUNNING, cancel_accepted=False), "wrong goal", "cancel_callback"),
-        ("canceled", replace(RUNNING, cancel_accepted=True), "no answer", "does not end it"),
+        ("canceled", replace(RUNNING, cancel_accepted=True), "wrong goal", "still runs 3 s after it accepted"),
+        ("canceled", RUNNING, "wrong goal", "gets no answer"),
     ],
 )
 def test_a_goal_ends_as_it_should(ends: Outcome, answer: GoalAnswer, cause: str, words: str) -> None:

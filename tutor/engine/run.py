@@ -16,7 +16,7 @@ from typing import Any
 from tutor.engine import ending, source
 from tutor.engine.waits import POLL_S, CollectedFacts, Waits
 from tutor.errors import EngineError, UnknownType
-from tutor.judge.bench import Handler
+from tutor.judge.bench import GoalReplies, Handler
 from tutor.judge.trace import (
     CallAnswer,
     Echo,
@@ -34,6 +34,7 @@ from tutor.judge.waiting_for_nodes import RESENT_S
 from tutor.process import LearnerProcess, next_wake, own_cpu_time
 from tutor.ros import echo, graph, parameters
 from tutor.ros.goal_sender import GoalSender
+from tutor.ros.goal_taker import GoalTaker
 from tutor.ros.intake import MAX_SAMPLES
 from tutor.ros.messages import to_plain
 from tutor.ros.observer import ANY_PUBLISHER, AnswerTooLarge, Observer
@@ -231,6 +232,13 @@ class RosRun:
             yield client
             if client.fault is not None:
                 raise EngineError(f"watching the action failed: {client.fault}")
+
+    @asynccontextmanager
+    async def goal_server(self, action: str, type: str, replies: GoalReplies) -> AsyncIterator[GoalTaker]:
+        with contextlib.closing(GoalTaker(self._domain_id, action, type, replies, self._facts.notify)) as server:
+            yield server
+            if server.fault is not None:
+                raise EngineError(f"serving the action failed: {server.fault}")
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         over = asyncio.Event()

@@ -24,12 +24,14 @@ from tutor.exercise.builds_interfaces import BuildsInterfaces
 from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.criterion_function import criterion
 from tutor.exercise.defaults import Defaults
+from tutor.exercise.during_goal import DuringGoal
 from tutor.exercise.ends_cleanly import EndsCleanly
 from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.faults import Faults
 from tutor.exercise.form import Custom, Form, check
 from tutor.exercise.given_system import GivenPublisher
-from tutor.exercise.handles_goal import HandlesGoal
+from tutor.exercise.handles_goal import HandlesGoal, SendsFeedback
+from tutor.exercise.handles_two_goals import HandlesTwoGoals
 from tutor.exercise.has_endpoints import Endpoint, HasEndpoints
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
 from tutor.exercise.logs_at import LogsAt, StaysQuiet, Throttles
@@ -56,6 +58,7 @@ from tutor.exercise.rate_at_start import RateAtStart
 from tutor.exercise.receives import Receives
 from tutor.exercise.rejects import Rejects, RejectsAtomically
 from tutor.exercise.running_node import Fields, Node
+from tutor.exercise.sends_goal import HandlesRejection, SendsGoal
 from tutor.exercise.serves import Answers, Serves
 from tutor.exercise.service_calls import Question
 from tutor.exercise.set_at_run_time import SetAtRunTime
@@ -67,6 +70,7 @@ from tutor.exercise.told_events import Event, Feed
 from tutor.exercise.tells import Tells
 from tutor.exercise.watched_start import LogsText
 from tutor.ros_model import QoS
+from tutor.judge.bench import GoalReplies
 
 __all__ = [
     "SAYS_ERROR",
@@ -81,6 +85,7 @@ __all__ = [
     "Custom",
     "Defaults",
     "Endpoint",
+    "DuringGoal",
     "EndsCleanly",
     "Event",
     "Feed",
@@ -89,8 +94,11 @@ __all__ = [
     "Fields",
     "Form",
     "GivenPublisher",
+    "GoalReplies",
     "HandlesGoal",
     "HasEndpoints",
+    "HandlesRejection",
+    "HandlesTwoGoals",
     "InRange",
     "KeepsRate",
     "LaunchFile",
@@ -113,6 +121,8 @@ __all__ = [
     "Receives",
     "Rejects",
     "RejectsAtomically",
+    "SendsFeedback",
+    "SendsGoal",
     "Serves",
     "Service",
     "SetAtRunTime",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import inf
 from typing import Any
@@ -100,7 +100,7 @@ class RunClient:
             StuckTest(run, lambda: bench.facts(silent)) as test,
         ):
             bench.report_progress(0.2, "running the client, before there is a server")
-            watch = _ClientWatch(bench, run, test, self.services)
+            watch = ClientWatch(bench, run, test, lambda: _serve_all(run, self.services), lambda: len(run.served))
             await run.wait_for_exit(
                 self.within_s, meanwhile=watch.look, all_sent=lambda: watch.up_at is not None, given_up=test.is_stuck
             )
@@ -111,15 +111,20 @@ class RunClient:
             return ClientRun(trace, served, ended, stuck, tuple(watch.clients), up_s, watch.cpu_wait_s, watched_s)
 
 
-class _ClientWatch:
+class ClientWatch:
     """Brings up our servers some time after the client has begun to look for them, and sees whether it gets on.
+
+    `bring_up`: lets our servers appear. `answered`: how much they have answered so far.
 
     `clients`: its service clients, gathered as it runs, since the graph forgets them when it exits. `up_at`: when our
     servers came up. `cpu_wait_s`: for how long the client, or we, waited for a CPU until then.
     """
 
-    def __init__(self, bench: Bench, run: Run, test: StuckTest, services: tuple[Service, ...]) -> None:
-        self._bench, self._run, self._test, self._services = bench, run, test, services
+    def __init__(
+        self, bench: Bench, run: Run, test: StuckTest, bring_up: Callable[[], None], answered: Callable[[], int]
+    ) -> None:
+        self._bench, self._run, self._test = bench, run, test
+        self._bring_up, self._answered = bring_up, answered
         self._our_wait_s = run.our_cpu_wait_s()
         self._due_at = inf
         self._progress, self._progress_at = 0, 0.0
@@ -141,9 +146,9 @@ class _ClientWatch:
             self._due_at = min(self._due_at, run.now() + SERVER_DELAY_S)
         if self.up_at is None and run.now() >= self._due_at:
             self._bench.report_progress(0.4, "bringing up our servers")
-            _serve_all(run, self._services)
+            self._bring_up()
             self.up_at = self._progress_at = run.now()
-        if (progress := len(run.served) + len(run.output)) != self._progress:
+        if (progress := self._answered() + len(run.output)) != self._progress:
             self._progress, self._progress_at = progress, run.now()
         if self.up_at is not None and run.now() - self._progress_at >= NO_PROGRESS_S:
             self._test.start()

@@ -1,191 +1,203 @@
-"""A form: an action server handles a goal: it accepts or rejects it, sends feedback, and ends it with a result."""
+"""Forms: an action server handles a goal, from its acceptance to its result, and tells meanwhile how far it is."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any
 
 from tutor.exercise.form import Exercise, Form
-from tutor.exercise.nouns import GOAL_SERVICE, GOAL_TYPE, Action, Program, agrees, show
-from tutor.exercise.seen_run import Seen, look, settle
-from tutor.judge.bench import Bench, GoalClient, Run
+from tutor.exercise.goal_run import (
+    CANCELED_S,
+    STEPS,
+    Fields,
+    Goal,
+    GoalRun,
+    OfGoal,
+    Outcome,
+    SendGoal,
+    action_missing,
+    describe_goal,
+    drawn,
+    of_goal,
+    outcome_of,
+    unanswered,
+)
+from tutor.exercise.nouns import Action, agrees
+from tutor.exercise.seen_run import Seen
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import GoalAnswer
 from tutor.judge.verdict import Verdict, failed, passed
-from tutor.judge.waiting_for_nodes import IDLE_S, RESENT_S, patience_s, wait_until_seen
 from tutor.judge.wording import counted, output_tail
 
-ANSWER_S = 5.0
-"""Time limit for the answer to a goal, and to a request to cancel it."""
-
-Outcome = Literal["succeeded", "aborted", "canceled", "rejected"]
-"""How a goal ends."""
-
-_STEPS = {
-    "succeeded": "Call succeed() on the goal handle before the callback returns its result.",
-    "aborted": "Call abort() on the goal handle before the callback returns its result.",
-    "canceled": "Look at is_cancel_requested while the goal runs; then call canceled() on its handle, and return.",
-    "rejected": "Give the action server a goal_callback that returns GoalResponse.REJECT for such a goal.",
-}
-
-
-@dataclass(frozen=True)
-class GoalRun(Seen):
-    """What became of a goal that we sent. `answer`: None if there was no action server."""
-
-    answer: GoalAnswer | None = None
-
-
-async def wait_for_server(run: Run, action: Action, client: GoalClient) -> bool:
-    """Wait until our client and the action server know each other."""
-    name, kind = action.goal_service
-    there = await wait_until_seen(
-        run,
-        lambda: client.matched,
-        promised=lambda: action.has_server(run.graph),
-        message_gap_s=RESENT_S,
-        settle_s=lambda: patience_s(((server.name, server.type) for server in run.graph.servers), name, kind),
-    )
-    if there:
-        await settle(run)  # otherwise the first feedback may be lost
-    return there
-
-
-async def pursue(
-    run: Run, client: GoalClient, goal: Mapping[str, Any], cancel_after: int | None, limit_s: float
-) -> None:
-    """Send a goal, and wait for how it ends. `cancel_after`: ask to cancel it after so many feedback messages."""
-
-    def is_over() -> bool:
-        return bool(client.seen.outcome) or client.seen.accepted is False
-
-    client.send(goal)
-    await run.until(lambda: client.seen.accepted is not None, ANSWER_S, idle_s=RESENT_S)
-    if not client.seen.accepted:
-        return
-    if cancel_after is not None:
-        await run.until(lambda: is_over() or len(client.seen.feedback) >= cancel_after, limit_s, idle_s=RESENT_S)
-        if not is_over():
-            client.cancel()
-            await run.until(lambda: client.seen.cancel_accepted is not None, ANSWER_S, idle_s=RESENT_S)
-    await run.until(is_over, limit_s, idle_s=RESENT_S)
-
-
-@dataclass(frozen=True)
-class SendGoal:
-    """Start without parameters, and send a goal; see `pursue`. `feedback`: how many messages of it are waited for."""
-
-    program: Program
-    action: Action
-    goal: Mapping[str, Any] = field(hash=False)
-    feedback: int
-    cancel: bool
-    within_s: float
-
-    async def __call__(self, bench: Bench) -> GoalRun:
-        action = self.action
-        async with (
-            bench.start(self.program.file, expected_s=2.0) as run,
-            run.goal_client(action.name, action.type) as client,
-        ):
-            bench.report_progress(0.1, f"waiting for the action server of {action.name}")
-            if not await wait_for_server(run, action, client):
-                return (await look(run, does_nothing=True)).having(GoalRun)
-            bench.report_progress(0.4, f"sending a goal to {action.name}")
-            await pursue(run, client, self.goal, self.feedback if self.cancel else None, self.within_s)
-            # Feedback and result come on different ways: the last feedback may come after the result.
-            await run.until(lambda: len(client.seen.feedback) >= self.feedback, IDLE_S)
-            answer = client.seen
-            return (await look(run, does_nothing=not answer.accepted)).having(GoalRun, answer=answer)
+_IN_RESULT = "Look at what the callback puts into the result before it returns it."
 
 
 @dataclass(frozen=True)
 class HandlesGoal(Form):
     """An action server handles a goal as it should: it accepts it, sends feedback, and ends it with a result.
 
-    `goal`: its fields and their values. `ends`: "succeeded", "aborted", "rejected", or "canceled", where we ask for
-    that once it is accepted and the feedback is there. `feedback`: how many messages of it must come at least.
-    `result`: those of its fields that matter, with their values. `within_s`: how long the goal may take, in seconds.
+    `goal`: its fields and their values, or a function that draws them at random. `ends`: "succeeded", "aborted",
+    "rejected", or "canceled", where we ask for that once it is accepted and the feedback is there, and not before
+    `cancel_after_s`. `feedback`: how many messages of it must come at least. `result`: those of its fields that matter,
+    with their values, or a function that makes them of the goal. `partial`: of a list in the result, the beginning must
+    be there, and not all. `within_s`: how long the goal may take, in seconds; once canceled, it is 3 s at most.
 
         HandlesGoal("counts", FIBONACCI, {"order": 5}, feedback=1, result={"sequence": [0, 1, 1, 2, 3, 5]})
         HandlesGoal("stops", FIBONACCI, {"order": 50}, ends="canceled", feedback=2)
     """
 
     action: Action
-    goal: Mapping[str, Any] = field(hash=False)
+    goal: Goal = field(hash=False)
     ends: Outcome = "succeeded"
     feedback: int = 0
-    result: Mapping[str, Any] | None = field(default=None, hash=False)
+    result: OfGoal | None = field(default=None, hash=False)
     within_s: float = 10.0
+    cancel_after_s: float = 0.0
+    partial: bool = False
 
     def __post_init__(self) -> None:
-        if self.ends not in _STEPS:
-            raise ValueError(f"{self.id}: {self.ends!r} is no end of a goal: take one of {', '.join(_STEPS)}")
+        if self.ends not in STEPS:
+            raise ValueError(f"{self.id}: {self.ends!r} is no end of a goal: take one of {', '.join(STEPS)}")
 
     def criterion(self, exercise: Exercise) -> Criterion:
+        return self.judged(self.judge, self.scenario(exercise))
+
+    def scenario(self, exercise: Exercise) -> SendGoal:
+        """The goal that is sent; the same one is judged by a `SendsFeedback` of this form."""
+        judged = exercise.first(SendsFeedback, lambda form: form.of.id == self.id) is not None
         canceled, within_s = self.ends == "canceled", 0.0 if self.ends == "rejected" else self.within_s
-        scenario = SendGoal(exercise.program, self.action, self.goal, self.feedback, canceled, within_s)
-        return self.judged(self.judge, scenario)
+        program, after_s = exercise.program, self.cancel_after_s
+        return SendGoal(program, self.action, self.goal, self.feedback, canceled, within_s, after_s, judged)
 
     def judge(self, found: GoalRun) -> Verdict:
         """Judge what became of the goal."""
-        action, answer = self.action, found.answer
-        asked = f"{action.name} {' '.join(f'{name}={show(value)}' for name, value in self.goal.items())}".rstrip()
-        parts = [f"{asked} is {self.ends}"]
+        action, answer, goal = self.action, found.answer, found.goal or drawn(self.goal)
+        result = None if self.result is None else of_goal(self.result, goal)
+        parts = [f"{describe_goal(action, goal)} is {self.ends}"]
         parts += [f"after {counted(self.feedback, 'feedback message')}"] if self.feedback else []
-        parts += [f"with {dict(self.result)}"] if self.result else []
+        parts += [f"with {'the beginning of ' if self.partial else ''}{_short(result)}"] if result else []
         expected = " ".join(parts)
         tail = output_tail(found.trace)
         if answer is None:
             return failed(expected, f"{action.name} has no action server", action_missing(action, found), tail)
         trail = [str(dict(feedback.message)) for feedback in answer.feedback[:3]]
-        observed, why = self._what_is_wrong(found, answer)
+        observed, why = self._what_is_wrong(found, answer, result)
         if why is not None:
             return failed(expected, observed, why, [*trail, *tail])
         return passed(expected, observed, trail)
 
-    def _what_is_wrong(self, seen: Seen, answer: GoalAnswer) -> tuple[str, Observation | None]:
+    def _what_is_wrong(self, seen: Seen, answer: GoalAnswer, result: Fields | None) -> tuple[str, Observation | None]:
         """What was observed, and the failure, if it is one."""
 
         def wrong(observed: str, do: str) -> tuple[str, Observation]:
-            about = {"action": self.action.name, "wanted": self.ends, "found": outcome}
-            return observed, seen.symptom(Symptom.WRONG_GOAL, says=observed, do=do, **about)
+            return observed, wrong_goal(self.action, seen, answer, observed, do, self.ends)
 
-        outcome = "rejected" if answer.accepted is False else answer.outcome
+        outcome = outcome_of(answer)
         if self.ends == "canceled" and answer.cancel_accepted is False:
             do = "Give the action server a cancel_callback that returns CancelResponse.ACCEPT."
             return wrong("it is accepted, and our request to cancel it is not", do)
+        if self.ends == "canceled" and answer.accepted and not outcome:
+            if answer.cancel_accepted:
+                return wrong(f"it still runs {CANCELED_S:g} s after it accepted to be canceled", STEPS["canceled"])
+            return wrong("it runs, and our request to cancel it gets no answer", _LET_IN)
         if answer.accepted is None or (not outcome and self.ends != "rejected"):
             return unanswered(self.action, seen, answer, self.within_s)
         if outcome != self.ends:
             ended = "it is accepted" if self.ends == "rejected" else f"it is {outcome}"
+            if self.ends == "canceled" and answer.cancel_accepted is None:
+                do = "Let the goal take its time, and let the node take in requests meanwhile."
+                return wrong(f"{ended}, not canceled: it ended before our request was taken in", do)
             accept = "Let the goal_callback return GoalResponse.ACCEPT for it."
-            return wrong(f"{ended}, not {self.ends}", accept if outcome == "rejected" else _STEPS[self.ends])
+            return wrong(f"{ended}, not {self.ends}", accept if outcome == "rejected" else STEPS[self.ends])
         if len(answer.feedback) < self.feedback:
             do = "Call publish_feedback() on the goal handle while the goal runs."
             return wrong(f"{self.ends} with {counted(len(answer.feedback), 'feedback message')}", do)
-        if self.result is not None and not agrees(answer.result, self.result):
-            return wrong(
-                f"{self.ends} with {dict(answer.result or {})}, not {dict(self.result)}",
-                "Look at what the callback puts into the result before it returns it.",
-            )
-        return f"{self.ends}, {counted(len(answer.feedback), 'feedback message')}, {dict(answer.result or {})}", None
+        got = answer.result or {}
+        if result is not None and not (begins(got, result) if self.partial else agrees(got, result)):
+            return wrong(f"{self.ends} with {_short(got)}, not {_short(result)}", _IN_RESULT)
+        return f"{self.ends}, {counted(len(answer.feedback), 'feedback message')}, {_short(got)}", None
 
 
-def action_missing(action: Action, seen: Seen) -> Observation:
-    """There is no server of this action; others may be there."""
-    services = [(server.name, server.type) for server in seen.trace.graph.servers if server.name.endswith(GOAL_SERVICE)]
-    others = [f"{name.removesuffix(GOAL_SERVICE)} of type {kind.removesuffix(GOAL_TYPE)}" for name, kind in services]
-    says = f"there is an action server {' and '.join(others)}, but none {action.name} of type {action.type}"
-    return seen.symptom(Symptom.ACTION_MISSING, action=action.name, type=action.type, says=says if others else "")
+_LET_IN = "Let the node take in requests while the goal runs: see what runs its execute callback meanwhile."
 
 
-def unanswered(action: Action, seen: Seen, answer: GoalAnswer, within_s: float) -> tuple[str, Observation]:
-    """What was observed of a goal without an answer or an end, and the failure."""
-    says, do = f"{action.name} does not answer a goal", "Look at what its goal_callback waits for."
-    if answer.accepted:
-        says = f"{action.name} accepts the goal, and does not end it within {within_s:g} s"
-        do = "Follow the execute callback to where it stays, and let it return its result."
-    return says, seen.symptom(Symptom.NO_ANSWER, action=action.name, type=action.type, says=says, do=do)
+@dataclass(frozen=True)
+class SendsFeedback(Form):
+    """The goal of another criterion gets feedback step by step, while it runs.
+
+    `of`: that criterion. `steps`: the feedback messages in their order, or a function that makes them of the goal. Each
+    one that comes must be one of them, and none may come after a later one; `may_miss` says how many need not come, as
+    the first or the last one. `over_s`: from the first to the last one, at least so many seconds must pass.
+
+        SendsFeedback("feedback", counts, lambda goal: [{"sequence": [0, 1][:n]} for n in (1, 2)], over_s=0.3)
+    """
+
+    of: HandlesGoal
+    steps: Callable[[Fields], Sequence[Fields]] | Sequence[Fields] = field(hash=False)
+    may_miss: int = 0
+    over_s: float = 0.0
+
+    def criterion(self, exercise: Exercise) -> Criterion:
+        return self.judged(self.judge, self.of.scenario(exercise))
+
+    def judge(self, found: GoalRun) -> Verdict:
+        """Judge the feedback, however the goal ended."""
+        action, goal = self.of.action, found.goal or drawn(self.of.goal)
+        steps = self.steps(goal) if callable(self.steps) else self.steps
+        least = max(1, len(steps) - self.may_miss)
+        expected = f"{describe_goal(action, goal)} gets at least {counted(least, 'feedback message')}, step by step"
+        if found.answer is None:
+            return failed(expected, f"{action.name} has no action server", action_missing(action, found))
+        feedback = found.answer.feedback
+        trail = [str(dict(sample.message)) for sample in feedback[:8]]
+
+        def wrong(observed: str, do: str) -> Verdict:
+            why = wrong_goal(action, found, found.answer, observed, do, "feedback")
+            return failed(expected, observed, why, [*trail, *output_tail(found.trace, 3)])
+
+        reached, different = 0, 0
+        for sample in feedback:
+            at = next((n for n, step in enumerate(steps, 1) if n >= reached and agrees(sample.message, step)), 0)
+            if not at:
+                return wrong(f"feedback {_short(sample.message)}", "Look at what is in the feedback when it is sent.")
+            different += at > reached
+            reached = at
+        if different < least:
+            says = f"{counted(different, 'feedback message')}{' that differ' if different > 1 else ''}"
+            return wrong(says, "Publish feedback after each step, not only once.")
+        took_s = feedback[-1].source_time - feedback[0].source_time
+        if took_s < self.over_s:
+            says = f"all feedback within {took_s:.2f} s, not spread over at least {self.over_s:g} s"
+            return wrong(says, "Publish feedback as soon as a step is done, and let time pass until the next one.")
+        return passed(expected, f"{len(feedback)} messages in {took_s:.1f} s", trail)
+
+
+def wrong_goal(action: Action, seen: Seen, answer: GoalAnswer | None, says: str, do: str, wanted: str) -> Observation:
+    """A goal that does not go as it should. `wanted`: how it should have ended, or "feedback"."""
+    about: Mapping[str, Any] = {"action": action.name, "wanted": wanted, "answer": answer}
+    found = outcome_of(answer) if answer is not None else ""
+    return seen.symptom(Symptom.WRONG_GOAL, says=says, do=do, found=found, **about)
+
+
+def begins(value: Fields, whole: Fields) -> bool:
+    """Whether each list of `whole` has begun in `value`, and is not complete; other fields must agree."""
+
+    def has_begun(got: Any, wanted: Any) -> bool:
+        if not isinstance(wanted, list | tuple):
+            return agrees(got, wanted)
+        return isinstance(got, list | tuple) and 0 < len(got) < len(wanted) and agrees(got, wanted[: len(got)])
+
+    return all(name in value and has_begun(value[name], wanted) for name, wanted in whole.items())
+
+
+def _short(fields: Fields) -> str:
+    """Fields for use in a sentence: long lists are cut in the middle."""
+
+    def cut(value: Any) -> str:
+        if not isinstance(value, list | tuple) or len(value) <= 8:
+            return repr(value)
+        return f"[{', '.join(map(repr, value[:4]))}, … {value[-1]!r}]"
+
+    return f"{{{', '.join(f'{name!r}: {cut(value)}' for name, value in fields.items())}}}"

@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 
 from tutor.exercise.bad_values import BadValues
 from tutor.exercise.defaults import DeclaringRun, Defaults
-from tutor.exercise.handles_goal import action_missing, pursue, unanswered, wait_for_server
+from tutor.exercise.goal_run import action_missing, pursue, unanswered, wait_for_server
 from tutor.exercise.node_parameters import ANSWER_S, DumpSilentNode, find_parameter
 from tutor.exercise.nouns import Action, Parameter, Program, Service, Topic, Value, agrees, show
 from tutor.exercise.receives import wait_for_subscription

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeVar
 
 from tutor.errors import MachineTooBusy as MachineTooBusy
@@ -24,6 +24,7 @@ from tutor.judge.trace import (
     LogRecord,
     OutputLine,
     Sample,
+    ServedGoal,
     ServedRequest,
     SetAnswer,
     Trace,
@@ -87,6 +88,30 @@ class GoalClient(Protocol):
 
     def cancel(self) -> None:
         """Ask the server to cancel the goal, which must have been accepted."""
+
+
+@dataclass(frozen=True)
+class GoalReplies:
+    """What our action server does with each goal: it rejects it, or sends feedback step by step, and then the result.
+
+    `feedback` and `result`: fields to values; before each message and before the result, `step_s` seconds pass.
+    """
+
+    accepts: bool = True
+    feedback: tuple[Mapping[str, Any], ...] = ()
+    result: Mapping[str, Any] = field(default_factory=dict)
+    step_s: float = 0.3
+
+
+class GoalServer(Protocol):
+    """Our server of an action for the learner's clients. It is not there until it is opened."""
+
+    @property
+    def goals(self) -> Sequence[ServedGoal]:
+        """The goals that it has got so far, and how far each of them is."""
+
+    def open(self) -> None:
+        """Let it appear in the graph."""
 
 
 class Run(Protocol):
@@ -190,6 +215,9 @@ class Run(Protocol):
 
     def goal_client(self, action: str, type: str) -> AbstractAsyncContextManager[GoalClient]:
         """Create an action client in a node and participant of our own; both leave the graph when the context exits."""
+
+    def goal_server(self, action: str, type: str, replies: GoalReplies) -> AbstractAsyncContextManager[GoalServer]:
+        """Create an action server in a node and participant of our own; both leave the graph when the context exits."""
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         """Subscribe as `ros2 topic echo` does: a separate participant that takes type and QoS from the publishers.

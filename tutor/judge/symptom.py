@@ -36,6 +36,7 @@ class Symptom(Enum):
     WRONG_ANSWER = "a service's answer is wrong"
     CALLS_MISSING = "a client does not make its calls, or not all"
     RUNS_ON = "a program that should end by itself goes on"
+    NOT_TOLD = "an action client does not say what becomes of its goal"
     WRONG_EXIT_CODE = "a program that should end with 0 ends with another exit code"
     STANDS_STILL = "a callback keeps others from running"
     CALLS_WAIT = "calls of a service made at once wait for each other"

@@ -147,6 +147,20 @@ class GoalAnswer:
 
 
 @dataclass(frozen=True, slots=True)
+class ServedGoal:
+    """A goal that our own action server got.
+
+    `at`: when it came in. `feedback`: how many messages it has sent so far. `ended`: the result is there.
+    """
+
+    goal: Mapping[str, Any]
+    accepted: bool
+    at: float = 0.0
+    feedback: int = 0
+    ended: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Echo:
     """What `ros2 topic echo` would have shown. `types`: all types on the topic; with more than one, echo refuses.
 

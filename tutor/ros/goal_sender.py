@@ -45,11 +45,12 @@ class GoalSender(Observer):
             callback_group=self._gate,
         )
         self._goal_id = b""
+        take: Any = self._take_feedback  # with the message's info, which rclpy's types do not know
         # Not through the client: the result may overtake feedback, and rclpy drops what comes after it.
         self._feedback = self.node.create_subscription(
             self._type.Impl.FeedbackMessage,
             f"{action}/_action/feedback",
-            self._take_feedback,
+            take,
             QoSProfile(depth=MAX_FEEDBACK),
             callback_group=self._gate,
         )
@@ -90,11 +91,11 @@ class GoalSender(Observer):
         if self._handle.accepted:
             self._handle.get_result_async().add_done_callback(self._take_result)
 
-    def _take_feedback(self, message: Any) -> None:
+    def _take_feedback(self, message: Any, info: Any) -> None:
         if bytes(message.goal_id.uuid) != self._goal_id:  # another client's
             return
-        now = time.time()
-        self._call_on_loop(self._add_feedback, Sample(self._action, to_plain(message.feedback), now, now))
+        sample = Sample(self._action, to_plain(message.feedback), info["source_timestamp"] * 1e-9, time.time())
+        self._call_on_loop(self._add_feedback, sample)
 
     def _take_cancel(self, done: Any) -> None:
         self._call_on_loop(self._note, {"cancel_accepted": bool(done.result().goals_canceling)})

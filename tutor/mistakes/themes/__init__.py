@@ -51,6 +51,7 @@ from tutor.mistakes.themes import parameter_callback_results as parameter_callba
 from tutor.mistakes.themes import parameter_callbacks as parameter_callbacks
 from tutor.mistakes.themes import parameter_validation as parameter_validation
 from tutor.mistakes.themes import wrong_responses as wrong_responses
+from tutor.mistakes.themes import actions as actions
 from tutor.mistakes.themes import executor_threads as executor_threads
 from tutor.mistakes.themes import unread_attributes as unread_attributes
 from tutor.mistakes.themes import comparisons as comparisons

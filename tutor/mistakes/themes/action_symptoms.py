@@ -61,3 +61,33 @@ def wrong_goal(case: Case) -> Iterator[Found]:
         f"a goal of {action} does not go as it should",
         "Send the goal by hand, and follow it through the callback that executes it.",
     )
+
+
+@symptom("goal-not-followed", explains=[Symptom.NOT_TOLD])
+def goal_not_followed(case: Case) -> Iterator[Found]:
+    """A client sends a goal, and does not say what becomes of it.
+
+    Three things come back from an action server: whether it accepts the goal, feedback, and the result. Each has to be
+    asked for, and waited for: a goal handle is not the result, and what nobody gives a callback for is dropped.
+
+    Bad:
+
+        sent = self.gate.send_goal_async(Gate.Goal(speed=3))
+        rclpy.spin_until_future_complete(self, sent)
+        print(sent.result())
+
+    Good:
+
+        sent = self.gate.send_goal_async(Gate.Goal(speed=3), feedback_callback=self.show_angle)
+        rclpy.spin_until_future_complete(self, sent)
+        ended = sent.result().get_result_async()
+        rclpy.spin_until_future_complete(self, ended)
+        print(ended.result().result)
+
+    See it: compare with what `ros2 action send_goal --feedback ACTION TYPE VALUES` shows.
+    """
+    return in_words(
+        case,
+        "the client does not say what becomes of its goal",
+        "Follow the goal in the client: is it accepted, what does feedback say, and what is the result?",
+    )

@@ -20,7 +20,7 @@ _OF_A_LAUNCH = (Symptom.NOT_LAUNCHED, Symptom.WRONG_NAMES, Symptom.NOT_CONNECTED
 """A launch that ends by itself is explained by what launch has said."""
 
 _WHILE_RUNNING = tuple(symptom for symptom in EVERY_SYMPTOM if symptom not in (*_AFTER_CTRL_C, *_OF_A_LAUNCH))
-_OF_A_CLIENT = (Symptom.CALLS_MISSING, Symptom.RUNS_ON, Symptom.WRONG_EXIT_CODE)
+_OF_A_CLIENT = (Symptom.CALLS_MISSING, Symptom.RUNS_ON, Symptom.NOT_TOLD, Symptom.WRONG_EXIT_CODE)
 WHILE_A_NODE_RUNS = tuple(symptom for symptom in _WHILE_RUNNING if symptom not in _OF_A_CLIENT)
 """A client ends by itself, and gets no arguments from ROS."""
 

@@ -109,10 +109,10 @@ def _sets_a_field(case: Case, fields: tuple[str, ...]) -> bool:
 
 @mistake(
     "shared-state",
-    explains=[Symptom.WRONG_ANSWER],
+    explains=[Symptom.WRONG_ANSWER, Symptom.WRONG_GOAL],
     evidence=Evidence.RUN,
-    says="one call was answered with the result of another that was made at the same time",
-    do="Keep what belongs to one call in local variables of the callback.",
+    says="{what}",
+    do="Keep what belongs to one {call} in local variables of the callback.",
     example=in_run(Symptom.WRONG_ANSWER, shared=True),
 )
 def shared_state(case: Case) -> Iterator[Found]:
@@ -136,10 +136,17 @@ def shared_state(case: Case) -> Iterator[Found]:
             response.message = f'hello {request.data}'
             return response
 
-    See it: call the service twice at once, with different values.
+    See it: call the service twice at once, with different values. The same happens to two goals of an action.
     """
-    if case.about("shared"):
-        yield Found()
+    if not case.about("shared"):
+        return
+    if case.symptom is Symptom.WRONG_GOAL:
+        yield Found(
+            {"what": "a goal that came while another one ran ended with what belongs to that one", "call": "goal"}
+        )
+    else:
+        what = "one call was answered with the result of another that was made at the same time"
+        yield Found({"what": what, "call": "call"})
 
 
 @mistake(

@@ -1,0 +1,1 @@
+../async-timer/countdown_client.py

@@ -1,0 +1,1 @@
+../../right/async-timer/countdown_server.py
