@@ -19,15 +19,21 @@ below:
 How the program is started, how long is waited, and what the machine may be to blame for is the forms' business.
 """
 
+from tutor.exercise.answers_at_once import AnswersAtOnce
+from tutor.exercise.answers_by_asking import AnswersByAsking
+from tutor.exercise.answers_without_reply import AnswersWithoutReply
 from tutor.exercise.argument_moves import ArgumentMovesNamespace, ArgumentMovesTopic
+from tutor.exercise.asking import Asking
 from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.criterion_function import criterion
 from tutor.exercise.defaults import Defaults
 from tutor.exercise.ends_cleanly import EndsCleanly
+from tutor.exercise.ends_while_asking import EndsWhileAsking
 from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.form import Custom, Form, check
 from tutor.exercise.handles_goal import HandlesGoal
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
+from tutor.exercise.keeps_pace_while_asking import KeepsPaceWhileAsking
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
 from tutor.exercise.nouns import (
@@ -60,19 +66,25 @@ __all__ = [
     "SAYS_ERROR",
     "Action",
     "Answers",
+    "AnswersAtOnce",
+    "AnswersByAsking",
+    "AnswersWithoutReply",
     "ArgumentMovesNamespace",
     "ArgumentMovesTopic",
+    "Asking",
     "AtLeast",
     "CallsAll",
     "Contains",
     "Custom",
     "Defaults",
     "EndsCleanly",
+    "EndsWhileAsking",
     "FieldEquals",
     "Fields",
     "Form",
     "HandlesGoal",
     "InRange",
+    "KeepsPaceWhileAsking",
     "LaunchFile",
     "LogsParameter",
     "LogsText",
