@@ -75,7 +75,7 @@ class CallAtOnce:
             overlapped = len(desk.held) > 1
             desk.reply(*reversed(desk.held))
             desk.replies_at_once = True
-            return tuple(desk.with_exchanges(await call, began) for call in calls), overlapped
+            return tuple([desk.with_exchanges(await call, began) for call in calls]), overlapped
 
 
 @dataclass(frozen=True)
