@@ -66,6 +66,7 @@ PAGE_OF = {
     "waiting_clients": "services",
     "wrong_arithmetic": "services",
     "wrong_responses": "services",
+    "asking_services": "callbacks",
     "asynchronous": "callbacks",
     "blocked_callbacks": "callbacks",
     "callback": "callbacks",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from tutor.exercise.answers_by_asking import describe_call, no_answer, no_answer_in_words, what_is_wrong
 from tutor.exercise.asking import (
@@ -11,6 +13,7 @@ from tutor.exercise.asking import (
     AskingRun,
     Desk,
     DumpWhileAsking,
+    answers_with,
     is_right,
     open_desk,
     wait_for_both,
@@ -100,12 +103,21 @@ class AnswersAtOnce(Form):
         lines = [describe_call(asking, call) for call in seen.calls]
         for call in seen.calls:
             if call.answer.response is None:
-                why = no_answer(asking, seen, call)
+                why = no_answer(asking, seen, call, at_once=len(seen.calls))
                 observed = no_answer_in_words(asking, seen, call)
                 return failed(expected, observed, why, (*lines, *output_tail(seen.trace)))
         for call in seen.calls:
             if not is_right(asking, call):
-                observed, why = what_is_wrong(asking, seen, call)
+                others = [reply for other in seen.calls for reply in other.replies]
+                observed, why = what_is_wrong(asking, seen, call, shared=self._shared(call, others))
                 return failed(expected, observed, why, lines)
         how = "both asked for at once" if seen.overlapped else "one asked for after the other"
         return passed(expected, f"both answered; {how}", lines)
+
+    def _shared(self, call: AskingCall, replies: Sequence[Mapping[str, Any]]) -> str:
+        """With what a call was answered wrongly, if that is the reply to another call, or nothing at all."""
+        assert call.answer.response is not None
+        if any(answers_with(call.answer, self.asking.right_answer(reply)) for reply in replies):
+            return "the result of another that was made at the same time"
+        empty = not any(call.answer.response.values())
+        return "nothing filled in, since another was made at the same time" if empty else ""

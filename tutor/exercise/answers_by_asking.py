@@ -29,6 +29,9 @@ from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Verdict, failed, passed
 from tutor.judge.wording import describe_no_answer, output_tail
 
+GIVEN_UP_S = 0.5
+"""A refusal that takes this long, though we have replied at once, comes at the end of a time limit."""
+
 ROUNDS = 2
 """How often each request is made: an answer that is kept from the call before shows."""
 
@@ -122,14 +125,14 @@ def _shown(fields: object) -> str:
     return str(dict(fields)) if isinstance(fields, dict) else "nothing" if fields is None else str(fields)
 
 
-def not_offered(asking: Asking, seen: AskingRun) -> Observation:
-    """The node's service is not there."""
+def not_offered(asking: Asking, seen: AskingRun, *, alone: bool = False) -> Observation:
+    """The node's service is not there. `alone`: neither is our server."""
     name = asking.service.name
     return seen.symptom(
         Symptom.SERVICE_MISSING,
         service=name,
         type=asking.service.type,
-        services=(name,),
+        services=(name,) if alone else (name, asking.asks.name),
         says=f"{name} is not there",
         do="Create the service where the node is set up, under its own name and with its own callback.",
     )
@@ -145,8 +148,8 @@ def no_answer_in_words(asking: Asking, seen: AskingRun, call: AskingCall) -> str
     return f"{asking.asks.name} was not asked; {asking.service.name}: {got}"
 
 
-def no_answer(asking: Asking, seen: AskingRun, call: AskingCall) -> Observation:
-    """A call got no answer. `replied`: whether our server has replied to it; `asked`: whether it was asked."""
+def no_answer(asking: Asking, seen: AskingRun, call: AskingCall, *, at_once: int = 1) -> Observation:
+    """A call got no answer. `at_once`: how many calls there were at the same time."""
     name = asking.service.name
     says, do = f"{name} does not answer, and does not ask", f"Follow the callback of {name} to where it stays."
     if call.replies:
@@ -159,30 +162,41 @@ def no_answer(asking: Asking, seen: AskingRun, call: AskingCall) -> Observation:
         Symptom.NO_ANSWER,
         service=name,
         type=asking.service.type,
+        services=(name, asking.asks.name),
         asks=asking.asks.name,
         asked=bool(call.exchanges),
         replied=bool(call.replies),
+        at_once=at_once,
         says=says,
         do=do,
     )
 
 
-def what_is_wrong(asking: Asking, seen: AskingRun, call: AskingCall) -> tuple[str, Observation]:
-    """What was observed of a call with a wrong answer, and the symptom."""
+def what_is_wrong(asking: Asking, seen: AskingRun, call: AskingCall, *, shared: str = "") -> tuple[str, Observation]:
+    """What was observed of a call with a wrong answer, and the symptom.
+
+    `shared`: with what it was answered, if that comes from another call made at the same time.
+    """
     name, answer, own = asking.service.name, call.answer, asking.passed_on(call.answer.request)
     assert answer.response is not None
     got, asked = dict(answer.response), [e for e in call.exchanges if agrees(e.asked, own)]
+    refused = bool(asking.refusal) and answers_with(answer, asking.refusal)
+    given_up = refused and bool(call.replies) and answer.took_s >= GIVEN_UP_S
     if not call.exchanges:
         observed = f"answered {got}, without asking {asking.asks.name}"
         says = f"{name} answers, and nobody has asked {asking.asks.name}"
         do = "Send the request with the client in the service's callback, and answer with what comes back."
-        if answers_with(answer, asking.refusal):
+        if refused:
             says = f"{name} refuses, though {asking.asks.name} is there"
             do = "Look at what the callback takes for a sign that nobody is there."
     elif not asked:
         observed = f"{asking.asks.name} was asked with {_shown(call.exchanges[0].asked)}, not {own}"
         says = f"{name} got {_shown(answer.request)}, and asks {asking.asks.name} for something else"
         do = "Fill the fields of the request that you send from those of the request that you got."
+    elif given_up:
+        observed = f"answered {got} after {answer.took_s:.1f} s; {asking.asks.name} had replied at once"
+        says = f"{name} gives up, though {asking.asks.name} has replied"
+        do = "Look at what takes in the reply while the callback waits for it: the thread, and the callback group."
     else:
         reply = next((e.reply for e in asked if e.reply is not None), {})
         observed = f"answered {got}; it was told {dict(asking.right_answer(reply))}"
@@ -195,6 +209,8 @@ def what_is_wrong(asking: Asking, seen: AskingRun, call: AskingCall) -> tuple[st
         asks=asking.asks.name,
         asked=bool(call.exchanges),
         answer=answer,
+        given_up=given_up,
+        shared=shared,
         says=says,
         do=do,
     )

@@ -122,7 +122,7 @@ class AnswersWithoutReply(Form):
             if self.ours == "silent":
                 return skipped(f"not judged, because there is no {name} to call")
             observed = f"while there is no {asks}, there is no {name} either"
-            return failed(expected, observed, not_offered(asking, seen), tail)
+            return failed(expected, observed, not_offered(asking, seen, alone=True), tail)
         call, later = seen.calls[-1], seen.later
         lines = [describe_call(asking, made) for made in (call, later) if made is not None]
         if call.answer.response is None:
@@ -156,6 +156,7 @@ class AnswersWithoutReply(Form):
             Symptom.NO_ANSWER,
             service=name,
             type=asking.service.type,
+            services=(name,) if self.ours == "missing" and not call.exchanges else (name, asks),
             asks=asks,
             asked=bool(call.exchanges),
             replied=bool(call.replies),

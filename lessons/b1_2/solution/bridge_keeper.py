@@ -31,7 +31,7 @@ class BridgeKeeper(Node):
     async def move(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         """Ask the harbour, and pass its reply on. `await` leaves the thread to others until the reply is there."""
         if not self.harbour.service_is_ready():
-            return self.refuse(response, "There is no harbour to ask")
+            return self.refuse(response, "There is no harbour")
         asked = self.harbour.call_async(SetBool.Request(data=request.data))
         patience = self.create_timer(PATIENCE_S, asked.cancel)
         reply = await asked  # None if it was cancelled

@@ -22,8 +22,8 @@ from tutor.source import argument, calls_in, last_name
 def answered_early(case: Case) -> Iterator[Found]:
     """A service answers before its work is done.
 
-    The response goes out when the callback returns it. A thread or task that fills it in later fills in an object that
-    nobody sends any more.
+    The response goes out when the callback returns it. A thread, a task or a done callback that fills it in later fills
+    in an object that nobody sends any more.
 
     Bad:
 
@@ -52,6 +52,8 @@ def answered_early(case: Case) -> Iterator[Found]:
                 continue
             for call in calls_in(callback, "Thread", "Timer", "submit", "create_task"):
                 yield found(file, call)
+            if callback is not None and not any(isinstance(node, ast.Await) for node in ast.walk(callback)):
+                yield from (found(file, call) for call in calls_in(callback, "add_done_callback"))
 
 
 @mistake(
@@ -111,7 +113,7 @@ def _sets_a_field(case: Case, fields: tuple[str, ...]) -> bool:
     "shared-state",
     explains=[Symptom.WRONG_ANSWER],
     evidence=Evidence.RUN,
-    says="one call was answered with the result of another that was made at the same time",
+    says="one call was answered with {with_what}",
     do="Keep what belongs to one call in local variables of the callback.",
     example=in_run(Symptom.WRONG_ANSWER, shared=True),
 )
@@ -138,8 +140,9 @@ def shared_state(case: Case) -> Iterator[Found]:
 
     See it: call the service twice at once, with different values.
     """
-    if case.about("shared"):
-        yield Found()
+    if shared := case.about("shared"):
+        what = shared if isinstance(shared, str) else "the result of another that was made at the same time"
+        yield Found({"with_what": what})
 
 
 @mistake(

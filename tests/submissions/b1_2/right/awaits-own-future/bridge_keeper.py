@@ -12,7 +12,7 @@ class Keeper(Node):
         super().__init__("bridge_keeper", namespace="bridge")
         self.group = ReentrantCallbackGroup()
         self.office = self.create_client(SetBool, "/harbour/clearance", callback_group=self.group)
-        self.create_service(SetBool, "move", self.handle, callback_group=self.group)
+        self.create_service(SetBool, "move", self.on_move, callback_group=self.group)
         self.lamp = self.create_publisher(Bool, "light", 1)
         self.blinker = self.create_timer(1 / 10, lambda: self.lamp.publish(Bool(data=True)), callback_group=self.group)
 
@@ -41,7 +41,7 @@ class Keeper(Node):
         watchdog = self.create_timer(3.0, give_up, callback_group=self.group)
         return decision
 
-    async def handle(self, request, response):
+    async def on_move(self, request, response):
         response.success, response.message = await self.ask(request.data)
         return response
 
