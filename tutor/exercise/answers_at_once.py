@@ -11,13 +11,13 @@ from tutor.exercise.asking import (
     Asking,
     AskingCall,
     AskingRun,
+    BusyWatch,
     Desk,
     DumpWhileAsking,
     answers_with,
     is_right,
     open_desk,
     wait_for_both,
-    was_kept_waiting,
 )
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Program
@@ -52,14 +52,13 @@ class CallAtOnce:
             bench.report_progress(0.1, f"waiting for {asking.service.name}")
             if not await wait_for_both(run, self.program, asking):
                 return CalledAtOnce(run.trace(), offered=False)
-            first = await desk.reach()
+            watch, first = BusyWatch(run), await desk.reach()
             if first.answer.response is None or not first.exchanges:
-                return CalledAtOnce(run.trace(), calls=(first,))
+                return CalledAtOnce(run.trace(), slowed=watch.is_to_blame(first.answer), calls=(first,))
             bench.report_progress(0.4, f"calling {asking.service.name} twice at once")
-            began, waited_s = run.now(), run.node_cpu_wait_s()
             calls, overlapped = await self._call_twice(run, desk)
             lost = any(call.answer.response is None for call in calls)
-            slowed = lost and was_kept_waiting(run, waited_s, began)
+            slowed = watch.is_to_blame(*(call.answer for call in calls))
             trace = run.trace()
         stuck = await bench.facts(DumpWhileAsking(self.program, asking, "holds")) if lost and not trace.exit else ()
         return CalledAtOnce(trace, True, stuck, slowed, calls=calls, overlapped=overlapped)

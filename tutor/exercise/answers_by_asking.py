@@ -8,12 +8,12 @@ from tutor.exercise.asking import (
     Asking,
     AskingCall,
     AskingRun,
+    BusyWatch,
     DumpWhileAsking,
     answers_with,
     is_right,
     open_desk,
     wait_for_both,
-    was_kept_waiting,
 )
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.node_parameters import DumpSilentNode
@@ -59,7 +59,7 @@ class AskInTurn:
         async with bench.start(program.file, expected_s=1.5) as run, open_desk(run, asking) as desk:
             bench.report_progress(0.1, f"waiting for {asking.service.name}")
             offered, calls = await wait_for_both(run, program, asking), list[AskingCall]()
-            graph, is_stuck, answers, began, waited_s = run.graph, False, True, run.now(), run.node_cpu_wait_s()
+            graph, is_stuck, answers, watch = run.graph, False, True, BusyWatch(run)
             if offered:
                 parameters, is_stuck = await ask_unless_stuck(run, SPIN_S, lambda: bench.facts(silent))
                 answers = parameters is not None or not graph.parameter_nodes
@@ -70,7 +70,7 @@ class AskInTurn:
                     break
                 calls.append(await desk.call(given))
             unanswered = bool(calls) and calls[-1].answer.response is None
-            slowed = unanswered and was_kept_waiting(run, waited_s, began)
+            slowed = watch.is_to_blame(*(call.answer for call in calls))
             if unanswered and run.exit is None and not run.graph.nodes:
                 await run.wait_for_exit(EXIT_LIMIT_S)  # it is on its way out
             trace = run.trace()

@@ -20,6 +20,9 @@ from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE, patience_s, wait_until
 REACH_S = 5.0
 """Time in which the node finds our server: until then, it may rightly answer that there is none."""
 
+LATE_S = 1.0
+"""A node that gives up has waited for longer than this."""
+
 AGAIN_S = 0.3
 """Pause between two calls of a node that may not have found our server yet."""
 
@@ -183,12 +186,21 @@ async def wait_for_both(run: Run, program: Program, asking: Asking) -> bool:
     return there
 
 
-def was_kept_waiting(run: Run, waited_s: float, since: float) -> bool:
-    """Whether the node has waited for a CPU so much since then that the machine may be to blame for an answer missed.
+class BusyWatch:
+    """Tells whether the machine may be to blame for an answer that is missing, or given up, since this was made."""
 
-    `waited_s`: how long it had waited by then.
-    """
-    return run.node_cpu_wait_s() - waited_s >= CPU_WAIT_SHARE * (run.now() - since)
+    def __init__(self, run: Run) -> None:
+        self._run, self._since, self._waited_s = run, run.now(), _cpu_wait_s(run)
+
+    def is_to_blame(self, *answers: CallAnswer) -> bool:
+        """Whether one of these calls got no answer, or a late one, while the node or we waited for a CPU for long."""
+        late = any(answer.response is None or answer.took_s >= LATE_S for answer in answers)
+        return late and _cpu_wait_s(self._run) - self._waited_s >= CPU_WAIT_SHARE * (self._run.now() - self._since)
+
+
+def _cpu_wait_s(run: Run) -> float:
+    """How long the node and our own process, which replies to it, have waited for a CPU, in seconds."""
+    return run.node_cpu_wait_s() + run.our_cpu_wait_s()
 
 
 @dataclass(frozen=True)
@@ -233,5 +245,6 @@ def answers_with(answer: CallAnswer, wanted: Mapping[str, Any]) -> bool:
 
 def _has(value: Any, wanted: Any) -> bool:
     if callable(wanted):
-        return bool(wanted(value))
+        is_right: Callable[[Any], object] = wanted
+        return bool(is_right(value))
     return wanted in value if isinstance(wanted, str) and isinstance(value, str) else agrees(value, wanted)

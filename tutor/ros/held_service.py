@@ -34,7 +34,7 @@ class HeldService(Observer):
         self._replies: list[Future] = []
         # rclpy warns on stderr about a client that ended before its response; that is not our fault.
         warnings.filterwarnings("ignore", "failed to send response", RuntimeWarning)
-        group = ReentrantCallbackGroup()  # type: ignore[no-untyped-call]
+        group = ReentrantCallbackGroup()
         self._server = self.node.create_service(self._type, service, self._hold, callback_group=group)
         self._executor.wake()
 
@@ -54,7 +54,7 @@ class HeldService(Observer):
             self._executor.create_task(self.node.destroy_service, self._server)
 
     async def _hold(self, request: Any, response: Any) -> Any:
-        answer = Future()  # type: ignore[no-untyped-call]
+        answer = Future()
         self._call_on_loop(self._note, to_plain(request), time.time(), answer)
         return await answer
 

@@ -108,11 +108,17 @@ def limit_runs_out(case: Case) -> Iterator[Found]:
 
     Bad:
 
+        def __init__(self):
+            self.create_service(Trigger, 'ring', self.on_bell)
+
         def on_bell(self, request, response):
             answer = self.door.call(Trigger.Request(), timeout_sec=2.0)
             return response
 
     Good:
+
+        def __init__(self):
+            self.create_service(Trigger, 'ring', self.on_bell)
 
         async def on_bell(self, request, response):
             answer = await self.door.call_async(Trigger.Request())

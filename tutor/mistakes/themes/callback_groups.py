@@ -271,6 +271,8 @@ def deadlock_by_await(case: Case) -> Iterator[Found]:
     """
     for file in case.files:
         clients = [group_of(client) for client in file.calls("create_client")]
+        if not clients and file.calls("ReentrantCallbackGroup"):
+            continue
         for creator in ("create_timer", "create_subscription", "create_service"):
             for made in file.calls(creator):
                 group = group_of(made)
