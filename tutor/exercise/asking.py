@@ -15,7 +15,7 @@ from tutor.judge.bench import Bench, HoldingServer, Run
 from tutor.judge.tasks import Tasks
 from tutor.judge.trace import CallAnswer, HeldRequest
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE, patience_s, wait_until_seen
+from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE
 
 REACH_S = 5.0
 """Time in which the node finds our server: until then, it may rightly answer that there is none."""
@@ -174,12 +174,8 @@ async def open_desk(run: Run, asking: Asking) -> AsyncIterator[Desk]:
 async def wait_for_both(run: Run, program: Program, asking: Asking) -> bool:
     """Wait for the node's service, and, if our server is up, until the node can know it. Return whether it is there."""
     server = Server(program, (asking.service,))
-    present = lambda: ((found.name, found.type) for found in run.graph.servers)  # noqa: E731
-    there = await wait_until_seen(
-        run,
-        lambda: not server.missing(run.graph.servers),
-        settle_s=lambda: patience_s(present(), asking.service.name, asking.service.type),
-    )
+    await server.wait(run)
+    there = not server.missing(run.graph.servers)
     if there:
         until = run.now() + MATCH_S
         await run.until(lambda: run.now() >= until, MATCH_S)
