@@ -38,7 +38,7 @@ ROUNDS = 2
 
 @dataclass(frozen=True)
 class AskedInTurn(AskingRun):
-    """Calls one after the other, up to the first without an answer; the run ends with Ctrl+C."""
+    """Calls one after the other, up to the first without a right answer; the run ends with Ctrl+C."""
 
     ending: Ending | None = None
 
@@ -66,7 +66,7 @@ class AskInTurn:
                 bench.report_progress(0.3, f"calling {asking.service.name}, and replying on {asking.asks.name}")
                 calls.append(await desk.reach(STUCK_CALL_S if is_stuck else ANSWER_S))
             for given in asking.requests * ROUNDS if calls and calls[0].exchanges else ():
-                if calls[-1].answer.response is None:
+                if not is_right(asking, calls[-1]):
                     break
                 calls.append(await desk.call(given))
             unanswered = bool(calls) and calls[-1].answer.response is None

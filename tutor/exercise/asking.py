@@ -152,10 +152,10 @@ class Desk:
         return AskingCall(answer, tuple(exchanges))
 
     async def reach(self, limit_s: float = ANSWER_S) -> AskingCall:
-        """Call the node until it asks us, does not answer, or has had `REACH_S` for it; return the last call."""
+        """Call the node until it asks us, or answers otherwise than if we were not there; return the last call."""
         until = self._run.now() + REACH_S
         call = await self.call(self._asking.requests[0], limit_s)
-        while call.answer.response is not None and not call.exchanges and self._run.now() < until:
+        while not call.exchanges and answers_with(call.answer, self._asking.refusal) and self._run.now() < until:
             again_at = self._run.now() + AGAIN_S
             await self._run.until(lambda: self._run.now() >= again_at, 2 * AGAIN_S)  # noqa: B023
             call = await self.call(self._asking.requests[0], limit_s)
