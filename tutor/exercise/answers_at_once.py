@@ -54,11 +54,11 @@ class CallAtOnce:
                 return CalledAtOnce(run.trace(), offered=False)
             watch, first = BusyWatch(run), await desk.reach()
             if first.answer.response is None or not first.exchanges:
-                return CalledAtOnce(run.trace(), slowed=watch.is_to_blame(first.answer), calls=(first,))
+                return CalledAtOnce(run.trace(), slowed=watch.is_to_blame(first), calls=(first,))
             bench.report_progress(0.4, f"calling {asking.service.name} twice at once")
             calls, overlapped = await self._call_twice(run, desk)
             lost = any(call.answer.response is None for call in calls)
-            slowed = watch.is_to_blame(*(call.answer for call in calls))
+            slowed = watch.is_to_blame(*calls)
             trace = run.trace()
         stuck = await bench.facts(DumpWhileAsking(self.program, asking, "holds")) if lost and not trace.exit else ()
         return CalledAtOnce(trace, True, stuck, slowed, calls=calls, overlapped=overlapped)

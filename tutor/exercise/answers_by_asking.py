@@ -70,7 +70,7 @@ class AskInTurn:
                     break
                 calls.append(await desk.call(given))
             unanswered = bool(calls) and calls[-1].answer.response is None
-            slowed = watch.is_to_blame(*(call.answer for call in calls))
+            slowed = watch.is_to_blame(*calls)
             if unanswered and run.exit is None and not run.graph.nodes:
                 await run.wait_for_exit(EXIT_LIMIT_S)  # it is on its way out
             trace = run.trace()

@@ -91,7 +91,7 @@ class CallWithoutReply:
             return self._seen(run, watch, call, later)
 
     def _seen(self, run: Run, watch: BusyWatch, call: AskingCall, later: AskingCall | None) -> UnrepliedRun:
-        slowed = watch.is_to_blame(*(made.answer for made in (call, later) if made is not None))
+        slowed = watch.is_to_blame(*(made for made in (call, later) if made is not None))
         return UnrepliedRun(run.trace(), slowed=slowed, calls=(call,), later=later)
 
 

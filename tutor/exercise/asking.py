@@ -183,14 +183,17 @@ async def wait_for_both(run: Run, program: Program, asking: Asking) -> bool:
 
 
 class BusyWatch:
-    """Tells whether the machine may be to blame for an answer that is missing, or given up, since this was made."""
+    """Tells whether the machine may be to blame for an answer that is missing, or was given up, since this was made."""
 
     def __init__(self, run: Run) -> None:
         self._run, self._since, self._waited_s = run, run.now(), _cpu_wait_s(run)
 
-    def is_to_blame(self, *answers: CallAnswer) -> bool:
-        """Whether one of these calls got no answer, or a late one, while the node or we waited for a CPU for long."""
-        late = any(answer.response is None or answer.took_s >= LATE_S for answer in answers)
+    def is_to_blame(self, *calls: AskingCall) -> bool:
+        """Whether, after our reply, one of these calls got no answer, or a late one, while the node or we were slowed.
+
+        A reply may get lost, or a node give up, before it is there. Without a reply, the limit of the call is enough.
+        """
+        late = any(call.replies and (call.answer.response is None or call.answer.took_s >= LATE_S) for call in calls)
         return late and _cpu_wait_s(self._run) - self._waited_s >= CPU_WAIT_SHARE * (self._run.now() - self._since)
 
 
