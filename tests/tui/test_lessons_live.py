@@ -296,3 +296,27 @@ async def test_i2_3(session: Session) -> None:
         me.reads("Meanwhile the ticks in the log must continue. The log is beside Live if your terminal is wide enough")
         await me.press("3", "left_square_bracket")
         await me.sees("Tick ")
+
+
+async def test_b1_2(session: Session) -> None:
+    async with reading(session, "b1.2") as me:
+        me.reads("switch to Live with `4`: `/bridge/light` is there, with its rate")
+        await me.press("r")
+        await me.sees("Ready: /bridge/move")
+        await me.press("4")
+        await me.sees("/bridge/light  std_msgs/Bool")
+        await me.sees_rate(10.0)
+        me.reads("the form for `/bridge/move` is open: press Enter, fill in `data`", "There is no harbour yet")
+        await me.press("S")
+        await me.sees("/bridge/move", "data bool")
+        await me.press("enter")
+        await me.until_field_focused()
+        await me.press("ctrl+u", *"true", "enter")
+        await me.sees("There is no harbour")
+        me.reads("`b` starts a harbour office, which thinks for 1.5 seconds", "the form says *waiting*, then shows")
+        await me.press("escape", "b")
+        await me.sees("Ready: /harbour/clearance")
+        await me.press("4", "enter")
+        await me.until_field_focused()
+        await me.press("enter")
+        await me.sees("clearance 101 to raise", "answered in 1.")
