@@ -204,7 +204,9 @@ def test_no_reply(ours: str) -> None:
 def test_the_end_while_it_waits() -> None:
     judge = judge_of(CHECK, "busy")
     assert_passed(judge(InterruptedAsking(trace(), True, ending())))
-    assert_failed(judge(InterruptedAsking(trace(), True, ending(still_running=True))), "does not end", check=CHECK)
+    assert_failed(
+        judge(InterruptedAsking(trace(), True, ending(still_running=True))), "does not end", "/oven", check=CHECK
+    )
     assert judge(InterruptedAsking(trace(), False, ending())).status is Status.SKIPPED
     assert judge(InterruptedAsking(CRASHED, True)).status is Status.SKIPPED
 

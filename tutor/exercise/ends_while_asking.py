@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tutor.exercise.asking import Asking, open_desk, wait_for_both
 from tutor.exercise.form import Exercise, Form
@@ -11,9 +11,10 @@ from tutor.exercise.service_calls import ANSWER_S
 from tutor.judge.bench import Bench
 from tutor.judge.check import Criterion
 from tutor.judge.ending import judge_ending, repeat_chance_failures
+from tutor.judge.symptom import Symptom
 from tutor.judge.tasks import Tasks
 from tutor.judge.trace import Ending, Trace
-from tutor.judge.verdict import Verdict, skipped
+from tutor.judge.verdict import Failure, Verdict, skipped
 
 INTO_WAIT_S = 0.5
 """The node waits for the reply this long after its request has come."""
@@ -79,4 +80,9 @@ class EndsWhileAsking(Form):
         if not seen.asked and seen.ending is not None:
             because = f"not judged, because {self.asking.asks.name} was not asked: `{self.shown_by.id}` shows why"
             return skipped(because)
-        return judge_ending(seen.trace, seen.ending, shown_by=self.shown_by.id)
+        verdict = judge_ending(seen.trace, seen.ending, shown_by=self.shown_by.id)
+        if isinstance(verdict, Failure) and verdict.seen is not None and verdict.seen.symptom is Symptom.DOES_NOT_END:
+            says = f"the program still runs after Ctrl+C, which came while it waited for {self.asking.asks.name}"
+            do = "Let no thread wait without a limit: Python ends only when all of its threads have ended."
+            return replace(verdict, seen=replace(verdict.seen, says=says, do=do))
+        return verdict

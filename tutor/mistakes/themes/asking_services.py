@@ -9,7 +9,6 @@ from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.themes.clients import requests
-from tutor.mistakes.themes.spinning import SPINS
 from tutor.source import last_name
 from tutor.source.concurrency import threads_of
 
@@ -130,7 +129,7 @@ def limit_runs_out(case: Case) -> Iterator[Found]:
     """
     for file in case.files if case.about("given_up") else ():
         callbacks = file.callbacks("create_service")
-        for call in (*requests(file), *file.calls("wait", "done", *SPINS)):
+        for call in (*requests(file), *file.calls("wait", "done")):
             if last_name(call.func) != "call_async" and file.function_around(call) in callbacks:
                 yield found(file, call)
 
