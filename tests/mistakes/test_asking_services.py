@@ -73,6 +73,15 @@ def test_why_a_call_is_not_answered(statement: str, about: dict[str, Any], mista
     assert_told(found, mistake, words)
 
 
+def test_a_limit_whose_timer_is_in_the_group_of_the_wait() -> None:
+    source = ASYNC.format(client=OWN, service="").replace(
+        "return await self.door.call_async(request)",
+        "asked = self.door.call_async(request)\n        self.create_timer(3.0, asked.cancel)\n        await asked",
+    )
+    found = told(Symptom.NO_ANSWER, source, **SILENT)
+    assert_told(found, "no-limit-to-a-wait", "line 8 is to end the wait for /open, and is in the callback group")
+
+
 def test_enough_threads_do_not_all_wait() -> None:
     found = told(Symptom.NO_ANSWER, BLOCKS.format("self.door.call(request)", 4), at_once=2, replied=True)
     assert_told(found, "no-answer")

@@ -9,8 +9,8 @@ from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
 from tutor.mistakes.themes.clients import requests
-from tutor.source import last_name
-from tutor.source.concurrency import threads_of
+from tutor.source import NodeFile, argument, last_name
+from tutor.source.concurrency import threads_of, timers_sharing_group
 
 _LOOKS = ("service_is_ready", "wait_for_service")
 
@@ -56,8 +56,8 @@ def asked_without_looking(case: Case) -> Iterator[Found]:
     "no-limit-to-a-wait",
     explains=[Symptom.NO_ANSWER],
     evidence=Evidence.RUN,
-    says="{line} waits for a reply of {asks} for as long as it takes, here for ever: {code}",
-    do="Set a limit to the wait, and answer that no reply has come.",
+    says="{line} {what}: {code}",
+    do="{step}",
     example=in_run(Symptom.NO_ANSWER, ours="silent", asked=True, asks="/open_door"),
 )
 def no_limit(case: Case) -> Iterator[Found]:
@@ -85,10 +85,22 @@ def no_limit(case: Case) -> Iterator[Found]:
     """
     if case.about("ours") == "silent" and case.about("asked") and not case.about("replied"):
         for file in case.files:
+            for timer in _limits_held_back(file):
+                what = f"is to end the wait for {case.about('asks')}, and is in the callback group that this wait keeps"
+                yield found(file, timer, what=what, step="Give that timer another callback group than the service's.")
             waits = [node for node in file.nodes if isinstance(node, ast.Await)]
             calls = [call for call in requests(file) if last_name(call.func) == "call"]
             for node in (*calls, *waits, *requests(file)):
-                yield found(file, node, asks=case.about("asks"))
+                what = f"waits for a reply of {case.about('asks')} for as long as it takes, here for ever"
+                yield found(file, node, what=what, step="Set a limit to the wait, and answer that no reply has come.")
+
+
+def _limits_held_back(file: NodeFile) -> Iterator[ast.Call]:
+    """The timers that are made to cancel something, but in the exclusive group of a service."""
+    for service in file.calls("create_service"):
+        for timer in timers_sharing_group(file, service):
+            if last_name(argument(timer, "callback")) == "cancel":
+                yield timer
 
 
 @mistake(

@@ -66,9 +66,7 @@ def one_thread(case: Case) -> Iterator[Found]:
         spins = taken if several else spins
         if not one_at_a_time(case) or not spins:
             return
-    elif not stops(case) or in_worker(case.stuck) or (not case.stuck and (several or not spins)):
-        return
-    elif _only_awaits(case):  # the thread is free, and what is taken is the callback's group
+    elif not stops(case) or in_worker(case.stuck) or (not case.stuck and (several or not spins)) or _only_awaits(case):
         return
     elif (own := tracebacks.own_frame(case.stuck, case.trace.folder)) is not None:
         where = f" ({case.place(own.name, own.line)})"
