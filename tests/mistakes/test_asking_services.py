@@ -33,8 +33,8 @@ class Bell(Node):
 
 executor = MultiThreadedExecutor({})
 """
-MISSING = {"ours": "missing", "asks": "/open", "services": ("/ring",)}
-SILENT = {"ours": "silent", "asks": "/open", "asked": True}
+MISSING: dict[str, Any] = {"ours": "missing", "asks": "/open", "services": ("/ring",)}
+SILENT: dict[str, Any] = {"ours": "silent", "asks": "/open", "asked": True}
 
 CLIENT = trace(graph=Graph(("/bell",), clients=(ServiceEndpoint("/open", "std_srvs/srv/Trigger", "/b"),)))
 
