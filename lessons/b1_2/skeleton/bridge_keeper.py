@@ -20,19 +20,24 @@ class BridgeKeeper(Node):
         self.light = self.create_publisher(Bool, "/bridge/light", 10)
         self.create_timer(0.1, self.blink)
         self.create_service(SetBool, "/bridge/move", self.move)
-        # TODO 1: create a client of /harbour/clearance, of type SetBool.
+        # TODO 1: create a client of /harbour/clearance, which is a
+        #         SetBool as well.
 
         # TODO 2: say which callbacks may run while another one waits.
 
         self.get_logger().info("Ready: /bridge/move")
 
-    def move(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
-        """Answer whether the bridge moves: up if request.data, else down."""
+    def move(
+        self,
+        request: SetBool.Request,
+        response: SetBool.Response,
+    ) -> SetBool.Response:
+        """Say whether the bridge moves: up if request.data is true."""
         # TODO 3: if the harbour is not there, answer so, with
         #         success = False and a message that says why.
 
-        # TODO 4: ask the harbour with the same data, wait for its reply,
-        #         and answer with its success and its message.
+        # TODO 4: ask the harbour with the same data, wait for its
+        #         reply, and answer with its success and message.
         response.success = True
         response.message = "nobody was asked"
         return response
@@ -44,7 +49,7 @@ class BridgeKeeper(Node):
 
 
 def main() -> None:
-    """Run the node until Ctrl+C. Change it if your node needs more threads."""
+    """Run the node until Ctrl+C. You may give it more threads."""
     rclpy.init()
     node = BridgeKeeper()
     try:
