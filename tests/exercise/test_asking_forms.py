@@ -151,7 +151,15 @@ def test_the_pace_while_it_waits(pace: Pace, right: bool) -> None:
         assert_passed(verdict)
     else:
         assert_failed(verdict, "callbacks wait for each other", "while it waits", check=CHECK)
-        assert isinstance(judge(pace_run(replace(pace, slowed=True))), Undecided)
+        assert isinstance(judge(pace_run(replace(pace, cpu_wait_s=1.2))), Undecided)
+
+
+def test_a_short_wait_for_a_cpu_explains_no_long_pause() -> None:
+    assert_failed(
+        judge_of(CHECK, "pace")(pace_run(Pace(0, 1.5, 1.6, cpu_wait_s=0.3))),
+        "callbacks wait for each other",
+        check=CHECK,
+    )
 
 
 def test_a_pace_that_cannot_be_judged() -> None:

@@ -38,18 +38,24 @@ BLOCKED_SHARE = 0.75
 class Pace:
     """The messages on a topic while a reply was held back for `for_s` seconds. `longest_s`: the longest pause.
 
-    `slowed`: the node has waited for a CPU for so long that the machine may be to blame for a wrong pace.
+    `cpu_wait_s`: how long the node has waited for a CPU meanwhile.
     """
 
     count: int
     for_s: float
     longest_s: float
-    slowed: bool = False
+    cpu_wait_s: float = 0.0
 
-    def is_right(self, hz: float) -> bool:
-        """Whether they come at this rate, and without a pause."""
+    def is_right(self, hz: float, allowance_s: float = 0.0) -> bool:
+        """Whether they come at this rate, and without a pause; both may be off by what fits into `allowance_s`."""
         least, most = (1 - TOLERANCE) * hz * self.for_s - 1, (1 + TOLERANCE) * hz * self.for_s + 1
-        return self.longest_s <= 3 / hz + SLACK_S and least <= self.count <= most
+        too_many_or_few = max(least - self.count, self.count - most)
+        return self.longest_s <= 3 / hz + SLACK_S + allowance_s and too_many_or_few <= allowance_s * hz
+
+    def may_be_right(self, hz: float) -> bool:
+        """Whether the machine alone may be to blame for a wrong pace: a node that waits also catches up later."""
+        slowed = self.cpu_wait_s >= HARDLY_WAITED_SHARE * self.for_s
+        return slowed and self.is_right(hz, allowance_s=2 * self.cpu_wait_s)
 
     @property
     def stops(self) -> bool:
@@ -96,7 +102,7 @@ class HoldReply:
                 bench.report_progress(0.5, f"holding back the reply on {asking.asks.name}")
                 call, pace = await self._hold(run, desk, asking.requests[len(calls) % len(asking.requests)])
                 calls.append(call)
-                if pace is None or pace.is_right(self.hz) or not pace.slowed:
+                if pace is None or pace.is_right(self.hz) or not pace.may_be_right(self.hz):
                     break
             answers = rate is not None or await run.parameters(ANSWER_S) is not None
             found = PaceRun(
@@ -123,18 +129,17 @@ class HoldReply:
                 await run.until(lambda: run.now() >= since + self.hold_s, self.hold_s)
                 until, late_s = run.now(), run.our_cpu_wait_s()
                 await run.until(lambda: run.now() >= until + IN_FLIGHT_S + run.our_cpu_wait_s() - late_s, 1.0)
-                slowed = run.node_cpu_wait_s() - waited_s >= HARDLY_WAITED_SHARE * (until - since)
-                pace = self._measure(run, since, until, slowed)
+                pace = self._measure(run, since, until, run.node_cpu_wait_s() - waited_s)
             desk.reply(*desk.held)
             desk.replies_at_once = True
             return desk.with_exchanges(await calling, began), pace
 
-    def _measure(self, run: Run, since: float, until: float, slowed: bool) -> Pace:
+    def _measure(self, run: Run, since: float, until: float, cpu_wait_s: float) -> Pace:
         times = sorted(sample.source_time for sample in run.samples_on(self.topic.name))
         within = [time for time in times if since <= time <= until]
         last = [time for time in times if time < since][-1:]
         pauses = [b - a for a, b in pairwise([*last, *within, until])]
-        return Pace(len(within), until - since, max(pauses, default=until - since), slowed)
+        return Pace(len(within), until - since, max(pauses, default=until - since), cpu_wait_s)
 
 
 @dataclass(frozen=True)
@@ -178,7 +183,7 @@ class KeepsPaceWhileAsking(Form):
             return failed(expected, observed, no_answer(asking, seen, call), tail)
         if pace.is_right(self.hz):
             return passed(expected, f"while nobody calls: {seen.rate}; {observed}")
-        if pace.slowed:
+        if pace.may_be_right(self.hz):
             return undecided(f"to watch {topic.name}")
         still = seen.symptom(
             Symptom.STANDS_STILL,
