@@ -41,7 +41,7 @@ class Asking:
     is right as a part of the field. `refusal`: the fields of the answer where no reply comes: each its value, or a
     function that says whether a value is right; then `refused` says in words what that is.
 
-        BRIDGE = Asking(
+        COOKING = Asking(
             Service("/cook", "std_srvs/srv/SetBool", ("data",)),
             Service("/oven", "std_srvs/srv/SetBool", ("data",)),
             requests=((True,), (False,)),
@@ -167,8 +167,10 @@ async def open_desk(run: Run, asking: Asking) -> AsyncIterator[Desk]:
     """Bring up our server, which replies at once until it is told otherwise."""
     async with run.holding_server(asking.asks.name, asking.asks.type) as server, Tasks() as tasks:
         desk = Desk(run, asking, server)
-        tasks.start(desk.attend())
+        attending = tasks.start(desk.attend())
         yield desk
+        if attending.done():
+            attending.result()  # raises what `replies` of the exercise has raised
 
 
 async def wait_for_both(run: Run, program: Program, asking: Asking) -> bool:
