@@ -31,6 +31,7 @@ NOUNS = (
     "SwitchesOff",
     "Service",
     "Action",
+    "Asking",
 )
 
 

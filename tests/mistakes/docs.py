@@ -70,6 +70,7 @@ PAGE_OF = {
     "wrong_arithmetic": "services",
     "wrong_responses": "services",
     "actions": "actions",
+    "asking_services": "callbacks",
     "asynchronous": "callbacks",
     "blocked_callbacks": "callbacks",
     "callback": "callbacks",

@@ -298,6 +298,49 @@ async def test_i2_3(session: Session) -> None:
         await me.sees("Tick ")
 
 
+async def test_b1_1(session: Session) -> None:
+    async with reading(session, "b1.1") as me:
+        code = me.file.read_text(encoding="utf-8")
+        me.file.write_text(code.replace("self.on_range, RANGE_QOS", "self.on_range, 10"), encoding="utf-8")
+        me.reads("Press `b` first: that starts the given warehouse", "Run your node with `r`")
+        await me.press("b")
+        await me.sees("● running  warehouse", "Published the map hall-")
+        await me.press("r")
+        me.reads("there is one warning at the start", "New publisher discovered on topic 'range'")
+        for text in ("map: hall-", "publisher discovered on topic 'range'", "parcel: lorry-1-200"):
+            await me.until(lambda text=text: any(text in line for line in me.background()), text)  # type: ignore[misc]
+        me.reads("**Graph** (`G`): where a publisher and a subscription do not fit, the line is broken")
+        await me.press("4", "G")
+        await me.sees("✗ 1 connection does not work", "/warehouse ──✗ /warehouse_monitor", "asks for reliable")
+        me.reads("choose `/range`, and the line above its messages says what the publisher offers")
+        await me.press("T", "down", "down")
+        await me.sees("/range  std_msgs/Int32 · best effort, volatile", "data: ")
+
+
+async def test_b1_2(session: Session) -> None:
+    async with reading(session, "b1.2") as me:
+        me.reads("switch to Live with `4`: `/bridge/light` is there, with its rate")
+        await me.press("r")
+        await me.sees("Ready: /bridge/move")
+        await me.press("4")
+        await me.sees("/bridge/light  std_msgs/Bool")
+        await me.sees_rate(10.0)
+        me.reads("the form for `/bridge/move` is open: press Enter, fill in `data`", "There is no harbour yet")
+        await me.press("S")
+        await me.sees("/bridge/move", "data bool")
+        await me.press("enter")
+        await me.until_field_focused()
+        await me.press("ctrl+u", *"true", "enter")
+        await me.sees("There is no harbour")
+        me.reads("`b` starts a harbour office, which thinks for 1.5 seconds", "the form says *waiting*, then shows")
+        await me.press("escape", "b")
+        await me.sees("Ready: /harbour/clearance")
+        await me.press("4", "enter")
+        await me.until_field_focused()
+        await me.press("enter")
+        await me.sees("clearance 101 to raise", "answered in 1.")
+
+
 async def test_b1_6(session: Session) -> None:
     async with reading(session, "b1.6") as me:
         me.reads("Run your node with `r`, and press `b`: a battery begins to send")
@@ -311,20 +354,3 @@ async def test_b1_6(session: Session) -> None:
             "● running  battery_monitor.py", "The battery reports", "The battery is low: ", "The battery is hot: "
         )
         await me.sees("Broken readings: ")
-
-
-async def test_b1_1(session: Session) -> None:
-    async with reading(session, "b1.1") as me:
-        code = me.file.read_text(encoding="utf-8")
-        me.file.write_text(code.replace("self.on_range, RANGE_QOS", "self.on_range, 10"), encoding="utf-8")
-        me.reads("Press `b` first: that starts the given warehouse", "Run your node with `r`")
-        await me.sees("● running  warehouse", "Published the map hall-")
-        me.reads("there is one warning at the start", "New publisher discovered on topic 'range'")
-        for text in ("map: hall-", "publisher discovered on topic 'range'", "parcel: lorry-1-200"):
-            await me.until(lambda text=text: any(text in line for line in me.background()), text)  # type: ignore[misc]
-        me.reads("**Graph** (`G`): where a publisher and a subscription do not fit, the line is broken")
-        await me.press("4", "G")
-        await me.sees("✗ 1 connection does not work", "/warehouse ──✗ /warehouse_monitor", "asks for reliable")
-        me.reads("choose `/range`, and the line above its messages says what the publisher offers")
-        await me.press("T", "down", "down")
-        await me.sees("/range  std_msgs/Int32 · best effort, volatile", "data: ")

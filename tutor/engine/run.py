@@ -35,6 +35,7 @@ from tutor.process import LearnerProcess, next_wake, own_cpu_time
 from tutor.ros import echo, graph, parameters
 from tutor.ros.goal_sender import GoalSender
 from tutor.ros.goal_taker import GoalTaker
+from tutor.ros.held_service import HeldService
 from tutor.ros.intake import MAX_SAMPLES
 from tutor.ros.messages import to_plain
 from tutor.ros.observer import ANY_PUBLISHER, AnswerTooLarge, Observer
@@ -239,6 +240,13 @@ class RosRun:
             yield server
             if server.fault is not None:
                 raise EngineError(f"serving the action failed: {server.fault}")
+
+    @asynccontextmanager
+    async def holding_server(self, service: str, type: str) -> AsyncIterator[HeldService]:
+        with contextlib.closing(HeldService(self._domain_id, service, type, self._facts.notify)) as server:
+            yield server
+            if server.fault is not None:
+                raise EngineError(f"serving {service} failed: {server.fault}")
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         over = asyncio.Event()

@@ -19,13 +19,18 @@ below:
 How the program is started, how long is waited, and what the machine may be to blame for is the forms' business.
 """
 
+from tutor.exercise.answers_at_once import AnswersAtOnce
+from tutor.exercise.answers_by_asking import AnswersByAsking
+from tutor.exercise.answers_without_reply import AnswersWithoutReply
 from tutor.exercise.argument_moves import ArgumentMovesNamespace, ArgumentMovesTopic
 from tutor.exercise.builds_interfaces import BuildsInterfaces
+from tutor.exercise.asking import Asking
 from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.criterion_function import criterion
 from tutor.exercise.defaults import Defaults
 from tutor.exercise.during_goal import DuringGoal
 from tutor.exercise.ends_cleanly import EndsCleanly
+from tutor.exercise.ends_while_asking import EndsWhileAsking
 from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.faults import Faults
 from tutor.exercise.form import Custom, Form, check
@@ -37,6 +42,7 @@ from tutor.exercise.in_range import InRange, OtherUnit, Varies
 from tutor.exercise.logs_at import LogsAt, StaysQuiet, Throttles
 from tutor.exercise.keeps_rate import KeepsRate
 from tutor.exercise.leads_to import LeadsTo
+from tutor.exercise.keeps_pace_while_asking import KeepsPaceWhileAsking
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
 from tutor.exercise.names_fault import NamesFault
@@ -76,8 +82,12 @@ __all__ = [
     "SAYS_ERROR",
     "Action",
     "Answers",
+    "AnswersAtOnce",
+    "AnswersByAsking",
+    "AnswersWithoutReply",
     "ArgumentMovesNamespace",
     "ArgumentMovesTopic",
+    "Asking",
     "AtLeast",
     "BuildsInterfaces",
     "CallsAll",
@@ -90,6 +100,7 @@ __all__ = [
     "Event",
     "Feed",
     "Faults",
+    "EndsWhileAsking",
     "FieldEquals",
     "Fields",
     "Form",
@@ -101,6 +112,7 @@ __all__ = [
     "HandlesTwoGoals",
     "InRange",
     "KeepsRate",
+    "KeepsPaceWhileAsking",
     "LaunchFile",
     "LogsAt",
     "LeadsTo",

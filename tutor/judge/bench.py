@@ -21,6 +21,7 @@ from tutor.judge.trace import (
     Ending,
     Exit,
     GoalAnswer,
+    HeldRequest,
     LogRecord,
     OutputLine,
     Sample,
@@ -112,6 +113,17 @@ class GoalServer(Protocol):
 
     def open(self) -> None:
         """Let it appear in the graph."""
+
+
+class HoldingServer(Protocol):
+    """Our server of one service, which replies to each request when it is told to, or never."""
+
+    @property
+    def requests(self) -> Sequence[HeldRequest]:
+        """The requests that it has taken so far, replied to or not."""
+
+    def reply(self, request: HeldRequest, response: Mapping[str, Any]) -> None:
+        """Reply to a request (fields to values); a second reply to the same one does nothing."""
 
 
 class Run(Protocol):
@@ -218,6 +230,9 @@ class Run(Protocol):
 
     def goal_server(self, action: str, type: str, replies: GoalReplies) -> AbstractAsyncContextManager[GoalServer]:
         """Create an action server in a node and participant of our own; both leave the graph when the context exits."""
+
+    def holding_server(self, service: str, type: str) -> AbstractAsyncContextManager[HoldingServer]:
+        """Serve a service in a node and participant of our own; both leave the graph when the context exits."""
 
     async def echo(self, topic: str, *, samples: int, limit_s: float) -> Echo:
         """Subscribe as `ros2 topic echo` does: a separate participant that takes type and QoS from the publishers.

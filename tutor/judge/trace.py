@@ -132,6 +132,15 @@ class ServedRequest:
 
 
 @dataclass(frozen=True, slots=True)
+class HeldRequest:
+    """A request that a service server of ours has taken, and replies to when it is told to. `number`: counts from 0."""
+
+    number: int
+    request: Mapping[str, Any]
+    at: float
+
+
+@dataclass(frozen=True, slots=True)
 class GoalAnswer:
     """What has become of a goal that we sent to an action server.
 

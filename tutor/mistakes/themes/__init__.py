@@ -22,6 +22,7 @@ from tutor.mistakes.themes import spinning as spinning
 from tutor.mistakes.themes import early_ends as early_ends
 from tutor.mistakes.themes import no_node as no_node
 from tutor.mistakes.themes import setting_up as setting_up
+from tutor.mistakes.themes import asking_services as asking_services
 from tutor.mistakes.themes import callback_groups as callback_groups
 from tutor.mistakes.themes import blocked_callbacks as blocked_callbacks
 from tutor.mistakes.themes import executors as executors

@@ -11,12 +11,13 @@ from tutor.judge.symptom import Symptom
 from tutor.judge.tracebacks import Frame
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
-from tutor.source import NodeFile
+from tutor.source import Function, NodeFile, argument
 from tutor.source.concurrency import (
     GROUPS,
     group_of,
     is_exclusive,
     is_set_after,
+    names_of,
     timers_sharing_group,
 )
 
@@ -269,10 +270,21 @@ def deadlock_by_await(case: Case) -> Iterator[Found]:
     See it: the service that is called logs the call, and the caller never goes on.
     """
     for file in case.files:
-        if file.calls("ReentrantCallbackGroup"):
+        clients = [group_of(client) for client in file.calls("create_client")]
+        if not clients and file.calls("ReentrantCallbackGroup"):
             continue
-        creators = ("create_timer", "create_subscription", "create_service")
-        functions = [function for creator in creators for function in case.program.callbacks(creator)]
-        for node in file.nodes:
-            if isinstance(node, ast.Await) and file.function_around(node) in functions:
-                yield found(file, node)
+        for creator in ("create_timer", "create_subscription", "create_service"):
+            for made in file.calls(creator):
+                group = group_of(made)
+                if not is_exclusive(file, group) or group.endswith(")"):  # a call makes another group each time
+                    continue
+                if clients and not any(client in names_of(file, group) for client in clients):
+                    continue
+                for function in file.reachable_from(callback) if (callback := _callback(file, made)) else ():
+                    for node in ast.walk(function):
+                        if isinstance(node, ast.Await):
+                            yield found(file, node)
+
+
+def _callback(file: NodeFile, made: ast.Call) -> Function | None:
+    return file.function(argument(made, "callback"))

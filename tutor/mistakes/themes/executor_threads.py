@@ -66,7 +66,7 @@ def one_thread(case: Case) -> Iterator[Found]:
         spins = taken if several else spins
         if not one_at_a_time(case) or not spins:
             return
-    elif not stops(case) or in_worker(case.stuck) or (not case.stuck and (several or not spins)):
+    elif not stops(case) or in_worker(case.stuck) or (not case.stuck and (several or not spins)) or _only_awaits(case):
         return
     elif (own := tracebacks.own_frame(case.stuck, case.trace.folder)) is not None:
         where = f" ({case.place(own.name, own.line)})"
@@ -79,6 +79,13 @@ def one_thread(case: Case) -> Iterator[Found]:
         yield found(file, call, spins=spins_there, where=where, at=f": {file.line(call.lineno)}", step=step)
     else:
         yield Found({"spins": "one thread runs all callbacks", "where": where, "at": "", "step": step})
+
+
+def _only_awaits(case: Case) -> bool:
+    """Whether no thread is in a callback, by the stack dump, while an async one of the program has not ended."""
+    threads = tracebacks.frames_by_thread(case.stuck)
+    free = bool(threads) and not any(tracebacks.called_by_executor(thread, case.trace.folder) for thread in threads)
+    return free and any(isinstance(node, ast.Await) for node in case.program.nodes())
 
 
 def _spins_in_one_thread(file: NodeFile) -> Iterator[ast.Call]:

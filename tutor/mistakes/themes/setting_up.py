@@ -129,7 +129,7 @@ def _is_mentioned(case: Case, file: NodeFile, function: Function) -> bool:
 
 @mistake(
     "waits-for-a-service",
-    explains=_MISSING,
+    explains=(*_MISSING, Symptom.NO_ANSWER),
     evidence=Evidence.RUN,
     says="{line} waits for {service}, which nobody offers, before it goes on: {code}",
     do="Make everything else first, and wait for the service only where it is needed, with a time limit.",

@@ -22,8 +22,8 @@ from tutor.source import argument, calls_in, last_name
 def answered_early(case: Case) -> Iterator[Found]:
     """A service answers before its work is done.
 
-    The response goes out when the callback returns it. A thread or task that fills it in later fills in an object that
-    nobody sends any more.
+    The response goes out when the callback returns it. A thread, a task or a done callback that fills it in later fills
+    in an object that nobody sends any more.
 
     Bad:
 
@@ -52,6 +52,8 @@ def answered_early(case: Case) -> Iterator[Found]:
                 continue
             for call in calls_in(callback, "Thread", "Timer", "submit", "create_task"):
                 yield found(file, call)
+            if callback is not None and not any(isinstance(node, ast.Await) for node in ast.walk(callback)):
+                yield from (found(file, call) for call in calls_in(callback, "add_done_callback"))
 
 
 @mistake(
@@ -138,15 +140,15 @@ def shared_state(case: Case) -> Iterator[Found]:
 
     See it: call the service twice at once, with different values. The same happens to two goals of an action.
     """
-    if not case.about("shared"):
+    if not (shared := case.about("shared")):
         return
     if case.symptom is Symptom.WRONG_GOAL:
         yield Found(
             {"what": "a goal that came while another one ran ended with what belongs to that one", "call": "goal"}
         )
     else:
-        what = "one call was answered with the result of another that was made at the same time"
-        yield Found({"what": what, "call": "call"})
+        other = shared if isinstance(shared, str) else "the result of another that was made at the same time"
+        yield Found({"what": f"one call was answered with {other}", "call": "call"})
 
 
 @mistake(
