@@ -29,6 +29,7 @@ NOUNS = (
     "SwitchesOff",
     "Service",
     "Action",
+    "Lifecycle",
 )
 
 

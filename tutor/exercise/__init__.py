@@ -28,11 +28,21 @@ from tutor.exercise.error_words import SAYS_ERROR
 from tutor.exercise.form import Custom, Form, check
 from tutor.exercise.handles_goal import HandlesGoal
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
+from tutor.exercise.lifecycle_forms import (
+    Activates,
+    BeginsUnconfigured,
+    CleansUp,
+    Configures,
+    Deactivates,
+    FailsToConfigure,
+    ShutsDown,
+)
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
 from tutor.exercise.nouns import (
     Action,
     LaunchFile,
+    Lifecycle,
     Parameter,
     Program,
     Service,
@@ -59,21 +69,28 @@ from tutor.exercise.watched_start import LogsText
 __all__ = [
     "SAYS_ERROR",
     "Action",
+    "Activates",
     "Answers",
     "ArgumentMovesNamespace",
     "ArgumentMovesTopic",
     "AtLeast",
+    "BeginsUnconfigured",
     "CallsAll",
+    "CleansUp",
+    "Configures",
     "Contains",
     "Custom",
+    "Deactivates",
     "Defaults",
     "EndsCleanly",
+    "FailsToConfigure",
     "FieldEquals",
     "Fields",
     "Form",
     "HandlesGoal",
     "InRange",
     "LaunchFile",
+    "Lifecycle",
     "LogsParameter",
     "LogsText",
     "NamesBadValue",
@@ -96,6 +113,7 @@ __all__ = [
     "SetsRate",
     "ShownByEcho",
     "ShownIn",
+    "ShutsDown",
     "StartsPair",
     "SurvivesBadCall",
     "SwitchesOff",
