@@ -62,8 +62,8 @@ def returns_no_result(case: Case) -> Iterator[Found]:
     "exception-in-a-transition",
     explains=[Symptom.WRONG_STATE],
     evidence=Evidence.RUN,
-    says="{callback} raised an exception, of which rclpy prints nothing, or returned ERROR: the node reports that it was "
-    "in the state errorprocessing",
+    says="{callback} raised an exception, of which rclpy prints nothing, or returned ERROR: the node says that it went "
+    "through the state errorprocessing",
     do="Put try around what {callback} does, and log the exception that you catch: it names the line.",
     example=in_run(Symptom.WRONG_STATE, transition="configure", through=("configuring", "errorprocessing")),
 )
@@ -192,7 +192,8 @@ def forgotten(case: Case) -> Iterator[Found]:
     """An attribute is set to None, and the node keeps what it was.
 
     A node keeps a list of all publishers, subscriptions, services and timers that were made with it. Your attribute is
-    one more name for one of them; without it, it lives on. Only destroy_publisher(), destroy_timer() and the like end it.
+    one more name for one of them; without it, it lives on. Only destroy_publisher(), destroy_timer() and the like end
+    it.
 
     Bad:
 
