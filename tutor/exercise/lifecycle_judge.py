@@ -19,7 +19,7 @@ def judge_part(seen: LifecycleRun, lifecycle: Lifecycle, moves: Sequence[Move], 
     service = f"{lifecycle.node}/change_state"
     if not seen.offered:
         missing = Symptom.SERVICE_MISSING if seen.trace.exit is None else Symptom.ENDED
-        why = seen.symptom(missing, service=service, type=CHANGE_STATE, **_not_offered(seen, lifecycle))
+        why = seen.symptom(missing, lifecycle=lifecycle.node, **_not_offered(seen, lifecycle))
         return failed(expected, f"there is no {service} of type {CHANGE_STATE}", why, output_tail(seen.trace))
     steps = [step for step in seen.steps if step.move in moves]
     for step in steps:
@@ -43,7 +43,7 @@ def _not_offered(seen: LifecycleRun, lifecycle: Lifecycle) -> dict[str, Any]:
             "says": f"{', '.join(nodes)} is no lifecycle node: nobody can ask it for a transition",
             "do": "Derive its class from LifecycleNode, of rclpy.lifecycle, instead of Node.",
         }
-    return {}
+    return {"service": f"{lifecycle.node}/change_state", "type": CHANGE_STATE}
 
 
 def _judge_wrong(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected: str) -> Verdict:
@@ -53,7 +53,7 @@ def _judge_wrong(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected:
     if not step.state_is_right:
         observed, why = _wrong_state(seen, lifecycle, step)
         return failed(expected, observed, why, tail)
-    about = {"state": step.state, "topic": topic.name, "type": topic.type}
+    about = {"lifecycle": lifecycle.node, "state": step.state, "topic": topic.name, "type": topic.type}
     after = f"{_name(step)}: {_state(step)}"
     if step.sent:
         observed = f"{after}, and {counted(len(step.sent), 'message')} on {topic.name}: {topic.show(step.sent[0])}"
@@ -76,7 +76,7 @@ def _judge_wrong(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected:
 def _judge_rate(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected: str) -> Verdict:
     topic, wanted, tail = lifecycle.topic, step.move.hz, output_tail(seen.trace)
     observed = f"{_name(step)}: {_state(step)}, {describe(step.rate, step.messages)} on {topic.name}"
-    about = {"state": step.state, "topic": topic.name, "type": topic.type}
+    about = {"lifecycle": lifecycle.node, "state": step.state, "topic": topic.name, "type": topic.type}
     if seen.trace.exit is not None:
         return failed(expected, observed, seen.symptom(Symptom.ENDED, **about), tail)
     if not step.messages:
@@ -104,7 +104,13 @@ def _judge_rate(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected: 
 def _wrong_state(seen: LifecycleRun, lifecycle: Lifecycle, step: Step) -> tuple[str, Observation]:
     """What was observed of a transition that was not made as it should be, and the failure."""
     move, service = step.move, f"{lifecycle.node}/change_state"
-    about = {"transition": move.transition, "state": step.state, "through": step.through, "wanted": move.to}
+    about = {
+        "lifecycle": lifecycle.node,
+        "transition": move.transition,
+        "state": step.state,
+        "through": step.through,
+        "wanted": move.to,
+    }
     if not step.answered:
         asked = service if step.change is not None and step.change.response is None else f"{lifecycle.node}/get_state"
         took_s = step.change.took_s if step.change is not None else 0.0
