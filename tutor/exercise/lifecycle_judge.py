@@ -92,7 +92,7 @@ def _judge_rate(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected: 
         wanted_hz=wanted,
         rate=step.rate,
         unchanged=unchanged,
-        inverted=step.rate is not None and step.rate.agrees_with(1 / wanted),
+        inverted=step.rate is None or step.rate.agrees_with(1 / wanted),
         at_start=step.move.part == "activate",
         followed_hz=None,
         earlier_hz=() if step.move.part == "activate" else (before,),

@@ -226,7 +226,8 @@ async def _look_at_topic(run: Run, lifecycle: Lifecycle, step: Step, since: floa
         await run.until(lambda: not publishes(), RESENT_S, idle_s=RESENT_S)
         return replace(step, publishes=publishes())
     if move.watched == "rate":
-        if not await run.until(lambda: bool(sent(since)), 2 / hz + 2, idle_s=IDLE_S):
+        # Long enough for a rate that is taken for a period.
+        if not await run.until(lambda: bool(sent(since)), max(2 / hz, hz) + 2, idle_s=IDLE_S):
             return step
         rate, messages = await measure_steady_rate(run, topic.name, hz, since=since)
         return replace(step, rate=rate, messages=messages)

@@ -38,8 +38,8 @@ class DistanceSensor(LifecycleNode):
 
 
 if __name__ == "__main__":
+    rclpy.init()
     try:
-        with rclpy.init():
-            rclpy.spin(DistanceSensor())
+        rclpy.spin(DistanceSensor())
     except (KeyboardInterrupt, rclpy.executors.ExternalShutdownException):
         pass
