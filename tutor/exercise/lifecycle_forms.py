@@ -40,23 +40,22 @@ class LifecycleForm(Form):
 def _whole_life(exercise: Exercise, lifecycle: Lifecycle) -> Walk:
     """The walk through all parts that the exercise has criteria for, and the transitions that lead there."""
     own = [form for form in exercise.forms if isinstance(form, LifecycleForm) and form.lifecycle == lifecycle]
-    every = [BeginsUnconfigured, Configures, Activates, Deactivates, CleansUp, ShutsDown]
-    last = max((every.index(type(form)) for form in own if type(form) in every), default=0)
-    moves: list[Move] = []
-    for kind in every[: last + 1]:
-        form = next((form for form in own if type(form) is kind), None)
-        if form is None and kind in (BeginsUnconfigured, Configures, Activates, Deactivates):
-            form = kind("", lifecycle)
-        moves += form.moves if form is not None else ()
+    last = max((_ORDER.index(type(form)) for form in own if type(form) in _ORDER), default=0)
+    parts: list[LifecycleForm] = [
+        kind("", lifecycle) for kind in (BeginsUnconfigured, Configures, Activates, Deactivates)
+    ]
+    parts += sorted((form for form in own if isinstance(form, CleansUp | ShutsDown)), key=_place)
+    moves = [move for part in parts if _place(part) <= last for move in part.moves]
     return Walk(exercise.program, lifecycle, tuple(moves), expected_s=6.0)
+
+
+def _place(form: LifecycleForm) -> int:
+    return _ORDER.index(type(form))
 
 
 @dataclass(frozen=True)
 class BeginsUnconfigured(LifecycleForm):
-    """A lifecycle node is "unconfigured" at its start: it is silent, and cannot be activated yet.
-
-    begins = BeginsUnconfigured("begins", CAMERA)
-    """
+    """A lifecycle node is "unconfigured" at its start: it is silent, and cannot be activated yet."""
 
     @property
     def moves(self) -> tuple[Move, ...]:
@@ -200,3 +199,7 @@ class ShutsDown(LifecycleForm):
         """Judge the shutdown from each state: the first one that does not pass."""
         verdicts = [self.judge(run) for run in seen]
         return next((verdict for verdict in verdicts if verdict.status is not Status.PASSED), verdicts[-1])
+
+
+_ORDER: tuple[type[LifecycleForm], ...] = (BeginsUnconfigured, Configures, Activates, Deactivates, CleansUp, ShutsDown)
+"""The parts of a life, in the order in which a walk goes through them."""

@@ -230,5 +230,5 @@ async def _look_at_topic(run: Run, lifecycle: Lifecycle, step: Step, since: floa
         if not await run.until(lambda: bool(sent(since)), max(2 / hz, hz) + 2, idle_s=IDLE_S):
             return step
         rate, messages = await measure_steady_rate(run, topic.name, hz, since=since)
-        return replace(step, rate=rate, messages=messages)
+        return replace(step, rate=rate, messages=messages or len(sent(since)))
     return step
