@@ -32,6 +32,7 @@ NOUNS = (
     "Service",
     "Action",
     "Asking",
+    "Lifecycle",
 )
 
 

@@ -52,7 +52,7 @@ def test_wrong_words_are_reported_as_by_ros2cli(bench: Bench) -> None:
     assert (unknown_option.stderr, unknown_option.code) == (f"{USAGE}ros2: error: unrecognized arguments: --bogus\n", 2)
 
 
-@pytest.mark.parametrize("command", ["bag", "component", "lifecycle", "test", "extensions"])
+@pytest.mark.parametrize("command", ["bag", "component", "test", "extensions"])
 def test_a_command_that_only_an_installed_ros2_has_says_so_in_one_line(bench: Bench, command: str) -> None:
     ran = bench.ros2(command, "--help")
     assert (ran.stdout, ran.code, ran.stderr.count("\n")) == ("", 2, 1)

@@ -43,12 +43,22 @@ from tutor.exercise.logs_at import LogsAt, StaysQuiet, Throttles
 from tutor.exercise.keeps_rate import KeepsRate
 from tutor.exercise.leads_to import LeadsTo
 from tutor.exercise.keeps_pace_while_asking import KeepsPaceWhileAsking
+from tutor.exercise.lifecycle_forms import (
+    Activates,
+    BeginsUnconfigured,
+    CleansUp,
+    Configures,
+    Deactivates,
+    FailsToConfigure,
+    ShutsDown,
+)
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
 from tutor.exercise.names_fault import NamesFault
 from tutor.exercise.nouns import (
     Action,
     LaunchFile,
+    Lifecycle,
     Parameter,
     Program,
     Service,
@@ -81,6 +91,7 @@ from tutor.judge.bench import GoalReplies
 __all__ = [
     "SAYS_ERROR",
     "Action",
+    "Activates",
     "Answers",
     "AnswersAtOnce",
     "AnswersByAsking",
@@ -90,9 +101,13 @@ __all__ = [
     "Asking",
     "AtLeast",
     "BuildsInterfaces",
+    "BeginsUnconfigured",
     "CallsAll",
+    "CleansUp",
+    "Configures",
     "Contains",
     "Custom",
+    "Deactivates",
     "Defaults",
     "Endpoint",
     "DuringGoal",
@@ -101,6 +116,7 @@ __all__ = [
     "Feed",
     "Faults",
     "EndsWhileAsking",
+    "FailsToConfigure",
     "FieldEquals",
     "Fields",
     "Form",
@@ -116,6 +132,7 @@ __all__ = [
     "LaunchFile",
     "LogsAt",
     "LeadsTo",
+    "Lifecycle",
     "LogsParameter",
     "LogsText",
     "NamesBadValue",
@@ -143,6 +160,7 @@ __all__ = [
     "ShownByEcho",
     "ShownIn",
     "ShowsEach",
+    "ShutsDown",
     "StartsPair",
     "StaysQuiet",
     "SurvivesBadCall",

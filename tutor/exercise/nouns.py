@@ -184,6 +184,34 @@ class Action:
         return f"{self.name}{GOAL_SERVICE}", f"{self.type}{GOAL_TYPE}"
 
 
+@dataclass(frozen=True)
+class Lifecycle:
+    """A lifecycle node with its full name, such as "/camera", and what it publishes while it is active.
+
+    `topic`: made when the node is configured, and gone after a cleanup. `rate`: the parameter that is read whenever the
+    node is configured; its effect is `SetsRate(topic)`.
+
+        CAMERA = Lifecycle("/camera", IMAGES, Parameter("frame_rate", 5.0, SetsRate(IMAGES)))
+
+    Raises ValueError for a name without a slash, and for a parameter that does not set the topic's rate.
+    """
+
+    node: str
+    topic: Topic
+    rate: Parameter
+
+    def __post_init__(self) -> None:
+        if not self.node.startswith("/"):
+            raise ValueError(f"the node {self.node}: give its full name, /{self.node}")
+        if self.rate.effect != SetsRate(self.topic):
+            raise ValueError(f"the parameter {self.rate.name}: its effect must be SetsRate of {self.topic.name}")
+
+    @property
+    def default_hz(self) -> float:
+        """The rate of a node that is activated without another value of the parameter."""
+        return float(self.rate.default)
+
+
 def _require_full_name(what: str, name: str, type_name: str, kind: str) -> None:
     """Raise ValueError unless a name begins with a slash, and a type is one such as "std_msgs/msg/String"."""
     if not name.startswith("/"):

@@ -21,6 +21,7 @@ _COMMANDS: Verbs = {
     "doctor": ("Look for what is wrong with this machine", "doctor"),
     "interface": ("See message, service and action types", "interface"),
     "launch": ("Start the nodes of a launch file", "launch"),
+    "lifecycle": ("See and change the states of lifecycle nodes", "lifecycle"),
     "node": ("See the nodes", "node"),
     "param": ("See and set the parameters of nodes", "param"),
     "pkg": ("See the packages", "pkg"),
@@ -35,7 +36,7 @@ _GRAMMAR = Group(
 )
 
 _UNSUPPORTED_COMMANDS = frozenset(
-    {"bag", "component", "control", "extension_points", "extensions", "lifecycle", "multicast", "security", "test"}
+    {"bag", "component", "control", "extension_points", "extensions", "multicast", "security", "test"}
 )
 
 

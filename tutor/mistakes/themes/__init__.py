@@ -15,6 +15,7 @@ from tutor.mistakes.themes import missing_attributes as missing_attributes
 from tutor.mistakes.themes import hidden_modules as hidden_modules
 from tutor.mistakes.themes import interfaces as interfaces
 from tutor.mistakes.themes import missing_responses as missing_responses
+from tutor.mistakes.themes import lifecycle as lifecycle
 from tutor.mistakes.themes import known_exceptions as known_exceptions
 from tutor.mistakes.themes import logged_exceptions as logged_exceptions
 from tutor.mistakes.themes import ended_processes as ended_processes
@@ -75,4 +76,5 @@ from tutor.mistakes.themes import ending_symptoms as ending_symptoms
 from tutor.mistakes.themes import launch_symptoms as launch_symptoms
 from tutor.mistakes.themes import action_symptoms as action_symptoms
 from tutor.mistakes.themes import system_symptoms as system_symptoms
+from tutor.mistakes.themes import lifecycle_symptoms as lifecycle_symptoms
 from tutor.mistakes.themes import parameter_symptoms as parameter_symptoms

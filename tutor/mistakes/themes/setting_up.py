@@ -19,6 +19,10 @@ _CREATORS = {
     Symptom.SERVICE_MISSING: ("create_service",),
     Symptom.CALLS_MISSING: ("create_client",),
 }
+CHANGE_STATE = "lifecycle_msgs/srv/ChangeState"
+TRANSITION_CALLBACKS = ("on_configure", "on_activate", "on_deactivate", "on_cleanup", "on_shutdown", "on_error")
+"""The methods of a lifecycle node that rclpy calls."""
+
 _WARNING = re.compile(r"coroutine '(?:[\w<>]+\.)*(\w+)' was never awaited")
 
 
@@ -60,8 +64,8 @@ def not_activated(case: Case) -> Iterator[Found]:
 
     See it: `ros2 service call NODE/get_state lifecycle_msgs/srv/GetState`.
     """
-    nodes = [server.node for server in case.trace.graph.servers if server.type == "lifecycle_msgs/srv/ChangeState"]
-    if not nodes:
+    nodes = [server.node for server in case.trace.graph.servers if server.type == CHANGE_STATE]
+    if not nodes or case.about("lifecycle"):  # the criterion itself asks for each transition
         return
     own = next((function for file in case.files for function in file.functions_named("on_activate")), None)
     lacks_super = own is not None and not calls_in(own, "on_activate")
@@ -110,8 +114,14 @@ def setup_not_called(case: Case) -> Iterator[Found]:
             # Functions of other files may be what setup.py or a launch file starts.
             if function is None or (file is not case.file and file.class_of(function) is None):
                 continue
+            if function.name in TRANSITION_CALLBACKS and _is_lifecycle_node(case):
+                continue
             if not _is_mentioned(case, file, function):
                 yield found(file, call, function=f"{function.name}()")
+
+
+def _is_lifecycle_node(case: Case) -> bool:
+    return any(server.type == CHANGE_STATE for server in case.trace.graph.servers)
 
 
 def _is_mentioned(case: Case, file: NodeFile, function: Function) -> bool:

@@ -152,7 +152,7 @@ def no_publisher(case: Case) -> Iterator[Found]:
     """
     topic = case.about("topic")
     is_published = any(publisher.topic == topic for publisher in case.trace.graph.publishers)
-    if topic and case.trace.graph.nodes and not is_published:
+    if topic and case.trace.graph.nodes and not is_published and not case.about("lifecycle"):
         yield Found({"topic": topic})
 
 
