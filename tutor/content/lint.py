@@ -7,8 +7,10 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
+from tutor.content.lint_predictions import find_bad_predictions
 from tutor.content.model import Course, CriterionText, Lesson
 from tutor.content.places import find_line
+from tutor.content.predictions import FILE as PREDICTIONS
 from tutor.content.problem import Problem
 
 SECTIONS = (
@@ -42,6 +44,7 @@ def lint_course(course: Course) -> list[Problem]:
         first = _first_line_of_body(source, lesson.body)
         problems += [Problem(source, text, line=first + line) for line, text in _lint_body(lesson.body)]
         problems += _lint_folder(lesson)
+        problems += find_bad_predictions(lesson, [item.id for item in course.checklist.items], CODE_WIDTH)
     return problems
 
 
@@ -201,6 +204,14 @@ def _lint_folder(lesson: Lesson) -> Iterator[Problem]:
                 yield Problem(partner.file, "this file is missing")
             else:
                 yield from _lint_source(partner.file)
+    if lesson.predictions:
+        expected.add(lesson.folder / PREDICTIONS)
+    for program in dict.fromkeys(prediction.program for prediction in lesson.predictions):
+        expected.add(program)
+        if not program.is_file():
+            yield Problem(program, "this file is missing")
+        else:
+            yield from _lint_source(program)
     for path in sorted(lesson.folder.rglob("*")):
         if path.is_file() and path not in expected and path.parent.name != "__pycache__":
             yield Problem(path, "this file belongs to no lesson")
