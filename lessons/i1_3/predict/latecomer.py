@@ -27,9 +27,7 @@ place.publish(String(data="dock"))
 
 heard = []
 dashboard = rclpy.create_node("dashboard")
-dashboard.create_subscription(
-    String, "place", lambda message: heard.append(message.data), 10
-)
+dashboard.create_subscription(String, "place", lambda message: heard.append(message.data), 10)
 client = dashboard.create_client(Trigger, "where_are_you")
 
 executor = SingleThreadedExecutor()
