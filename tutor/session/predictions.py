@@ -16,7 +16,7 @@ from tutor.session.node import Node, NodeState
 from tutor.session.node_command import NodeCommand
 from tutor.workspace import Predicted
 
-LIMIT_S = 60.0
+LIMIT_S = 90.0
 """How long a program may take, in seconds. It needs some five; the rest is for a busy machine."""
 
 

@@ -70,6 +70,7 @@ EVIDENCE = Command("evidence", ("i",), "Evidence", "Show or hide the evidence")
 EXPLAIN = Command("explain", ("x",), "Why", "Explain the mistake, with an example", footer=True)
 ATTEMPTS = Command("attempts", ("a",), "Attempts", "Show your attempts over time")
 HINT = Command("hint", ("h",), "Hint", "Show the next hint", footer=True)
+PREDICT = Command("predict", ("8",), "Predict", "Predict what a program does, then see", footer=True)
 
 # Your code
 START = Command("start", ("s",), "Start", "Put the skeleton into your workspace")
@@ -122,7 +123,7 @@ QUIT = Command(
 
 GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
     ("Your node", (RUN, STOP, RESTART, PARTNER, OTHER_FILE, OPTIONS, RESTART_ON_SAVE)),
-    ("The check", (CHECK, CANCEL, WATCH, FIRST_FAILURE, EVIDENCE, EXPLAIN, ATTEMPTS, HINT)),
+    ("The check", (CHECK, CANCEL, WATCH, FIRST_FAILURE, EVIDENCE, EXPLAIN, ATTEMPTS, HINT, PREDICT)),
     (
         "Your code",
         (START, EDIT, SAVE, FIND, FIND_NEXT, OWN_EDITOR, NEXT_FILE, SKELETON, CHANGES, SOLUTION, AGAINST, RESET),

@@ -26,6 +26,7 @@ from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.nodes import Logs, Nodes
 from tutor.tui.control.pages import LessonCommands, Pages
+from tutor.tui.control.predictions import Predictions
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
 from tutor.tui.control.reports import Reports
@@ -65,6 +66,7 @@ class MainScreen(HostScreen):
         self.nodes = Nodes(self, self.files, self.preferences)
         self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
         self.checklist = ChecklistController(self, self.records)
+        Predictions(self, self.records)
         self.reports = Reports(self, self.pages, self.preferences)
         Logs(self, log)
         self.lesson_commands = LessonCommands(self, self.pages)
