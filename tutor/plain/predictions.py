@@ -19,7 +19,9 @@ class Predictions:
         self._conversation = conversation
         self.commands = (
             DialogCommand("predictions", "list what you can predict in this lesson", self.show),
-            DialogCommand("predict", "say what a given program will do, then hear what it does", self.predict, "NUMBER"),
+            DialogCommand(
+                "predict", "say what a given program will do, then hear what it does", self.predict, "NUMBER"
+            ),
         )
 
     def _predictions(self) -> tuple[Prediction, ...]:
