@@ -11,6 +11,10 @@ def tell(request, response):
     return response
 
 
+def hear(message):
+    heard.append(message.data)
+
+
 def spin_until(condition):
     for _ in range(200):
         if condition():
@@ -27,7 +31,7 @@ place.publish(String(data="dock"))
 
 heard = []
 dashboard = rclpy.create_node("dashboard")
-dashboard.create_subscription(String, "place", lambda message: heard.append(message.data), 10)
+dashboard.create_subscription(String, "place", hear, 10)
 client = dashboard.create_client(Trigger, "where_are_you")
 
 executor = SingleThreadedExecutor()
