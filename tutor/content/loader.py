@@ -86,7 +86,6 @@ def _read_course(lessons: Path) -> Course:
     )
 
 
-
 def _read_lesson(folder: Path) -> Lesson:
     file = folder / "lesson.md"
     head, fence, body = _split_front_matter(read_text(file))
