@@ -8,9 +8,11 @@ from pathlib import Path
 
 import pytest
 
+import tutor.cli.author_predictions
 import tutor.engine.verification
 from tests.cli.conftest import Run
 from tests.failures import failure
+from tutor.cli.author_predictions import run_programs
 from tutor.content import Course, load_course, loader
 from tutor.content.submissions import Expected
 from tutor.engine.verification import Job, Kind, Proof
@@ -65,6 +67,7 @@ class FakeProver:
 def prover(monkeypatch: pytest.MonkeyPatch) -> FakeProver:
     prover = FakeProver()
     monkeypatch.setattr(tutor.engine.verification, "prove", prover)
+    monkeypatch.setattr(tutor.cli.author_predictions, "run_programs", lambda lessons: (0, []))
     return prover
 
 
@@ -120,6 +123,49 @@ def test_findings_of_the_runs_are_one_line_each_and_exit_1(run: Run, prover: Fak
     assert "client does not pass (b | no spin: c)" in solution
     assert unjudged == "i1.3 solution, operations: could not be judged: too busy; wait"
     assert summary == "2 findings, 1 could not be judged: 1 exercise, 2 runs"
+
+
+PREDICTIONS = """\
+predictions:
+  - id: one
+    program: predict/program.py
+    asks: What is written?
+    options:
+      - {says: one, seen: "1$"}
+      - {says: two, seen: "2$"}
+    because: So it is.
+"""
+
+
+@pytest.mark.parametrize(
+    ("program", "problem"),
+    [
+        ("print(2)", ""),
+        ("print(3)", "none of the options can be told from what program.py has written"),
+        ("print(1); print(2)", "2 options can be told from what program.py has written"),
+        ("print(1); raise SystemExit('no')", "program.py ended by itself with exit code 1"),
+    ],
+)
+def test_exactly_one_option_of_a_prediction_must_hold(
+    run: Run, prover: FakeProver, own_course: Path, monkeypatch: pytest.MonkeyPatch, program: str, problem: str
+) -> None:
+    monkeypatch.setattr(tutor.cli.author_predictions, "run_programs", run_programs)
+    folder = own_course / "lessons" / "x1_3"
+    shutil.rmtree(folder / "predict", ignore_errors=True)
+    (folder / "predict").mkdir()
+    (folder / "predict/program.py").write_text(program)
+    (folder / "predictions.yaml").write_text(PREDICTIONS)
+    result = run("author", "check", "x1.3", "--lessons", own_course)
+    *findings, summary = result.out.splitlines()
+    if problem:
+        (finding,) = [line for line in findings if "predictions.yaml" in line]
+        hint = "exactly one option must hold, however busy the machine is"
+        assert finding.endswith(f"predictions.yaml:2: the prediction one: {problem}; {hint}")
+        assert result.code == 1
+    else:
+        assert findings == []
+        assert "ros-tutor: x1.3 one: two" in result.err.splitlines()
+        assert summary.startswith("nothing is wrong: ")
 
 
 def test_what_could_not_be_judged_is_not_a_finding_and_exits_3(run: Run, prover: FakeProver) -> None:

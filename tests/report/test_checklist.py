@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from datetime import date
 from html.parser import HTMLParser
 from pathlib import Path
@@ -13,9 +14,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tutor.content import Checklist, ChecklistGroup, ChecklistItem, Course, CriterionText, Difficulty, Lesson
+from tutor.content import (
+    Checklist,
+    ChecklistGroup,
+    ChecklistItem,
+    Course,
+    CriterionText,
+    Difficulty,
+    Lesson,
+    Option,
+    Prediction,
+)
 from tutor.judge.verdict import Status
-from tutor.report.assessment import Assessment, Evidence, Source, assess
+from tutor.report.assessment import AssessedItem, Assessment, Evidence, Source, assess
 from tutor.report.checklist_formats import FORMATS, format_of, render_checklist
 from tutor.report.phrases import calendar_day, describe_evidence, describe_sources, near_day
 from tutor.workspace import Attempt, ExerciseProgress, Help, Progress
@@ -83,6 +94,71 @@ def evidence(done: Progress, item: str) -> tuple[Evidence, ...]:
 
 def validation(*attempts: Attempt, best: Status | None = None) -> tuple[Evidence, ...]:
     return evidence(progress(i2_1=exercise(*attempts, best=best)), "validate")
+
+
+ASKED = replace(
+    COURSE,
+    lessons=(
+        *LESSONS,
+        replace(
+            LESSONS[1],
+            id="i2.3",
+            checklist=(),
+            criteria=(),
+            predictions=tuple(
+                Prediction(id, Path("p.py"), "What?", (Option("a", "a"), Option("b", "b")), "So.", shows)
+                for id, shows in (("one", ("judge",)), ("two", ("judge", "declare")), ("three", ()))
+            ),
+        ),
+    ),
+)
+"""A course in which predictions show two items, though their lesson has no criterion that does."""
+
+
+def predicted(*answers: tuple[str, bool]) -> tuple[AssessedItem, ...]:
+    done = Progress()
+    for prediction, right in answers:
+        done = done.with_prediction("i2.3", prediction, right)
+    return assessed(done, ASKED).items
+
+
+def judge_of(items: tuple[AssessedItem, ...]) -> list[str]:
+    (item,) = (item for item in items if item.id == "judge")
+    return describe_evidence(item.evidence, lambda at: "today")
+
+
+def test_predictions_are_evidence_once_all_that_show_an_item_have_come_true() -> None:
+    assert judge_of(predicted(("one", True))) == []
+    assert judge_of(predicted(("one", True), ("two", False))) == []
+    both = predicted(("one", True), ("two", True))
+    assert judge_of(both) == ["i2.3 predictions passed, today"]
+    assert all(item.shown == (item.id in ("judge", "declare")) for item in both)
+
+
+def test_an_answer_after_the_outcome_was_seen_says_so_and_a_right_one_is_kept() -> None:
+    assert judge_of(predicted(("one", False), ("one", True), ("two", True))) == [
+        "i2.3 predictions passed with answers, today"
+    ]
+    assert judge_of(predicted(("one", True), ("one", False), ("two", True))) == ["i2.3 predictions passed, today"]
+
+
+def test_what_predictions_could_show_is_named() -> None:
+    (item,) = (item for item in predicted() if item.id == "judge")
+    assert item.sources == (Source("i2.3", (), ("one", "two")),)
+    assert describe_sources(item.sources) == ["i2.3 predictions"]
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_every_document_has_the_evidence_of_predictions(format: str) -> None:
+    done = Progress().with_prediction("i2.3", "one", False).with_prediction("i2.3", "one", True)
+    text = render_checklist(assessed(done.with_prediction("i2.3", "two", True), ASKED), format, at=NOON)
+    if format != "json":
+        assert "i2.3 predictions passed with answers, " in text
+        return
+    items = {item["id"]: item for group in json.loads(text)["groups"] for item in group["items"]}
+    (piece,) = items["judge"]["evidence"]
+    assert (piece["exercise"], piece["criterion"], piece["predictions"]) == ("i2.3", None, ["one", "two"])
+    assert (piece["help"], piece["since_changed"]) == ("answers", False)
 
 
 def test_a_criterion_that_passed_is_evidence_even_if_the_exercise_did_not() -> None:
@@ -262,7 +338,14 @@ def test_json_has_a_schema_and_all_items() -> None:
     assert (second["id"], second["text"]) == ("validate", "Refuse *bad* values")
     assert (second["ticked"], second["ticked_at"]) == (False, None)
     assert second["evidence"] == [
-        {"exercise": "i2.1", "criterion": "validation", "passed_at": LATER, "since_changed": False, "help": None}
+        {
+            "exercise": "i2.1",
+            "criterion": "validation",
+            "predictions": [],
+            "passed_at": LATER,
+            "since_changed": False,
+            "help": None,
+        }
     ]
     assert document["exercises"][0] == {
         "id": "i2.1",

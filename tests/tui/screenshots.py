@@ -30,6 +30,7 @@ from tutor.judge.verdict import Status
 from tutor.session import Session
 from tutor.tui.app import TutorApp
 from tutor.tui.dialogs.checklist import ChecklistScreen
+from tutor.tui.dialogs.predict import PredictScreen
 from tutor.tui.live.topics_panel import TopicsPanel
 from tutor.tui.screens.main import MainScreen
 from tutor.tui.screens.welcome import WelcomeScreen
@@ -295,6 +296,20 @@ class Album:
             await pilot.pause(0.1)
             await self.take(pilot, "export")
 
+    async def predict(self) -> None:
+        """A prediction: the question, and what was seen after a wrong answer; the program is run."""
+        with session_with_solutions(1) as session:
+            async with self.open_app(session) as pilot:
+                await main_screen(pilot).go_to(session.course.find("i2.3"))
+                await pilot.pause()
+                await self.take(pilot, "predict-footer")
+                await pilot.press("8")
+                await until(pilot, lambda: isinstance(pilot.app.screen, PredictScreen))
+                await self.take(pilot, "predict")
+                await pilot.press("n", "n", "2")
+                await until(pilot, lambda: isinstance(screen := pilot.app.screen, PredictScreen) and screen.told)
+                await self.take(pilot, "predict-seen")
+
     async def crash(self) -> None:
         async with self.fake_app() as (pilot, session):
             await pilot.press("c")
@@ -348,7 +363,7 @@ async def main(folder: Path, only: str = "") -> None:
     for size in SIZES:
         album = Album(folder, size)
         states = (album.welcome, album.rest, album.busy, album.live, album.terminal, album.partner)
-        for group in (*states, album.checked, album.ready, album.crash):
+        for group in (*states, album.checked, album.ready, album.predict, album.crash):
             if only in f"{size[0]}x{size[1]} {group.__name__}":
                 await group()
     print(f"{len(list(folder.glob('*.svg')))} screenshots in {folder}")

@@ -328,6 +328,17 @@ def test_an_invalid_value_is_reported_as_damaged(text: str, replacement: str) ->
         decode(EARLIER_FILE.replace(text, replacement))
 
 
+def test_answers_to_predictions_are_kept_and_survive_the_disk() -> None:
+    first = Progress().with_prediction("i2.3", "two-groups", False).with_prediction("i2.3", "reentrant", True)
+    wrong, right = first.of("i2.3").predictions["two-groups"], first.of("i2.3").predictions["reentrant"]
+    assert ((wrong.right, wrong.seen), (right.right, right.seen)) == ((False, False), (True, False))
+    later = first.with_prediction("i2.3", "two-groups", True).with_prediction("i2.3", "reentrant", False)
+    again = later.of("i2.3").predictions["two-groups"]
+    assert (again.right, again.seen) == (True, True)
+    assert later.of("i2.3").predictions["reentrant"] == right
+    assert decode(encode(later)) == later
+
+
 def test_checks_in_a_row_that_failed_by_a_mistake_are_counted_from_the_last() -> None:
     def attempt(*mistakes: str) -> Attempt:
         return Attempt("2026-01-02T03:04:06Z", Status.FAILED, (), mistakes=mistakes)

@@ -29,7 +29,9 @@ class _Chosen(NamedTuple):
 
 def run(arguments: argparse.Namespace) -> int:
     """Print one line per finding and a summary: first the static findings, then those from running the exercises."""
+    from tutor.cli.author_predictions import run_programs
     from tutor.content import Problem, load_course
+    from tutor.stop_signals import Stopped
 
     try:
         own = context.own_courses(arguments)
@@ -52,7 +54,16 @@ def run(arguments: argparse.Namespace) -> int:
             return INTERRUPTED
         proofs = proven
     unjudged = _print_proofs(proofs, findings)
-    _print_summary(len(chosen.lessons), len(proofs), len(findings), unjudged)
+    programs = 0
+    if not arguments.static and not chosen.submissions:
+        try:
+            programs, found = run_programs(chosen.lessons)
+        except Stopped:
+            terminal.say("interrupted; nothing is left running")
+            return INTERRUPTED
+        findings += found
+        _print_findings(found)
+    _print_summary(len(chosen.lessons), len(proofs) + programs, len(findings), unjudged)
     return NOT_PASSED if findings else FAULT if unjudged else PASSED
 
 

@@ -20,6 +20,7 @@ from tutor.cli import (
     hint,
     list_exercises,
     next_exercise,
+    predict,
     reset,
     ros2,
     run_node,
@@ -80,6 +81,7 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
     add("reset", reset.run, reset.add_arguments, "put the skeleton back; your file is kept beside it")
     add("hint", hint.run, hint.add_arguments, "show the next hint for an exercise")
     add("answer", answer.run, answer.add_arguments, "say what is wrong with a system that was handed over, and where")
+    add("predict", predict.run, predict.add_arguments, "say what a given program will do, then see what it does")
     add("explain", explain.run, explain.add_arguments, "explain a mistake that a report names, or list all")
     add("solution", solution.run, solution.add_arguments, "print our solution of an exercise")
     add("checklist", checklist.run, checklist.add_arguments, "show, tick or export the self-assessment checklist")

@@ -13,6 +13,7 @@ from tutor.content.model import (
     Lesson,
     LessonFile,
 )
+from tutor.content.predictions import Option, Prediction
 from tutor.content.problem import Problem
 
 __all__ = [
@@ -27,7 +28,9 @@ __all__ = [
     "LessonFile",
     "LiveTopic",
     "LiveView",
+    "Option",
     "Partner",
+    "Prediction",
     "Problem",
     "load_course",
 ]

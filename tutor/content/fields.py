@@ -14,6 +14,15 @@ from tutor.errors import ContentError
 _Loader: type[Any] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
+def read_text(file: Path) -> str:
+    """Return the text of a file of a course. Raises ContentError."""
+    try:
+        return file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise ContentError(file, f"cannot read it: {reason}") from error
+
+
 class Document:
     """A YAML text and its place in a file. `offset` is the number of lines of the file before the text."""
 
@@ -21,6 +30,11 @@ class Document:
         self.file = file
         self._text = text
         self._offset = offset
+
+    @classmethod
+    def of(cls, file: Path) -> Document:
+        """Return a file that holds nothing else. Raises ContentError if it cannot be read."""
+        return cls(file, read_text(file))
 
     def read(self) -> Fields:
         """Parse the text, whose outermost value must be a mapping.

@@ -9,8 +9,10 @@ from pathlib import Path
 
 from tutor.content.cases import FILE as CASES
 from tutor.content.lint_cases import lint_cases
+from tutor.content.lint_predictions import find_bad_predictions
 from tutor.content.model import Course, CriterionText, Lesson
 from tutor.content.places import find_line
+from tutor.content.predictions import FILE as PREDICTIONS
 from tutor.content.problem import Problem
 
 SECTIONS = (
@@ -44,6 +46,7 @@ def lint_course(course: Course) -> list[Problem]:
         first = _first_line_of_body(source, lesson.body)
         problems += [Problem(source, text, line=first + line) for line, text in _lint_body(lesson.body)]
         problems += [*_lint_folder(lesson), *lint_cases(lesson)]
+        problems += find_bad_predictions(lesson, [item.id for item in course.checklist.items], CODE_WIDTH)
     return problems
 
 
@@ -207,6 +210,14 @@ def _lint_folder(lesson: Lesson) -> Iterator[Problem]:
                 yield Problem(partner.file, "this file is missing")
             else:
                 yield from _lint_source(partner.file)
+    if lesson.predictions:
+        expected.add(lesson.folder / PREDICTIONS)
+    for program in dict.fromkeys(prediction.program for prediction in lesson.predictions):
+        expected.add(program)
+        if not program.is_file():
+            yield Problem(program, "this file is missing")
+        else:
+            yield from _lint_source(program)
     for path in sorted(lesson.folder.rglob("*")):
         if path.is_file() and path not in expected and path.parent.name != "__pycache__":
             yield Problem(path, "this file belongs to no lesson")

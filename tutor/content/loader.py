@@ -5,6 +5,7 @@ A course is a folder with
 - lessons/checklist.yaml: the self-assessment checklist
 - lessons/units.yaml: the order of its units (see `units`); not required
 - lessons/i1_1/lesson.md: YAML front matter between two --- lines, then the lesson in Markdown
+- lessons/i1_1/predictions.yaml: predictions about given programs (see `predictions`); most lessons have none
 - lessons/i1_1/skeleton/: the files a learner starts from
 - lessons/i1_1/solution/: our solution
 - lessons/i1_1/cases.yaml: where a system with a fault is handed over, the faults that are drawn from (see `cases`)
@@ -21,7 +22,7 @@ from pathlib import Path
 
 from tutor.content.cases import FILE as CASES
 from tutor.content.courses import MANIFEST, Manifest, read_manifest
-from tutor.content.fields import Document, Fields
+from tutor.content.fields import Document, Fields, read_text
 from tutor.content.live import LiveTopic, LiveView, Partner
 from tutor.content.model import (
     Checklist,
@@ -33,6 +34,7 @@ from tutor.content.model import (
     Lesson,
     LessonFile,
 )
+from tutor.content.predictions import read_predictions
 from tutor.content.units import read_units
 from tutor.errors import ContentError
 
@@ -86,17 +88,9 @@ def _read_course(lessons: Path) -> Course:
     )
 
 
-def _read_text(file: Path) -> str:
-    try:
-        return file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise ContentError(file, f"cannot read it: {reason}") from error
-
-
 def _read_lesson(folder: Path) -> Lesson:
     file = folder / "lesson.md"
-    head, fence, body = _split_front_matter(_read_text(file))
+    head, fence, body = _split_front_matter(read_text(file))
     if not fence:
         raise ContentError(file, f"expected a front matter between two {_FENCE} lines at the top", line=1)
     fields = Document(file, head, offset=1).read()
@@ -114,6 +108,7 @@ def _read_lesson(folder: Path) -> Lesson:
         folder=folder,
         heading=BUNDLED_TITLE,
         live=_read_live(fields.mapping("live"), folder),
+        predictions=read_predictions(folder),
     )
     fields.done()
     return lesson
@@ -211,7 +206,7 @@ def _read_partner(fields: Fields, folder: Path) -> Partner:
 
 
 def _read_checklist(file: Path) -> Checklist:
-    fields = Document(file, _read_text(file)).read()
+    fields = Document.of(file).read()
     checklist = Checklist(
         groups=tuple(_read_group(group) for group in fields.mappings("groups")),
         ready_title=fields.text("ready_title", optional=True),

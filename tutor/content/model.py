@@ -7,6 +7,7 @@ from enum import StrEnum
 from pathlib import Path
 
 from tutor.content.live import LiveView
+from tutor.content.predictions import Prediction
 from tutor.errors import UnknownExercise
 
 
@@ -76,6 +77,7 @@ class Lesson:
     body: str
     folder: Path
     live: LiveView = field(default_factory=LiveView)
+    predictions: tuple[Prediction, ...] = ()
     course: str = ""
     heading: str = ""
     beyond: bool = False

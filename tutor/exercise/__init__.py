@@ -23,8 +23,8 @@ from tutor.exercise.answers_at_once import AnswersAtOnce
 from tutor.exercise.answers_by_asking import AnswersByAsking
 from tutor.exercise.answers_without_reply import AnswersWithoutReply
 from tutor.exercise.argument_moves import ArgumentMovesNamespace, ArgumentMovesTopic
-from tutor.exercise.builds_interfaces import BuildsInterfaces
 from tutor.exercise.asking import Asking
+from tutor.exercise.builds_interfaces import BuildsInterfaces
 from tutor.exercise.calls_all import CallsAll
 from tutor.exercise.criterion_function import criterion
 from tutor.exercise.defaults import Defaults
@@ -39,10 +39,9 @@ from tutor.exercise.handles_goal import HandlesGoal, SendsFeedback
 from tutor.exercise.handles_two_goals import HandlesTwoGoals
 from tutor.exercise.has_endpoints import Endpoint, HasEndpoints
 from tutor.exercise.in_range import InRange, OtherUnit, Varies
-from tutor.exercise.logs_at import LogsAt, StaysQuiet, Throttles
+from tutor.exercise.keeps_pace_while_asking import KeepsPaceWhileAsking
 from tutor.exercise.keeps_rate import KeepsRate
 from tutor.exercise.leads_to import LeadsTo
-from tutor.exercise.keeps_pace_while_asking import KeepsPaceWhileAsking
 from tutor.exercise.lifecycle_forms import (
     Activates,
     BeginsUnconfigured,
@@ -52,6 +51,7 @@ from tutor.exercise.lifecycle_forms import (
     FailsToConfigure,
     ShutsDown,
 )
+from tutor.exercise.logs_at import LogsAt, StaysQuiet, Throttles
 from tutor.exercise.logs_parameter import LogsParameter
 from tutor.exercise.names_bad_value import NamesBadValue
 from tutor.exercise.names_fault import NamesFault
@@ -82,11 +82,11 @@ from tutor.exercise.set_at_start import SetAtStart
 from tutor.exercise.shows_each import ShowsEach
 from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
-from tutor.exercise.told_events import Event, Feed
 from tutor.exercise.tells import Tells
+from tutor.exercise.told_events import Event, Feed
 from tutor.exercise.watched_start import LogsText
-from tutor.ros_model import QoS
 from tutor.judge.bench import GoalReplies
+from tutor.ros_model import QoS
 
 __all__ = [
     "SAYS_ERROR",
@@ -100,8 +100,8 @@ __all__ = [
     "ArgumentMovesTopic",
     "Asking",
     "AtLeast",
-    "BuildsInterfaces",
     "BeginsUnconfigured",
+    "BuildsInterfaces",
     "CallsAll",
     "CleansUp",
     "Configures",
@@ -109,30 +109,30 @@ __all__ = [
     "Custom",
     "Deactivates",
     "Defaults",
-    "Endpoint",
     "DuringGoal",
+    "Endpoint",
     "EndsCleanly",
-    "Event",
-    "Feed",
-    "Faults",
     "EndsWhileAsking",
+    "Event",
     "FailsToConfigure",
+    "Faults",
+    "Feed",
     "FieldEquals",
     "Fields",
     "Form",
     "GivenPublisher",
     "GoalReplies",
     "HandlesGoal",
-    "HasEndpoints",
     "HandlesRejection",
     "HandlesTwoGoals",
+    "HasEndpoints",
     "InRange",
-    "KeepsRate",
     "KeepsPaceWhileAsking",
+    "KeepsRate",
     "LaunchFile",
-    "LogsAt",
     "LeadsTo",
     "Lifecycle",
+    "LogsAt",
     "LogsParameter",
     "LogsText",
     "NamesBadValue",
@@ -165,8 +165,8 @@ __all__ = [
     "StaysQuiet",
     "SurvivesBadCall",
     "SwitchesOff",
-    "Throttles",
     "Tells",
+    "Throttles",
     "Topic",
     "Varies",
     "check",

@@ -17,6 +17,7 @@ from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.plain.lessons import Lessons
 from tutor.plain.lines import LineReader
 from tutor.plain.nodes import Nodes
+from tutor.plain.predictions import Predictions
 from tutor.plain.ros2_commands import Ros2Commands
 from tutor.ros import stale_segments
 from tutor.session import Session
@@ -55,6 +56,7 @@ class Dialog:
             *Ros2Commands(self._conversation).commands,
             *Checks(self._conversation).commands,
             *Answers(self._conversation).commands,
+            *Predictions(self._conversation).commands,
             *ChecklistCommands(self._conversation).commands,
             DialogCommand("help", "list all commands", self._help, aliases=("?",)),
             DialogCommand("quit", "stop everything and leave", self._quit, aliases=("exit", "bye")),

@@ -11,7 +11,7 @@ from tutor.workspace import Attempt, ExerciseProgress, Help, Progress, exercise_
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """A criterion that passed, or the exercise as a whole if `criterion` is empty.
+    """A criterion that passed, or the exercise as a whole if `criterion` is empty, or `predictions` that came true.
 
     `at` is the last time it passed (UTC, ISO 8601), or empty if that is no longer known. `changed`: the files have been
     changed since; None if that is not known. `help`: what the learner had seen when it passed for the first time.
@@ -22,6 +22,7 @@ class Evidence:
     at: str
     changed: bool | None = False
     help: Help | None = None
+    predictions: tuple[str, ...] = ()
 
     @property
     def holds(self) -> bool:
@@ -31,10 +32,11 @@ class Evidence:
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """What could give evidence: some criteria of an exercise, or the exercise as a whole if `criteria` is empty."""
+    """What could give evidence: some criteria of an exercise, all of some `predictions`, or else the exercise."""
 
     exercise: str
     criteria: tuple[str, ...]
+    predictions: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +164,9 @@ def _assess_item(item: ChecklistItem, course: Course, progress: Progress, versio
     found: list[Evidence | None] = []
     sources: list[Source] = []
     for lesson in course.lessons:
+        if predictions := tuple(p.id for p in lesson.predictions if item.id in p.shows):
+            sources.append(Source(lesson.id, (), predictions))
+            found.append(_evidence_of_predictions(lesson, predictions, progress.of(lesson.id)))
         if item.id not in lesson.checklist:
             continue
         criteria = [criterion for criterion in lesson.criteria if item.id in criterion.shows]
@@ -180,6 +185,18 @@ def _assess_item(item: ChecklistItem, course: Course, progress: Progress, versio
 def _evidence_of_exercise(lesson: Lesson, progress: ExerciseProgress, version: str) -> Evidence | None:
     judged = [(attempt, attempt.is_pass) for attempt in progress.attempts if attempt.whole]
     return _evidence(lesson, "", judged, version, passed_before=progress.is_passed)
+
+
+def _evidence_of_predictions(
+    lesson: Lesson, predictions: tuple[str, ...], progress: ExerciseProgress
+) -> Evidence | None:
+    """Return what predictions show: all of them must have come true, and the last one that did says when."""
+    answers = [progress.predictions.get(prediction) for prediction in predictions]
+    right = [answer for answer in answers if answer is not None and answer.right]
+    if len(right) < len(predictions):
+        return None
+    help = Help.ANSWERS if any(answer.seen for answer in right) else Help.NONE
+    return Evidence(lesson.id, "", max(answer.at for answer in right), help=help, predictions=predictions)
 
 
 def _evidence_of_criterion(

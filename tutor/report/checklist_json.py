@@ -44,6 +44,7 @@ def _item(item: AssessedItem) -> dict[str, Any]:
             {
                 "exercise": piece.exercise,
                 "criterion": piece.criterion or None,
+                "predictions": list(piece.predictions),
                 "passed_at": piece.at or None,
                 "since_changed": piece.changed,
                 "help": piece.help,

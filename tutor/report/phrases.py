@@ -9,6 +9,8 @@ from tutor.report.assessment import AssessedExercise, Evidence, Source
 from tutor.terminal_text import printable
 from tutor.workspace import Help
 
+_PREDICTIONS = "predictions"
+
 Day = Callable[[str], str]
 """Formats the day of a time in the progress file (UTC, ISO 8601)."""
 
@@ -36,7 +38,7 @@ def describe_evidence(evidence: Sequence[Evidence], day: Day, max_items: int | N
     """
     together: dict[tuple[str, str], list[str]] = {}
     for piece in evidence:
-        together.setdefault((piece.exercise, _describe_pass(piece, day)), []).append(piece.criterion)
+        together.setdefault((piece.exercise, _describe_pass(piece, day)), []).append(_name_of(piece))
     phrases = [f"{_join_names(exercise, criteria)} {passed}" for (exercise, passed), criteria in together.items()]
     if max_items is None or len(phrases) <= max_items:
         return phrases
@@ -53,7 +55,7 @@ def _describe_pass(evidence: Evidence, day: Day) -> str:
 
 def describe_help(help: Help | None) -> str:
     """Return what the learner had seen before, to follow "passed": " with hints"; empty if nothing, or not known."""
-    return f" with {help}" if help in (Help.HINTS, Help.SOLUTION) else ""
+    return f" with {help}" if help is not None and help is not Help.NONE else ""
 
 
 def describe_status(exercise: AssessedExercise) -> str:
@@ -66,7 +68,13 @@ def describe_status(exercise: AssessedExercise) -> str:
 
 def describe_sources(sources: Sequence[Source]) -> list[str]:
     """Return one phrase per exercise that could give evidence: "i2.1 runtime-params and timer"."""
-    return [_join_names(source.exercise, source.criteria) for source in sources]
+    return [
+        _join_names(source.exercise, [_PREDICTIONS] if source.predictions else source.criteria) for source in sources
+    ]
+
+
+def _name_of(piece: Evidence) -> str:
+    return _PREDICTIONS if piece.predictions else piece.criterion
 
 
 def _join_names(exercise: str, criteria: Sequence[str]) -> str:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tutor import interpreter
-from tutor.content import Course, Lesson, LessonFile, Partner
+from tutor.content import Course, Lesson, LessonFile, Partner, Prediction
 from tutor.content.courses import Courses
 from tutor.errors import StorageError
 from tutor.session import run_options
@@ -182,6 +182,13 @@ class Session:
         if not self.workspace.exists:
             return Progress()
         return self.workspace.progress(self.notify).change(lambda progress: progress.with_solution(lesson.id))
+
+    def predict(self, lesson: Lesson, prediction: Prediction, right: bool) -> Progress:
+        """Record the answer to a prediction whose outcome was seen; return the new progress. Raises StorageError."""
+        if not self.workspace.exists:
+            return Progress()
+        file = self.workspace.progress(self.notify)
+        return file.change(lambda progress: progress.with_prediction(lesson.id, prediction.id, right))
 
     def versions(self) -> dict[str, str]:
         """Read the versions of all exercises' files, by exercise id."""

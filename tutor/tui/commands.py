@@ -72,6 +72,7 @@ ATTEMPTS = Command("attempts", ("a",), "Attempts", "Show your attempts over time
 ANSWER = Command("answer", ("A",), "Answer", "Say what is wrong with the system, and where", footer=True)
 ANOTHER = Command("another", ("N",), "Another", "Hand over another fault")
 HINT = Command("hint", ("h",), "Hint", "Show the next hint", footer=True)
+PREDICT = Command("predict", ("8",), "Predict", "Predict what a program does, then see", footer=True)
 
 # Your code
 START = Command("start", ("s",), "Start", "Put the skeleton into your workspace")
@@ -124,7 +125,10 @@ QUIT = Command(
 
 GROUPS: tuple[tuple[str, tuple[Command, ...]], ...] = (
     ("Your node", (RUN, STOP, RESTART, PARTNER, OTHER_FILE, OPTIONS, RESTART_ON_SAVE)),
-    ("The check", (CHECK, CANCEL, WATCH, FIRST_FAILURE, EVIDENCE, EXPLAIN, ATTEMPTS, HINT, ANSWER, ANOTHER)),
+    (
+        "The check",
+        (CHECK, CANCEL, WATCH, FIRST_FAILURE, EVIDENCE, EXPLAIN, ATTEMPTS, HINT, ANSWER, ANOTHER, PREDICT),
+    ),
     (
         "Your code",
         (START, EDIT, SAVE, FIND, FIND_NEXT, OWN_EDITOR, NEXT_FILE, SKELETON, CHANGES, SOLUTION, AGAINST, RESET),

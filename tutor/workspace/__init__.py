@@ -8,7 +8,7 @@ from tutor.workspace.exercise_states import ExerciseState, State, exercise_state
 from tutor.workspace.last_checks import LastCheck
 from tutor.workspace.layout import Workspace, find_workspace
 from tutor.workspace.placing_files import Placed, place_files
-from tutor.workspace.progress import Attempt, ExerciseProgress, Help, Progress
+from tutor.workspace.progress import Attempt, ExerciseProgress, Help, Predicted, Progress
 from tutor.workspace.progress_file import ProgressFile
 from tutor.workspace.recording import record
 from tutor.workspace.saving import Saved, back_up_file, overwrite_file, read_source
@@ -35,6 +35,7 @@ __all__ = [
     "Help",
     "LastCheck",
     "Placed",
+    "Predicted",
     "Progress",
     "ProgressFile",
     "RunOptions",

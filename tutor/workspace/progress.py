@@ -24,6 +24,8 @@ class Help(StrEnum):
     NONE = "none"
     HINTS = "hints"
     SOLUTION = "solution"
+    ANSWERS = "answers"
+    """Of a prediction only: what the program does had been seen before it was predicted right."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,10 +63,23 @@ class Attempt:
 
 
 @dataclass(frozen=True, slots=True)
+class Predicted:
+    """The latest answer to a prediction, or the first right one. `at` is a UTC time in ISO 8601.
+
+    `seen`: the outcome had been seen before, so it was an answer from memory.
+    """
+
+    at: str
+    right: bool
+    seen: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class ExerciseProgress:
     """The progress on one exercise. `attempts` are oldest first; `hints` is the number of hints shown.
 
     `criterion_hint` says whether the hint for a criterion was shown, `solution_at` when our solution was first shown.
+    `predictions` holds what was answered, by the prediction's id.
     """
 
     started_at: str | None = None
@@ -73,6 +88,7 @@ class ExerciseProgress:
     hints: int = 0
     criterion_hint: bool = False
     solution_at: str | None = None
+    predictions: Mapping[str, Predicted] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.hints < 0:
@@ -167,6 +183,15 @@ class Progress:
         """Return a copy in which our solution of `exercise` was shown; an earlier time is kept."""
         before = self.of(exercise)
         return self.with_exercise(exercise, replace(before, solution_at=before.solution_at or now()))
+
+    def with_prediction(self, exercise: str, prediction: str, right: bool) -> Progress:
+        """Return a copy in which a prediction was answered, and its outcome seen. A right answer is kept for good."""
+        before = self.of(exercise)
+        former = before.predictions.get(prediction)
+        if former is not None and former.right:
+            return self
+        answer = Predicted(now(), right, seen=former is not None)
+        return self.with_exercise(exercise, replace(before, predictions={**before.predictions, prediction: answer}))
 
     def with_tick(self, item: str, ticked: bool = True) -> Progress:
         """Return a copy in which one checklist item is ticked or unticked."""

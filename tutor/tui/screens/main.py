@@ -28,6 +28,7 @@ from tutor.tui.control.host import HostScreen
 from tutor.tui.control.interfaces import Interfaces
 from tutor.tui.control.nodes import Logs, Nodes
 from tutor.tui.control.pages import LessonCommands, Pages
+from tutor.tui.control.predictions import Predictions
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
 from tutor.tui.control.reports import Reports
@@ -69,6 +70,7 @@ class MainScreen(HostScreen):
         self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
         self.checklist = ChecklistController(self, self.records)
         self.interfaces = Interfaces(self, self.pages.restart_live)
+        Predictions(self, self.records)
         self.reports = Reports(self, self.pages, self.preferences)
         Logs(self, log)
         self.lesson_commands = LessonCommands(self, self.pages)

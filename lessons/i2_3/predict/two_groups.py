@@ -1,0 +1,41 @@
+"""Two timers, each in its own group, and an executor with four threads."""
+
+import threading
+
+import rclpy
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+
+
+class TwoGroups(Node):
+    """Counts how many of its callbacks run at the same time."""
+
+    def __init__(self):
+        super().__init__("two_groups")
+        self.running, self.most, self.ended = 0, 0, 0
+        self.changed = threading.Condition()
+        left = MutuallyExclusiveCallbackGroup()
+        right = MutuallyExclusiveCallbackGroup()
+        self.create_timer(0.1, self.work, left)
+        self.create_timer(0.1, self.work, right)
+
+    def work(self):
+        """Wait for company, but not for more than a second."""
+        with self.changed:
+            self.running += 1
+            self.most = max(self.most, self.running)
+            self.changed.notify_all()
+            self.changed.wait_for(lambda: self.most == 4, timeout=1.0)
+            self.running -= 1
+            self.ended += 1
+
+
+rclpy.init()
+node = TwoGroups()
+executor = MultiThreadedExecutor(num_threads=4)
+executor.add_node(node)
+while node.ended < 3:
+    executor.spin_once(timeout_sec=0.1)
+print(f"callbacks at the same time: {node.most}", flush=True)
+rclpy.try_shutdown()
