@@ -102,6 +102,7 @@ def deadlock_by_call(case: Case) -> Iterator[Found]:
     evidence=Evidence.RUN,
     says="{line} spins the node inside its own callback, and waits for what cannot happen until that returns: {code}",
     do="Take the spin out of the callback; await the future there, or continue in its done callback.",
+    remark="this spins inside a callback: calls that come meanwhile nest in it, and it cannot end before they do.",
     example=in_run(Symptom.NO_ANSWER, stuck_at=_stuck_in(("/lib/rclpy/__init__.py", "spin"))),
 )
 def spin_inside_callback(case: Case) -> Iterator[Found]:
