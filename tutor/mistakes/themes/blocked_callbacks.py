@@ -109,14 +109,20 @@ def spin_inside_callback(case: Case) -> Iterator[Found]:
     """A callback spins the node that runs it.
 
     The executor calls the callback; a second spin inside it takes the node away from that executor, or waits for a
-    callback that only the first spin could run. Nothing in the node runs any more.
+    callback of the group that this one keeps. Where it gets on at all, calls nest, and the first one ends last.
 
     Bad:
+
+        def __init__(self):
+            self.create_service(Trigger, 'ring', self.on_bell)
 
         def on_bell(self, request, response):
             rclpy.spin_until_future_complete(self, self.answer)
 
     Good:
+
+        def __init__(self):
+            self.create_service(Trigger, 'ring', self.on_bell)
 
         async def on_bell(self, request, response):
             await self.answer
