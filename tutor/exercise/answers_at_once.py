@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from tutor.exercise.answers_by_asking import describe_call, no_answer, no_answer_in_words, what_is_wrong
@@ -20,7 +20,7 @@ from tutor.exercise.asking import (
     wait_for_both,
 )
 from tutor.exercise.form import Exercise, Form
-from tutor.exercise.nouns import Program
+from tutor.exercise.nouns import Program, agrees
 from tutor.exercise.service_calls import ANSWER_S
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
@@ -77,7 +77,12 @@ class CallAtOnce:
             overlapped = len(desk.held) > 1
             desk.reply(*reversed(desk.held))
             desk.replies_at_once = True
-            return tuple([desk.with_exchanges(await call, began) for call in calls]), overlapped
+            return tuple([self._own(desk.with_exchanges(await call, began)) for call in calls]), overlapped
+
+    def _own(self, call: AskingCall) -> AskingCall:
+        """The call with what was asked for it: its requests are told from those of the other call by their fields."""
+        own = self.asking.passed_on(call.answer.request)
+        return replace(call, exchanges=tuple(made for made in call.exchanges if agrees(made.asked, own)))
 
 
 @dataclass(frozen=True)

@@ -102,20 +102,27 @@ def deadlock_by_call(case: Case) -> Iterator[Found]:
     evidence=Evidence.RUN,
     says="{line} spins the node inside its own callback, and waits for what cannot happen until that returns: {code}",
     do="Take the spin out of the callback; await the future there, or continue in its done callback.",
+    remark="this spins inside a callback: calls that come meanwhile nest in it, and it cannot end before they do.",
     example=in_run(Symptom.NO_ANSWER, stuck_at=_stuck_in(("/lib/rclpy/__init__.py", "spin"))),
 )
 def spin_inside_callback(case: Case) -> Iterator[Found]:
     """A callback spins the node that runs it.
 
     The executor calls the callback; a second spin inside it takes the node away from that executor, or waits for a
-    callback that only the first spin could run. Nothing in the node runs any more.
+    callback of the group that this one keeps. Where it gets on at all, calls nest, and the first one ends last.
 
     Bad:
+
+        def __init__(self):
+            self.create_service(Trigger, 'ring', self.on_bell)
 
         def on_bell(self, request, response):
             rclpy.spin_until_future_complete(self, self.answer)
 
     Good:
+
+        def __init__(self):
+            self.create_service(Trigger, 'ring', self.on_bell)
 
         async def on_bell(self, request, response):
             await self.answer
