@@ -83,7 +83,7 @@ CHECK = check(
         after=publishes,
     ),
     serves,
-    Answers("answers", (IN_RANGE,), questions, after=serves),
+    Answers("answers", (IN_RANGE,), questions, after=interfaces),
     EndsCleanly("shutdown", bonus=True),
     expected_s=3.0,
     expected_reason="2 s in which every message is looked at",

@@ -6,18 +6,18 @@ import pytest
 
 from tutor.exercise import BuildsInterfaces
 from tutor.judge.interface_build import InterfaceBuild
-from tutor.judge.symptom import Symptom
+from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.verdict import Failure, Status
 
 DING = ("float64 volume", "string name")
 FORM = BuildsInterfaces("types", "bell_interfaces", {"msg/Ding": DING})
 
 
-def _failure(*builds: InterfaceBuild) -> Failure:
+def _failure(*builds: InterfaceBuild) -> tuple[str, Observation]:
     verdict = FORM.judge(builds)
     assert isinstance(verdict, Failure)
     assert verdict.seen is not None
-    return verdict
+    return verdict.observed, verdict.seen
 
 
 def test_a_package_with_the_agreed_fields_passes_whatever_else_is_in_it() -> None:
@@ -36,23 +36,25 @@ def test_a_package_with_the_agreed_fields_passes_whatever_else_is_in_it() -> Non
     ],
 )
 def test_the_first_difference_is_told(found: tuple[str, ...], says: str) -> None:
-    failure = _failure(InterfaceBuild("bell_interfaces", {"msg/Ding": found}))
-    assert says in failure.observed
-    assert failure.seen.symptom is Symptom.OTHER_TYPES
+    observed, seen = _failure(InterfaceBuild("bell_interfaces", {"msg/Ding": found}))
+    assert says in observed
+    assert seen.symptom is Symptom.OTHER_TYPES
 
 
 def test_what_is_not_built_is_told_with_its_reason() -> None:
-    failure = _failure(InterfaceBuild("bell_interfaces", problems=("msg/Ding.msg:3: no", "msg/Ding.msg:4: neither")))
-    assert failure.observed == "msg/Ding.msg:3: no"
-    assert failure.seen.symptom is Symptom.NOT_BUILT
-    assert failure.seen.about["reason"] == "msg/Ding.msg:3: no"
+    observed, seen = _failure(
+        InterfaceBuild("bell_interfaces", problems=("msg/Ding.msg:3: no", "msg/Ding.msg:4: neither"))
+    )
+    assert observed == "msg/Ding.msg:3: no"
+    assert seen.symptom is Symptom.NOT_BUILT
+    assert seen.about["reason"] == "msg/Ding.msg:3: no"
 
 
 def test_a_file_that_is_not_listed_is_told() -> None:
-    failure = _failure(InterfaceBuild("bell_interfaces", unlisted=("msg/Ding.msg",)))
-    assert failure.seen.about["unlisted"] == "msg/Ding.msg"
+    _, seen = _failure(InterfaceBuild("bell_interfaces", unlisted=("msg/Ding.msg",)))
+    assert seen.about["unlisted"] == "msg/Ding.msg"
 
 
 def test_a_package_of_another_name_is_named() -> None:
-    assert "only bells" in _failure(InterfaceBuild("bells")).observed
-    assert "no interface package" in _failure().observed
+    assert "only bells" in _failure(InterfaceBuild("bells"))[0]
+    assert "no interface package" in _failure()[0]

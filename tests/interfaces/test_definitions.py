@@ -62,6 +62,8 @@ def test_a_good_message_has_no_problems(tmp_path: Path, text: str) -> None:
         ("int32<=5 count", "only a string has a length"),
         ("float64[0] volume", "'float64[0]'"),
         ("---", "a message has only one part"),
+        ("int32 a  # from 0 */ int x;", "a comment becomes one of C++"),
+        ("# on\\", "a comment becomes one of C++"),
     ],
 )
 def test_a_bad_line_is_named_with_its_reason(tmp_path: Path, line: str, says: str) -> None:

@@ -96,3 +96,17 @@ def test_packages_are_found_as_colcon_finds_them(tmp_path: Path) -> None:
     (ignored / "COLCON_IGNORE").touch()
     write_package(tmp_path / "build", {"msg/A.msg": "int32 a\n"}, name="output")
     assert [package.name for package in find_packages(tmp_path)] == ["deep"]
+
+
+def test_a_name_is_no_way_out_of_the_cache(tmp_path: Path) -> None:
+    folder = write_package(tmp_path, {"msg/A.msg": "int32 a\n"})
+    manifest = folder / "package.xml"
+    manifest.write_text(manifest.read_text().replace("<name>bell_interfaces<", "<name>../../Bells<"))
+    assert _only(tmp_path).name == "bell_interfaces"
+    assert _reasons(tmp_path) == ["the name of an interface package is in lower_snake_case, and '../../Bells' is not"]
+
+
+def test_only_files_of_the_package_are_read(tmp_path: Path) -> None:
+    write_package(tmp_path, {"msg/A.msg": "int32 a\n"}, listed=["msg/A.msg", "../../../dev/zero.msg"])
+    (reason,) = _reasons(tmp_path)
+    assert "must lie in the folder msg" in reason

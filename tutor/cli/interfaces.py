@@ -9,13 +9,17 @@ from tutor.cli import terminal
 if TYPE_CHECKING:
     from tutor.workspace import Workspace
 
+_SIGNS = ("*/CMakeLists.txt", "*/*/CMakeLists.txt", "*/msg/*.msg", "*/srv/*.srv", "*/action/*.action")
+"""What is in the folder `src` of any workspace that defines types."""
+
 
 def build_interfaces(workspace: Workspace) -> None:
     """Build what has changed of the message types that the workspace defines; say on stderr what is done, or is wrong.
 
     Whatever cannot be built does not keep a command from running: it may not need it.
     """
-    if not workspace.exists or not any((workspace.root / "src").glob("**/package.xml")):
+    sources = workspace.root / "src"
+    if not workspace.exists or not any(path for pattern in _SIGNS for path in sources.glob(pattern)):
         return
     from tutor.interfaces import build_workspace  # late: most workspaces define no types
     from tutor.ros.environment import detect

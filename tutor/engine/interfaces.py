@@ -13,7 +13,7 @@ from tutor.errors import EngineError
 from tutor.interfaces import Build, build_workspace
 from tutor.interfaces.definitions import definition_of
 from tutor.interfaces.package import MAX_DEPTH
-from tutor.judge.interface_build import InterfaceBuild
+from tutor.judge.interface_build import Definition, InterfaceBuild
 from tutor.ros import workspace_interfaces
 from tutor.ros.environment import RosEnvironment
 
@@ -51,17 +51,20 @@ def seen_builds(builds: Sequence[Build], root: Path) -> tuple[InterfaceBuild, ..
     return tuple(
         InterfaceBuild(
             build.name,
-            {
-                str(Path(file).with_suffix("")): definition_of(build.package.folder / file)
-                for file in build.package.files
-            }
-            if build.prefix
-            else {},
+            _definitions_of(build),
             tuple(problem.text(root) for problem in build.problems),
             build.package.unlisted,
         )
         for build in builds
     )
+
+
+def _definitions_of(build: Build) -> dict[str, Definition]:
+    """Return the fields of each type, from what was built: the learner's files may have changed since then."""
+    if build.prefix is None:
+        return {}
+    share = build.prefix / "share" / build.name
+    return {str(Path(file).with_suffix("")): definition_of(share / file) for file in build.package.files}
 
 
 def _place_of(path: Path) -> tuple[Path, int]:

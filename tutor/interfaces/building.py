@@ -17,6 +17,7 @@ from pathlib import Path
 from tutor import __version__
 from tutor.interfaces import compiling
 from tutor.interfaces.compiling import CompileError, Job, Python, compile_package
+from tutor.interfaces.definitions import MAX_BYTES
 from tutor.interfaces.package import (
     MAX_DEPTH,
     InterfacePackage,
@@ -30,6 +31,7 @@ from tutor.interfaces.toolchain import Toolchain, find_toolchain
 from tutor.ros import prefixes, workspace_interfaces
 from tutor.ros.environment import RosEnvironment, tutor_env
 from tutor.workspace.locking import lock
+from tutor.workspace.regular import read_regular
 
 _GENERATOR = Path(__file__).with_name("generating.py")
 _STAMP = ".complete"
@@ -82,7 +84,8 @@ def build_workspace(
     """
     found = find_packages(root, depth)
     if not found:
-        _link(root, [])
+        with suppress(OSError):
+            _link(root, [])
         return []
     environment = tutor_env(ros, isolated=False)
     ament = tuple(path for path in prefixes.ament_prefixes(environment) if not workspace_interfaces.is_built(path))
@@ -263,10 +266,15 @@ def _digest(package: InterfacePackage, workspace: _Workspace, used: Sequence[Pat
     first = (__version__, workspace.ros.python, workspace.ros.kind, workspace.ros.distro)
     for part in (*first, *workspace.prefixes, *(path.name for path in used), package.name):
         digest.update(f"{part}\0".encode())
-    names = ("package.xml", "CMakeLists.txt", *package.files, *package.unlisted)
+    if not all(map(package.is_in_place, package.files)):
+        return ""
+    names = ("package.xml", "CMakeLists.txt", *package.files)
     try:
         for path in (_GENERATOR, Path(compiling.__file__), *(package.folder / name for name in names)):
-            digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+            content = read_regular(path, MAX_BYTES)
+            if content is None:
+                return ""
+            digest.update(path.name.encode() + b"\0" + content + b"\0")
     except OSError:
         return ""
     return digest.hexdigest()[:16]

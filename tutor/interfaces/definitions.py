@@ -12,9 +12,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from tutor.interfaces.problem import Problem
+from tutor.workspace.regular import read_regular
 
 KINDS = ("msg", "srv", "action")
 SECTIONS = {"msg": ("message",), "srv": ("request", "response"), "action": ("goal", "result", "feedback")}
+MAX_BYTES = 100_000
+"""Size limit of a file that is read."""
+
 PRIMITIVES = (
     *("bool", "byte", "char", "float32", "float64", "string", "wstring"),
     *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)),
@@ -58,8 +62,12 @@ def problems_of(package: str, file: Path, type_exists: TypeExists) -> Iterator[P
     if not _FILE_NAME.fullmatch(file.stem):
         name = _camel_case(file.stem)
         yield Problem(file, None, f"a type's name is in CamelCase, and so is its file's: {name}.{kind}")
+    content = read_regular(file, MAX_BYTES)
+    if content is None:
+        yield Problem(file, None, f"this is not a file of at most {MAX_BYTES // 1000} kB")
+        return
     try:
-        lines = file.read_text(encoding="utf-8-sig").splitlines()
+        lines = content.decode("utf-8-sig").splitlines()
     except UnicodeDecodeError:
         yield Problem(file, None, "the file is not UTF-8")
         return
@@ -100,7 +108,10 @@ def _about_separators(kind: str, count: int) -> str:
 
 def _reason(package: str, line: str, number: int, seen: dict[str, int], type_exists: TypeExists) -> str:
     """Return what is wrong with one line; empty if nothing is."""
-    code = line.replace("\t", " ").partition("#")[0].rstrip()
+    code, _, comment = line.replace("\t", " ").partition("#")
+    code = code.rstrip()
+    if "*/" in comment or comment.rstrip().endswith("\\"):
+        return "a comment becomes one of C++: it can neither have */ in it nor a backslash at its end"
     if not code:
         return ""
     if code.startswith(" "):

@@ -14,10 +14,13 @@ from tutor.interfaces import definitions
 from tutor.interfaces.cmake_lists import GENERATE, CMakeLists, read_cmake_lists
 from tutor.interfaces.problem import Problem
 from tutor.ros.prefixes import INTERFACE_INDEX
+from tutor.workspace.regular import read_regular
 
 MAX_DEPTH = 5
 _SKIPPED = frozenset({"build", "install", "log", "node_modules", "venv"})
 _IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+_NAME = re.compile(r"[a-z](?:_?[a-z0-9]){0,99}")
+_MAX_BYTES = 32_000
 _GROUP = "rosidl_interface_packages"
 _GENERATORS = "rosidl_default_generators"
 IMPLIED = {
@@ -32,10 +35,12 @@ IMPLIED = {
 class InterfacePackage:
     """A package that calls `rosidl_generate_interfaces`, or has files of that kind.
 
+    `name` is the one in package.xml (`declared`), or if that cannot be one, another by which it can be told of.
     `files` are those to build, relative to `folder`; `unlisted` those that its CMakeLists.txt does not name.
     """
 
     name: str
+    declared: str
     folder: Path
     cmake: CMakeLists
     files: tuple[str, ...]
@@ -47,6 +52,11 @@ class InterfacePackage:
     def dependencies(self) -> tuple[str, ...]:
         """The packages whose types this one may use, without those that come with its kinds of files."""
         return self.cmake.dependencies
+
+    def is_in_place(self, file: str) -> bool:
+        """Whether a listed file is in the folder of its kind, in this package."""
+        kind = Path(file).suffix[1:]
+        return kind in definitions.KINDS and Path(file).parent == Path(kind)
 
     @property
     def generated_with(self) -> tuple[str, ...]:
@@ -125,12 +135,16 @@ def problems_of(package: InterfacePackage, types: KnownTypes) -> Iterator[Proble
             )
     for file in package.files:
         path = package.folder / file
-        if path.is_file():
+        if package.is_in_place(file) and path.is_file():
             yield from definitions.problems_of(package.name, path, types.why_not)
 
 
 def _of_the_package(package: InterfacePackage) -> Iterator[Problem]:
     manifest, cmake = package.folder / "package.xml", package.folder / "CMakeLists.txt"
+    if package.declared != package.name:
+        says = f"the name of an interface package is in lower_snake_case, and {package.declared!r} is not"
+        yield Problem(manifest, None, says)
+        return
     if package.build_type != "ament_cmake":
         where = ", ".join([*package.files, *package.unlisted])
         yield Problem(
@@ -175,18 +189,24 @@ def _read(folder: Path) -> InterfacePackage | None:
         for kind in definitions.KINDS
         for path in sorted((folder / kind).glob(f"*.{kind}"))
     )
-    lists = folder / "CMakeLists.txt"
-    text = lists.read_text(encoding="utf-8", errors="replace") if lists.is_file() else ""
+    text = _text_of(folder / "CMakeLists.txt")
     if not present and GENERATE not in text:
         return None
     cmake = read_cmake_lists(text)
-    manifest = ElementTree.parse(folder / "package.xml").getroot()
-    name = (manifest.findtext("name") or folder.name).strip()
+    manifest = ElementTree.fromstring(_text_of(folder / "package.xml"))
+    declared = (manifest.findtext("name") or folder.name).strip()
+    name = next((text for text in (declared, folder.name) if _NAME.fullmatch(text)), "unnamed")
     build_type = (manifest.findtext("export/build_type") or "ament_cmake").strip()
     member = any((group.text or "").strip() == _GROUP for group in manifest.iter("member_of_group"))
     files = present if cmake.files is None else cmake.files
     unlisted = tuple(file for file in present if file not in files)
-    return InterfacePackage(name, folder, cmake, files, unlisted, build_type, member)
+    return InterfacePackage(name, declared, folder, cmake, files, unlisted, build_type, member)
+
+
+def _text_of(path: Path) -> str:
+    """Return the text of a file; empty if there is none, or one that is too large."""
+    content = read_regular(path, _MAX_BYTES) if path.is_file() else None
+    return (content or b"").decode("utf-8", "replace")
 
 
 def _package_folders(root: Path, depth: int) -> Iterator[Path]:
@@ -217,8 +237,3 @@ def installed_shares(prefixes: Sequence[Path]) -> dict[str, Path]:
         for marker in sorted((prefix / INTERFACE_INDEX).glob("*")):
             shares.setdefault(marker.name, prefix / "share" / marker.name)
     return shares
-
-
-def interface_names(text: str) -> Iterator[str]:
-    """Yield the top-level packages that a Python program imports message classes from."""
-    yield from dict.fromkeys(re.findall(r"^\s*(?:from|import)\s+(\w+)\.(?:msg|srv|action)\b", text, re.MULTILINE))

@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import shlex
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -270,7 +271,8 @@ class Session:
         ros = detect()
         shared_memory.require_enough()
         if self.workspace.exists:
-            build_workspace(self.workspace.root, ros)  # what is not built is explained elsewhere
+            with suppress(OSError):  # a node may need none of its types; what is not built is said elsewhere
+                build_workspace(self.workspace.root, ros)
         log_dir = private_folders.logs()
         env = learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
         tools = self._terminal_tools()

@@ -154,6 +154,8 @@ def negatives_refused(case: Case) -> Iterator[Found]:
     See it: call it with one negative number, then with two.
     """
     service, wrong = _wrong(case)
+    if not wrong:
+        return  # or the request has more numbers than two
     negative = {got for a, b, got in _results(case, service) if min(a, b) < 0}
     if len(wrong) > 1 and len(negative) == 1 and all(min(a, b) < 0 for a, b, _ in wrong):
         yield Found({"service": service, "got": wrong[0][2]})

@@ -1,3 +1,5 @@
+import contextlib
+
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -27,8 +29,7 @@ class Tank(Node):
 
 
 if __name__ == "__main__":
-    try:
-        with rclpy.init():
-            rclpy.spin(Tank())
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+    rclpy.init()
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(Tank())
+    rclpy.try_shutdown()
