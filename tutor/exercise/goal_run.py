@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -99,11 +100,18 @@ async def send(run: Run, client: GoalClient, goal: Fields) -> bool:
 
 
 async def pursue(
-    run: Run, client: GoalClient, goal: Fields, cancel_after: int | None, limit_s: float, cancel_after_s: float = 0.0
+    run: Run,
+    client: GoalClient,
+    goal: Fields,
+    cancel_after: int | None,
+    limit_s: float,
+    cancel_after_s: float = 0.0,
+    not_canceled_s: float = math.inf,
 ) -> None:
     """Send a goal, and wait for how it ends.
 
     `cancel_after`: ask to cancel it after so many feedback messages, and not before `cancel_after_s` seconds.
+    `not_canceled_s`: how long to wait for the end of a goal that is not canceled when we ask for it.
     """
     if not await send(run, client, goal):
         return
@@ -117,7 +125,7 @@ async def pursue(
             )
             if client.seen.cancel_accepted is None:
                 return
-            limit_s = CANCELED_S if client.seen.cancel_accepted else limit_s
+            limit_s = CANCELED_S if client.seen.cancel_accepted else min(limit_s, not_canceled_s)
     await run.until(lambda: is_over(client), limit_s, idle_s=RESENT_S)
 
 
@@ -149,7 +157,8 @@ class SendGoal:
                 return (await look(run, does_nothing=True)).having(GoalRun)
             bench.report_progress(0.4, f"sending a goal to {action.name}")
             cancel_after = self.feedback if self.cancel else None
-            await pursue(run, client, goal, cancel_after, self.within_s, self.cancel_after_s)
+            # A goal that was over cannot be canceled either, and its result may come a moment later.
+            await pursue(run, client, goal, cancel_after, self.within_s, self.cancel_after_s, OVERTAKEN_S)
             # Feedback and result come on different ways: the last feedback may come after the result.
             await run.until(lambda: not self.all_feedback and len(client.seen.feedback) >= self.feedback, OVERTAKEN_S)
             answer = client.seen

@@ -108,7 +108,8 @@ class HandlesTwoGoals(Form):
         tail = output_tail(found.trace)
         if not found.of_goals:
             return failed(expected, f"{action.name} has no action server", action_missing(action, found), tail)
-        ended = [self._describe(answer) for answer in found.of_goals]
+        waited = f" after {self.within_s:g} s" if found.of_goals[1].accepted is not None else ""
+        ended = [_describe(answer, waited) for answer in found.of_goals]
         observed = f"the first {ended[0]}, the second {ended[1]}"
         # Of a goal that is not taken in, or waits for its turn, the other one is the reason.
         for which in (1, 0) if found.of_goals[1].accepted is None else (0, 1):
@@ -128,10 +129,11 @@ class HandlesTwoGoals(Form):
             return failed(expected, observed, why, tail)
         return passed(expected, observed)
 
-    def _describe(self, answer: GoalAnswer) -> str:
-        if answer.accepted is None:
-            return "gets no answer"
-        return f"is {outcome}" if (outcome := outcome_of(answer)) else f"still runs after {self.within_s:g} s"
+
+def _describe(answer: GoalAnswer, waited: str) -> str:
+    if answer.accepted is None:
+        return "gets no answer"
+    return f"is {outcome}" if (outcome := outcome_of(answer)) else f"still runs{waited}"
 
 
 _LET_IN = "Let the node take in requests while a goal runs: see what runs its execute callback meanwhile."

@@ -15,6 +15,9 @@ from tutor.ros.prefixes import INTERFACE_INDEX, ament_prefixes, indexed
 _KINDS = (".msg", ".srv", ".action", ".idl")
 _ATTRIBUTES = {"msg": ("SLOT_TYPES",), "srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
 
+FEEDBACK = "_FeedbackMessage"
+"""How the type of an action's feedback topic ends."""
+
 
 class WrongKind(UnknownType):
     """The type exists but is not the message, service or action that was asked for."""
@@ -30,7 +33,11 @@ def interface_class(name: str) -> Any:
         package, kind, type_name = name.split("/")
         if not _has_interfaces(package):  # the name may come from a learner: do not import arbitrary modules
             raise UnknownType(name)
-        found: Any = getattr(importlib.import_module(f"{package}.{kind}"), type_name)
+        found: Any = importlib.import_module(f"{package}.{kind}")
+        if kind == "action" and type_name.endswith(FEEDBACK):  # its class is only in that of the action
+            found = getattr(found, type_name.removesuffix(FEEDBACK)).Impl.FeedbackMessage
+        else:
+            found = getattr(found, type_name)
     except (ValueError, ImportError, AttributeError) as error:
         raise UnknownType(name) from error
     return found

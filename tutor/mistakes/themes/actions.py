@@ -94,7 +94,7 @@ def cancel_not_accepted(case: Case) -> Iterator[Found]:
     Lesson: b1.4, on canceling.
     """
     answer = case.about("answer")
-    if case.about("wanted") != "canceled" or answer is None or answer.cancel_accepted is not False:
+    if case.about("wanted") != "canceled" or answer is None or answer.cancel_accepted is not False or answer.outcome:
         return
     for file in case.files:
         for call in file.calls("ActionServer"):
