@@ -20,7 +20,7 @@ def judge_part(seen: LifecycleRun, lifecycle: Lifecycle, moves: Sequence[Move], 
     if not seen.offered:
         missing = Symptom.SERVICE_MISSING if seen.trace.exit is None else Symptom.ENDED
         why = seen.symptom(missing, lifecycle=lifecycle.node, **_not_offered(seen, lifecycle))
-        return failed(expected, f"there is no {service} of type {CHANGE_STATE}", why, output_tail(seen.trace))
+        return failed(expected, f"there is no {service} of type {CHANGE_STATE}", why, _output(seen))
     steps = [step for step in seen.steps if step.move in moves]
     for step in steps:
         if not step.is_right:
@@ -28,6 +28,11 @@ def judge_part(seen: LifecycleRun, lifecycle: Lifecycle, moves: Sequence[Move], 
     if len(steps) < len(moves):
         return skipped("not judged, because the node does not get that far")
     return passed(expected, "; ".join(filter(None, map(_describe, steps))))
+
+
+def _output(seen: LifecycleRun) -> list[str]:
+    """What the program wrote last, without what ROS says about the transition that we ask for in vain."""
+    return [line for line in output_tail(seen.trace) if "[rcl_lifecycle]" not in line]
 
 
 def _not_offered(seen: LifecycleRun, lifecycle: Lifecycle) -> dict[str, Any]:
@@ -47,7 +52,7 @@ def _not_offered(seen: LifecycleRun, lifecycle: Lifecycle) -> dict[str, Any]:
 
 
 def _judge_wrong(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected: str) -> Verdict:
-    tail, topic = output_tail(seen.trace), lifecycle.topic
+    tail, topic = _output(seen), lifecycle.topic
     if step.set_to is not None and not step.set_to.successful:
         return fail_not_set(expected, step.set_to, seen.trace, seen.stuck)
     if not step.state_is_right:
@@ -74,7 +79,7 @@ def _judge_wrong(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected:
 
 
 def _judge_rate(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected: str) -> Verdict:
-    topic, wanted, tail = lifecycle.topic, step.move.hz, output_tail(seen.trace)
+    topic, wanted, tail = lifecycle.topic, step.move.hz, _output(seen)
     observed = f"{_name(step)}: {_state(step)}, {describe(step.rate, step.messages)} on {topic.name}"
     about = {"lifecycle": lifecycle.node, "state": step.state, "topic": topic.name, "type": topic.type}
     if seen.trace.exit is not None:

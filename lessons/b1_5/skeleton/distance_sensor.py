@@ -27,7 +27,8 @@ class DistanceSensor(Node):
         self.publisher = self.create_publisher(Float64, "distance", 10)
         self.timer = self.create_timer(1.0, self.measure)
 
-    # TODO 4: on_activate() and on_deactivate(): measure only in between.
+    # TODO 4: on_activate() and on_deactivate(): measure only in
+    #         between.
 
     # TODO 5: on_cleanup() and on_shutdown(): undo what on_configure()
     #         has done.
