@@ -91,7 +91,7 @@ CHECK = check(
     LogsAt("first", SHIFT, FIRST, at_most=2),  # perhaps also its status, which is new as well
     StaysQuiet("quiet", SHIFT, ORDINARY),
     LogsAt("changes", SHIFT, CHANGE),
-    LogsAt("readings", DEBUGGED, READING, at_most=9, shows=shows_charge),
+    LogsAt("readings", DEBUGGED, READING, at_most=0, shows=shows_charge),
     low,
     LogsAt("hot", SHIFT, HOT, after=low),
     LogsAt("broken", SHIFT, OUTAGE),

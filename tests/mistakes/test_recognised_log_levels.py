@@ -73,6 +73,7 @@ def event(value: float) -> Told:
         ),
         ("if math.isnan(x) or x < 0.0 or x > 1.0:\n  pass\n", {"event": event(nan)}, "wrong-level", ""),
         ("if charge < 0.0 or charge > 1.0:\n  pass\n", {"event": event(7.0)}, "wrong-level", ""),
+        ("print(charge)\n", {"event": event(nan)}, "wrong-level", ""),
         ("if not 0.0 <= charge <= 1.0:\n  pass\n", {"event": event(nan)}, "wrong-level", ""),
         ("if math.isnan(charge):\n  pass\n", {"event": event(nan)}, "wrong-level", ""),
     ],

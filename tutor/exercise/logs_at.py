@@ -74,19 +74,21 @@ class FeedForm(Form, ABC):
 
     def wrong(self, found: FeedRun, told: Told, observed: str, *, says: str, do: str, **about: Any) -> Verdict:
         """The failure of an event that is not logged at its level."""
+        prints_only = not found.trace.logs
         missing = found.symptom(
             Symptom.WRONG_LEVEL,
             says=says,
             do=do,
             what=self.kind,
-            recognise=lambda text: True,
+            recognise=(lambda text: True) if prints_only else None,
             event=told,
             wanted=self.level,
             lowest_level=min((log.level for log in found.trace.logs), default=Level.FATAL),
             earlier=[log for one in found.of(self.kind) if one.sent < told.sent for log in one.at(self.level)],
             **about,
         )
-        return failed(self.expected, observed, missing, _shown(told.logs) or output_tail(found.trace))
+        printed = [line.text for line in found.printed[:_EVIDENCE]] if prints_only else []
+        return failed(self.expected, observed, missing, _shown(told.logs) or printed)
 
     def too_much(self, found: FeedRun, logs: list[LogRecord], observed: str, *, says: str, do: str) -> Verdict:
         """The failure of a node that logs more than it should."""
@@ -99,8 +101,9 @@ class LogsAt(FeedForm):
     """Each event of a kind is logged at its level: once, however many messages it has.
 
     `feed`: what happens, event by event, while the node runs. `kind`: that of the events that are judged. `at_most`:
-    how many messages at that level each of them may have, if more than one is right. `shows`: whether a log message
-    shows what was sent, given its text and the fields of the event's first message; without it, any text will do.
+    how many messages at that level each of them may have, if more than one is right; 0 for any number. `shows`: whether
+    a log message shows what was sent, given its text and the fields of the event's first message; without it, any text
+    will do.
 
         OPENS = Event("the door opens", ({"data": True},), at="info")
         LogsAt("opens", Feed(DOOR, (OPENS,)), "the door opens")
@@ -111,7 +114,7 @@ class LogsAt(FeedForm):
 
     @property
     def expected(self) -> str:
-        times = "one message" if self.at_most == 1 else f"1 to {self.at_most} messages"
+        times = {0: "at least one message", 1: "one message"}.get(self.at_most, f"1 to {self.at_most} messages")
         return f"{self.kind}: {times} at {self.level.name}, within {SHOWN_S:g} s"
 
     def judge_events(self, found: FeedRun, events: list[Told]) -> Verdict:
@@ -120,7 +123,7 @@ class LogsAt(FeedForm):
             logs = told.at(self.level)
             if not any(self._is_shown(log, told) for log in logs):
                 return self._missing(found, told)
-            if len(logs) > self.at_most:
+            if 0 < self.at_most < len(logs):
                 observed = f"{counted(len(logs), 'message')} at {self.level.name} for one event, {_sent(told)}"
                 says = f"{self.kind} is logged {len(logs)} times, so that what matters drowns in repetition"
                 do = "Log it when it begins: remember in the node what the last message said, and compare."

@@ -300,7 +300,8 @@ def nan_passes(case: Case) -> Iterator[Found]:
         for node in file.nodes:
             if _is_out_of_range(node) and not _knows_nan(file.function_around(node) or file.tree):
                 yield found(file, node)
-    if not any(_knows_nan(file.tree) for file in case.files):
+    compares = any(_is_order(node) for file in case.files for node in file.nodes)
+    if compares and not any(_knows_nan(file.tree) for file in case.files):
         yield Found()
 
 
@@ -316,6 +317,11 @@ def _is_out_of_range(node: ast.AST) -> bool:
         and isinstance(node.op, ast.Or)
         and sum(isinstance(value, ast.Compare) for value in node.values) > 1
     )
+
+
+def _is_order(node: ast.AST) -> bool:
+    """Whether this is a comparison such as `x > 1`."""
+    return isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE)
 
 
 def _is_range(node: ast.AST) -> bool:
