@@ -51,7 +51,7 @@ async def test_other_exercises_have_nothing_to_answer(session: Session) -> None:
         assert me.app.screen is me.main
         await go_to_lesson(me, "b1.7")
         await me.press("A")
-        await me.sees("not in your workspace yet, so there is nothing to answer")
+        await me.sees("courier_launch.py and 6 more files are not in your", "nothing to answer")
 
 
 async def go_to_lesson(me: Any, id: str) -> None:

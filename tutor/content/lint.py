@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from tutor.content.cases import FILE as CASES
-from tutor.content.lint_cases import lint_cases
+from tutor.content.lint_cases import find_case_problems
 from tutor.content.lint_predictions import find_bad_predictions
 from tutor.content.model import Course, CriterionText, Lesson
 from tutor.content.places import find_line
@@ -45,7 +45,7 @@ def lint_course(course: Course) -> list[Problem]:
             problems.append(Problem(source, text, line=find_line(source, key)))
         first = _first_line_of_body(source, lesson.body)
         problems += [Problem(source, text, line=first + line) for line, text in _lint_body(lesson.body)]
-        problems += [*_lint_folder(lesson), *lint_cases(lesson)]
+        problems += [*_lint_folder(lesson), *find_case_problems(lesson)]
         problems += find_bad_predictions(lesson, [item.id for item in course.checklist.items], CODE_WIDTH)
     return problems
 

@@ -11,7 +11,7 @@ from tutor.content.problem import Problem
 from tutor.errors import ContentError
 
 
-def lint_cases(lesson: Lesson) -> Iterator[Problem]:
+def find_case_problems(lesson: Lesson) -> Iterator[Problem]:
     """Find what is wrong with the cases of a lesson; nothing if it has none."""
     source = lesson.folder / FILE
     try:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The courier's monitor: one line a second for the people who watch the robot."""
+"""The courier's monitor: a line a second for those who watch it."""
 
 import rclpy
 from geometry_msgs.msg import Point
@@ -12,7 +12,10 @@ STATUS_PERIOD_S = 1.0
 
 
 class Monitor(Node):
-    """Sums up battery and position. Parameter: the charge (0 to 1) below which the battery is low."""
+    """Sums up battery and position.
+
+    Parameter: the charge (0 to 1) below which the battery is low.
+    """
 
     def __init__(self) -> None:
         super().__init__("monitor")
@@ -21,8 +24,18 @@ class Monitor(Node):
         self.x = None
 
         self.statuses = self.create_publisher(String, "status", 10)
-        self.create_subscription(BatteryState, "battery_state", self.keep_charge, 10)
-        self.create_subscription(Point, "position", self.keep_position, 10)
+        self.create_subscription(
+            BatteryState,
+            "battery_state",
+            self.keep_charge,
+            10,
+        )
+        self.create_subscription(
+            Point,
+            "position",
+            self.keep_position,
+            10,
+        )
         self.create_timer(STATUS_PERIOD_S, self.publish_status)
 
     def keep_charge(self, reading: BatteryState) -> None:
@@ -35,10 +48,12 @@ class Monitor(Node):
 
     def publish_status(self) -> None:
         """Say how the robot is."""
-        place = "position unknown" if self.x is None else f"at {self.x:.1f} m"
-        battery = "battery unknown"
+        place, battery = "position unknown", "battery unknown"
+        if self.x is not None:
+            place = f"at {self.x:.1f} m"
         if self.charge is not None:
-            battery = "battery low" if self.charge < self.low_below else "battery ok"
+            low = self.charge < self.low_below
+            battery = "battery low" if low else "battery ok"
         self.statuses.publish(String(data=f"{battery}, {place}"))
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The courier's battery: reads its charge, once the sensor has warmed up."""
+"""The courier's battery: its charge, once the sensor is warm."""
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -11,7 +11,10 @@ WARM_UP_S = 0.5
 
 
 class Battery(Node):
-    """Publishes what is left of the charge. Parameters: the charge (0 to 1), its loss each second, the rate in Hz."""
+    """Publishes what is left of the charge.
+
+    Parameters: charge (0 to 1), loss each second, rate in Hz.
+    """
 
     def __init__(self) -> None:
         super().__init__("battery")
@@ -20,11 +23,15 @@ class Battery(Node):
         self.rate = self.declare_parameter("rate", 2.0).value
         self.warm = False
 
-        self.readings = self.create_publisher(BatteryState, "battery_state", qos_profile_sensor_data)
-        self.warm_up_timer = self.create_timer(WARM_UP_S, self.end_warm_up)
-        self.reading_timer = self.create_timer(1.0 / self.rate, self.read)
+        self.readings = self.create_publisher(
+            BatteryState,
+            "battery_state",
+            qos_profile_sensor_data,
+        )
+        self.warm_up_timer = self.create_timer(WARM_UP_S, self.warm_up)
+        self.reading_timer = self.create_timer(1 / self.rate, self.read)
 
-    def end_warm_up(self) -> None:
+    def warm_up(self) -> None:
         """Run once: from now on, the readings are good."""
         self.warm = True
         self.warm_up_timer.cancel()

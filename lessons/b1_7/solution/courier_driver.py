@@ -1,24 +1,30 @@
 #!/usr/bin/env python3
-"""The courier's driver: drives to each goal, and says all the time where it is."""
+"""The courier's driver: drives to goals, and says where it is."""
 
 import threading
 
 import rclpy
 from geometry_msgs.msg import Point
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.executors import (
+    ExternalShutdownException,
+    MultiThreadedExecutor,
+)
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 POSITION_HZ = 10.0
 STEP_S = 0.05
 
-LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+LATCHED = QoSProfile(
+    depth=1,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
 """Also gets a goal that was sent before this node has started."""
 
 
 class Driver(Node):
-    """Drives along the corridor. Parameter: the speed, in metres per second."""
+    """Drives along the corridor. Parameter: the speed, in m/s."""
 
     def __init__(self) -> None:
         super().__init__("driver")
@@ -27,19 +33,26 @@ class Driver(Node):
         self.stopping = threading.Event()
 
         self.positions = self.create_publisher(Point, "position", 10)
-        self.create_timer(1.0 / POSITION_HZ, self.publish_position)
+        self.create_timer(1.0 / POSITION_HZ, self.report)
         driving = MutuallyExclusiveCallbackGroup()
-        self.create_subscription(Point, "goal", self.drive, LATCHED, callback_group=driving)
+        self.create_subscription(
+            Point,
+            "goal",
+            self.drive,
+            LATCHED,
+            callback_group=driving,
+        )
 
     def drive(self, goal: Point) -> None:
         """Drive to a goal, step by step; returns on arrival."""
         step = self.speed * STEP_S
-        while abs(goal.x - self.x) > step and not self.stopping.wait(STEP_S):
+        while abs(goal.x - self.x) > step:
+            if self.stopping.wait(STEP_S):
+                return
             self.x += step if goal.x > self.x else -step
-        if not self.stopping.is_set():
-            self.x = goal.x
+        self.x = goal.x
 
-    def publish_position(self) -> None:
+    def report(self) -> None:
         """Say where the robot is."""
         self.positions.publish(Point(x=self.x))
 

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""The courier, a small delivery robot: its four nodes, in one namespace, with their parameters."""
+"""The courier, a small delivery robot: its four nodes."""
 
 from pathlib import Path
 
 from launch import LaunchDescription
 from launch_ros.actions import Node
 
-PARAMETERS = str(Path(__file__).resolve().with_name("courier_parameters.yaml"))
+HERE = Path(__file__).resolve()
+PARAMETERS = str(HERE.with_name("courier_parameters.yaml"))
 
 
 def generate_launch_description() -> LaunchDescription:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The courier's planner: turns an order, the name of a room, into the place to drive to."""
+"""The courier's planner: turns an order, a room, into a place."""
 
 import rclpy
 from geometry_msgs.msg import Point
@@ -11,7 +11,10 @@ from std_msgs.msg import String
 ROOMS = {"dock": 0.0, "kitchen": 1.0, "lab": 2.0}
 """How far down the corridor each room is, in metres."""
 
-LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+LATCHED = QoSProfile(
+    depth=1,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
 """Keeps the last goal for a driver that starts later."""
 
 
@@ -28,7 +31,7 @@ class Planner(Node):
         if order.data in ROOMS:
             self.goals.publish(Point(x=ROOMS[order.data]))
         else:
-            self.get_logger().warning(f"there is no room {order.data!r}")
+            self.get_logger().warning(f"no room {order.data!r}")
 
 
 def main() -> None:

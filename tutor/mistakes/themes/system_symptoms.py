@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tutor.judge.symptom import Symptom
+from tutor.judge.symptom import Observation, Symptom
+from tutor.judge.trace import Trace
 from tutor.mistakes.entry import Case, Found
 from tutor.mistakes.symptom_entries import in_words, symptom
 
@@ -91,7 +92,11 @@ def fault_not_reported(case: Case) -> Iterator[Found]:
         yield from in_words(case, "nothing is reported yet", "Find out what is wrong, and where; then report it.")
 
 
-@symptom("another-fault-reported", explains=[Symptom.FAULT_NOT_NAMED])
+def _reported(source: str) -> Observation:
+    return Symptom.FAULT_NOT_NAMED.seen(Trace("report.yaml", sources={"report.yaml": source}), reported=True)
+
+
+@symptom("another-fault-reported", explains=[Symptom.FAULT_NOT_NAMED], example=_reported)
 def another_fault_reported(case: Case) -> Iterator[Found]:
     """The report names a fault that the system does not have.
 

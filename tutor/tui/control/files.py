@@ -243,8 +243,9 @@ class Files:
         model = self._host.model
         if not (missing := model.session.missing(model.lesson)):
             return False
-        names = " and ".join(missing)
-        text = f"{names} is not in your workspace yet, so there is nothing to {what}.\n\nPut the skeleton there?"
+        text = (
+            f"{_listed(missing)} not in your workspace yet, so there is nothing to {what}.\n\nPut the skeleton there?"
+        )
         self._host.ask(f"Start {wording.label(model.lesson)}", text, "Start", self.start)
         return True
 
@@ -268,7 +269,7 @@ class Files:
         self._watch()  # from now on: its first look reads the files
         self._host.show_page("code")
         if message.written:
-            self._host.say(f"{' and '.join(message.written)} is in your workspace: e to edit, F9 to check.")
+            self._host.say(f"{_listed(message.written)} in your workspace: e to edit, F9 to check.")
         else:
             self._host.say("Your files are there already; nothing was changed.")
 
@@ -364,3 +365,10 @@ class Files:
                     if shown or self._pane.has_editor(path):
                         await self._pane.show_source(path, text, visible=shown)
         return changed
+
+
+def _listed(names: Sequence[str]) -> str:
+    """The names of files, with the verb: "a.py is", "a.py and b.py are", "a.py and 6 more files are"."""
+    if len(names) > 2:
+        return f"{names[0]} and {len(names) - 1} more files are"
+    return f"{' and '.join(names)} {'is' if len(names) == 1 else 'are'}"
