@@ -56,6 +56,7 @@ async def open_predictions(me: Learner, exercise: str) -> None:
     lesson = me.session.course.find(exercise)
     await asyncio.to_thread(me.session.start, lesson)
     await me.main.go_to(lesson)
+    await me.sees(f"8 Predict what {len(lesson.predictions)} given programs do, then see")
     await me.press("8")
     await me.until(lambda: isinstance(me.app.screen, PredictScreen), "opened")
 
@@ -66,7 +67,7 @@ async def test_answer_run_and_see(learner: Any, program: FakeRun, size: Any) -> 
         await me.press("8")
         assert not isinstance(me.app.screen, PredictScreen)  # i1.1 has nothing to predict
         await open_predictions(me, "i2.3")
-        await me.sees("I2.3: predict and see, 1 of 5, not answered yet", '"""Two timers in one node, and an executor')
+        await me.sees("I2.3: predict and see, 1 of 5, not answered yet", '"""Two timers in one node. The executor')
         await me.sees("No callback group is named here.", "1  one at a time", "3  four, one for each thread")
         await me.sees("1-3 answers", "Esc closes")
         await me.press("pagedown", "pagedown", "pagedown")
@@ -107,7 +108,9 @@ async def test_closing_ends_the_program_and_records_nothing(learner: Any, progra
         await me.until(lambda: program.running == ["no-group-named"], "it runs")
         await me.press("escape")
         await me.until(lambda: not program.running, "it is ended")
-        await me.press("8", "1")
+        await me.pilot.click("#lesson-head", offset=(6, 2))  # the line that says so opens them, too
+        await me.until(lambda: isinstance(me.app.screen, PredictScreen), "opened")
+        await me.press("1")
         await me.sees("▸ 1  one at a time")
         program.end(None, "two_timers.py has not ended within 90 s")
         await me.sees("! Nothing is recorded, as two_timers.py has not ended within 90 s.")

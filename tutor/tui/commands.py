@@ -70,7 +70,7 @@ EVIDENCE = Command("evidence", ("i",), "Evidence", "Show or hide the evidence")
 EXPLAIN = Command("explain", ("x",), "Why", "Explain the mistake, with an example", footer=True)
 ATTEMPTS = Command("attempts", ("a",), "Attempts", "Show your attempts over time")
 HINT = Command("hint", ("h",), "Hint", "Show the next hint", footer=True)
-PREDICT = Command("predict", ("8",), "Predict", "Predict what a program does, then see", footer=True)
+PREDICT = Command("predict", ("8",), "Predict", "Predict what a program does, then see")
 
 # Your code
 START = Command("start", ("s",), "Start", "Put the skeleton into your workspace")

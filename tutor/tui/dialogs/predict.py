@@ -115,7 +115,7 @@ class PredictScreen(Dialog[None]):
         digits = f"1-{len(self.prediction.options)}"
         step = "n next · " if self._index + 1 < count else ""
         if self._told:
-            window.border_subtitle = f"{scroll} · {'n next' if step else 'n closes'} · Esc closes"
+            window.border_subtitle = f"{scroll} · {step}Esc closes"
         elif self._chosen is not None:
             window.border_subtitle = "it runs, to be judged by what it does · Esc ends it"
         else:
