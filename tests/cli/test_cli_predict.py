@@ -14,7 +14,6 @@ from tutor.session import predictions
 from tutor.session.predictions import Outcome
 from tutor.workspace import Workspace
 
-
 WITH_SOME = [lesson.id for lesson in load_course().lessons if lesson.predictions]
 TOPICS = next(lesson.id for lesson in load_course().lessons if any(p.id == "nobody-there" for p in lesson.predictions))
 
