@@ -54,6 +54,7 @@ def program(monkeypatch: pytest.MonkeyPatch) -> FakeRun:
 
 
 async def open_predictions(me: Learner, exercise: str) -> None:
+    await me.sees("6 Checklist")
     lesson = me.session.course.find(exercise)
     await asyncio.to_thread(me.session.start, lesson)
     await me.main.go_to(lesson)
