@@ -75,6 +75,8 @@ def test_exercises_and_criteria_are_completed(shell: str, home: Path) -> None:
         ("check i1.1 --format j", {"json", "junit"}),
         ("checklist untick tim", {"timers"}),
         ("run i1.3 calc", {"calculator_server", "calculator_client"}),
+        ("predict i2", {"i2.3"}),
+        ("predict i2.3 two", {"two-groups"}),
         ("help so", {"solution"}),
         ("explain old-t", {"old-timer-kept"}),
         ("explain count-and-r", {"count-and-rate-swapped"}),

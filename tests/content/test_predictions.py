@@ -131,7 +131,7 @@ def test_problems_of_a_program_are_found(file: Path) -> None:
     program = file.parent / "predict/wheels.py"
     program.write_text(f"print({'1' * 80})\n")
     assert find_problems(file.parent) == [
-        ("x1_1/predict/wheels.py", f"'print({'1' * 80})' is wider than 76 characters")
+        ("x1_1/predict/wheels.py", f"'print({'1' * 80})' is wider than 71 characters")
     ]
     program.write_text("print(\n")
     assert find_problems(file.parent)[0][1].startswith("it does not compile")

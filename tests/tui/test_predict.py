@@ -18,6 +18,7 @@ from tutor.session.predictions import Outcome
 from tutor.tui.dialogs.predict import PredictScreen
 
 SIZES = [(120, 36), (80, 24)]
+TOPICS = next(lesson.id for lesson in load_course().lessons if any(p.id == "nobody-there" for p in lesson.predictions))
 
 
 class FakeRun:
@@ -53,9 +54,11 @@ def program(monkeypatch: pytest.MonkeyPatch) -> FakeRun:
 
 
 async def open_predictions(me: Learner, exercise: str) -> None:
+    await me.sees("6 Checklist")
     lesson = me.session.course.find(exercise)
     await asyncio.to_thread(me.session.start, lesson)
     await me.main.go_to(lesson)
+    await me.sees(f"8 Predict what {len(lesson.predictions)} given programs do, then see")
     await me.press("8")
     await me.until(lambda: isinstance(me.app.screen, PredictScreen), "opened")
 
@@ -66,7 +69,7 @@ async def test_answer_run_and_see(learner: Any, program: FakeRun, size: Any) -> 
         await me.press("8")
         assert not isinstance(me.app.screen, PredictScreen)  # i1.1 has nothing to predict
         await open_predictions(me, "i2.3")
-        await me.sees("I2.3: predict and see, 1 of 5, not answered yet", '"""Two timers in one node, and an executor')
+        await me.sees("I2.3: predict and see, 1 of 5, not answered yet", '"""Two timers in one node. The executor')
         await me.sees("No callback group is named here.", "1  one at a time", "3  four, one for each thread")
         await me.sees("1-3 answers", "Esc closes")
         await me.press("pagedown", "pagedown", "pagedown")
@@ -107,19 +110,25 @@ async def test_closing_ends_the_program_and_records_nothing(learner: Any, progra
         await me.until(lambda: program.running == ["no-group-named"], "it runs")
         await me.press("escape")
         await me.until(lambda: not program.running, "it is ended")
-        await me.press("8", "1")
+        await me.pilot.click("#lesson-head", offset=(6, 2))  # the line that says so opens them, too
+        await me.until(lambda: isinstance(me.app.screen, PredictScreen), "opened")
+        await me.press("1")
         await me.sees("▸ 1  one at a time")
         program.end(None, "two_timers.py has not ended within 90 s")
-        await me.sees("! Nothing is recorded, as two_timers.py has not ended within 90 s.")
+        await me.sees("! Nothing is recorded, as two_timers.py has not ended within 90 s.", "1-3 answers")
         assert me.session.progress().of("i2.3").predictions == {}
+        await me.press("1")
+        program.end(0)
+        await me.sees("✓ Right. ")
+        assert not me.session.progress().of("i2.3").predictions["no-group-named"].seen
 
 
 async def test_the_checklist_shows_what_came_true(learner: Any, program: FakeRun) -> None:
     async with learner((180, 48)) as me:
         await me.press("6")
-        await me.sees("○ not yet shown by i1.3 predictions")
+        await me.sees(f"○ not yet shown by {TOPICS} predictions")
         await me.press("escape")
-        await open_predictions(me, "i1.3")
+        await open_predictions(me, TOPICS)
         for holds in (1, 0, 1, 2):
             await me.press(str(holds + 1))
             await me.until(lambda: bool(program.running), "it runs")
@@ -128,4 +137,4 @@ async def test_the_checklist_shows_what_came_true(learner: Any, program: FakeRun
             await me.press("enter")
         await me.until(lambda: not isinstance(me.app.screen, PredictScreen), "closed after the last")
         await me.press("6")
-        await me.sees("✓ i1.3 predictions passed, today", "1 shown by your checks")
+        await me.sees(f"✓ {TOPICS} predictions passed, today", "1 shown by your checks")

@@ -99,11 +99,17 @@ def _make_completer(name: str, action: argparse.Action, commands: list[str]) -> 
         case "COURSE":
             files: Completer = FilesCompleter()
             return files
+        case "EXERCISE" if name == "predict":
+            return complete_from_course(
+                lambda course, _: [lesson.id for lesson in course.lessons if lesson.predictions]
+            )
         case "EXERCISE":
             more = ("all",) if name == "check" else ()
             return complete_from_course(lambda course, _: [*(lesson.id for lesson in course.lessons), *more])
         case "ID" if "--criterion" in action.option_strings:
             return complete_from_course(_criterion_ids)
+        case "ID" if name == "predict":
+            return complete_from_course(_prediction_ids)
         case "ITEM":
             return complete_from_course(lambda course, _: [item.id for item in course.checklist.items])
         case "MISTAKE":
@@ -125,6 +131,12 @@ def _mistakes(course: Course, given: argparse.Namespace) -> dict[str, str]:
     if given.words:
         return {}
     return {id: entry.summary for id, entry in pages.every_mistake(load_catalogues(course)).items()}
+
+
+def _prediction_ids(course: Course, given: argparse.Namespace) -> list[str]:
+    """Return the predictions of the exercise already typed; none before."""
+    known = given.exercise is not None and course.knows(given.exercise)
+    return [prediction.id for prediction in course.find(given.exercise).predictions] if known else []
 
 
 def _criterion_ids(course: Course, given: argparse.Namespace) -> list[str]:

@@ -46,7 +46,7 @@ def lint_course(course: Course) -> list[Problem]:
         first = _first_line_of_body(source, lesson.body)
         problems += [Problem(source, text, line=first + line) for line, text in _lint_body(lesson.body)]
         problems += [*_lint_folder(lesson), *find_case_problems(lesson)]
-        problems += find_bad_predictions(lesson, [item.id for item in course.checklist.items], CODE_WIDTH)
+        problems += find_bad_predictions(lesson, [item.id for item in course.checklist.items])
     return problems
 
 

@@ -14,14 +14,14 @@ from tutor.content.problem import Problem
 OPTIONS = range(2, 5)
 """How many options a prediction may have: as many as can be weighed at a glance."""
 
+WIDTH = 71
+"""The longest line of a program that the app shows without scrolling on an 80-column terminal."""
+
 _ID = re.compile(r"[a-z][a-z0-9-]*")
 
 
-def find_bad_predictions(lesson: Lesson, items: Collection[str], width: int) -> Iterator[Problem]:
-    """Find what is wrong in a lesson's predictions; `items` are the ids of the checklist.
-
-    `width` is the longest line of code that the app shows without wrapping.
-    """
+def find_bad_predictions(lesson: Lesson, items: Collection[str]) -> Iterator[Problem]:
+    """Find what is wrong in a lesson's predictions; `items` are the ids of the checklist."""
     file = lesson.folder / FILE
     for prediction_id in _duplicates(prediction.id for prediction in lesson.predictions):
         yield Problem(
@@ -31,7 +31,7 @@ def find_bad_predictions(lesson: Lesson, items: Collection[str], width: int) -> 
         line = find_line(file, rf"\bid: *{re.escape(prediction.id)}\s*$")
         for text in _lint(prediction, items):
             yield Problem(file, f"the prediction {prediction.id}: {text}", line=line)
-        yield from _lint_program(prediction, width)
+        yield from _lint_program(prediction)
 
 
 def _lint(prediction: Prediction, items: Collection[str]) -> Iterator[str]:
@@ -52,14 +52,14 @@ def _lint(prediction: Prediction, items: Collection[str]) -> Iterator[str]:
         yield f"the checklist item {item} is named twice"
 
 
-def _lint_program(prediction: Prediction, width: int) -> Iterator[Problem]:
+def _lint_program(prediction: Prediction) -> Iterator[Problem]:
     try:
         lines = prediction.program.read_text(encoding="utf-8").splitlines()
     except (OSError, UnicodeDecodeError):
         return  # the files of the folder are examined as such
     for number, line in enumerate(lines, 1):
-        if len(line) > width:
-            yield Problem(prediction.program, f"{line.strip()!r} is wider than {width} characters", line=number)
+        if len(line) > WIDTH:
+            yield Problem(prediction.program, f"{line.strip()!r} is wider than {WIDTH} characters", line=number)
 
 
 def _duplicates(values: Iterable[str]) -> list[str]:

@@ -72,7 +72,7 @@ ATTEMPTS = Command("attempts", ("a",), "Attempts", "Show your attempts over time
 ANSWER = Command("answer", ("A",), "Answer", "Say what is wrong with the system, and where", footer=True)
 ANOTHER = Command("another", ("N",), "Another", "Hand over another fault")
 HINT = Command("hint", ("h",), "Hint", "Show the next hint", footer=True)
-PREDICT = Command("predict", ("8",), "Predict", "Predict what a program does, then see", footer=True)
+PREDICT = Command("predict", ("8",), "Predict", "Predict what a program does, then see")
 
 # Your code
 START = Command("start", ("s",), "Start", "Put the skeleton into your workspace")

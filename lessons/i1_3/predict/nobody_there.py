@@ -1,4 +1,4 @@
-"""A publisher that nobody listens to, and a client without a server."""
+"""A publisher without a subscriber, and a client without a server."""
 
 import threading
 

@@ -58,6 +58,6 @@ ben.ask(10, 10)
 spin_until(lambda: len(anna.got + ben.got) >= 4)
 for _ in range(5):  # is there more to come?
     executor.spin_once(timeout_sec=0.1)
-annas, bens = (", ".join(sorted(person.got)) for person in (anna, ben))
+annas, bens = ", ".join(sorted(anna.got)), ", ".join(sorted(ben.got))
 print(f"Anna got {annas}; Ben got {bens}", flush=True)
 rclpy.try_shutdown()

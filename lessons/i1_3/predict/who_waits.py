@@ -14,7 +14,8 @@ class Slow(Node):
 
     def __init__(self):
         super().__init__("slow")
-        self.published, self.called = threading.Event(), threading.Event()
+        self.published = threading.Event()
+        self.called = threading.Event()
         self.seen = []
         self.create_subscription(String, "news", self.hear, 10)
         self.create_service(Trigger, "status", self.answer)

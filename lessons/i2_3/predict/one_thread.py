@@ -1,4 +1,4 @@
-"""Two timers in one reentrant group, and an executor with one thread."""
+"""Two timers in one reentrant group. The executor has one thread."""
 
 import threading
 

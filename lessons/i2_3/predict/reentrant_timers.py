@@ -1,4 +1,4 @@
-"""Two timers in one reentrant group, and an executor with four threads."""
+"""Two timers in one reentrant group. The executor has four threads."""
 
 import threading
 

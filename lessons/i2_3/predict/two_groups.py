@@ -1,4 +1,4 @@
-"""Two timers, each in its own group, and an executor with four threads."""
+"""Two timers, each in its own group. The executor has four threads."""
 
 import threading
 

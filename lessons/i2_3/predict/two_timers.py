@@ -1,4 +1,4 @@
-"""Two timers in one node, and an executor with four threads."""
+"""Two timers in one node. The executor has four threads."""
 
 import threading
 

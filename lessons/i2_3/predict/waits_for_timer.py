@@ -7,7 +7,7 @@ from rclpy.node import Node
 
 
 class Waiting(Node):
-    """One callback asks, and waits two seconds at most. One answers."""
+    """One callback asks, and waits for two seconds. One answers."""
 
     def __init__(self):
         super().__init__("waiting")

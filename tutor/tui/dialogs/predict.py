@@ -115,7 +115,7 @@ class PredictScreen(Dialog[None]):
         digits = f"1-{len(self.prediction.options)}"
         step = "n next · " if self._index + 1 < count else ""
         if self._told:
-            window.border_subtitle = f"{scroll} · {'n next' if step else 'n closes'} · Esc closes"
+            window.border_subtitle = f"{scroll} · {step}Esc closes"
         elif self._chosen is not None:
             window.border_subtitle = "it runs, to be judged by what it does · Esc ends it"
         else:
@@ -154,18 +154,20 @@ class PredictScreen(Dialog[None]):
 
     def show_outcome(self, outcome: Outcome) -> None:
         """Tell what was seen, and why; or that nothing can be said, which leaves the question open."""
-        verdict = self.query_one("#predict-verdict", WrappedText)
-        self._told = True
+        verdict, seen = self.query_one("#predict-verdict", WrappedText), self.query_one("#predict-seen", VerticalScroll)
         if outcome.holds is None:
-            text = f"! Nothing is recorded, as {outcome.problem}. Is the machine very busy? Try again: p, then n."
+            text = f"! Nothing is recorded, as {outcome.problem}. Is the machine very busy? Answer again."
             verdict.update(Content.styled(text, "$warn"))
+            self._chosen = None
+            self._show_options()
+            self.query_one(OptionList).focus()
         else:
             right = outcome.holds == self._chosen
             head = ("✓ Right. ", "bold $good") if right else ("✗ Not so. ", "bold $bad")
             verdict.update(Content.assemble(head, self.prediction.because))
+            self._told = True
             self._show_options(outcome.holds)
-        seen = self.query_one("#predict-seen", VerticalScroll)
-        seen.focus()
+            seen.focus()
         seen.scroll_home(animate=False)
         self._show_titles()
 

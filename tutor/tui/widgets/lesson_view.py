@@ -10,7 +10,8 @@ from textual.widgets import Label, Markdown, Static
 from textual.widgets.markdown import MarkdownBlock, MarkdownFence
 
 from tutor.content import Lesson
-from tutor.tui import messages, wording
+from tutor.judge.wording import counted
+from tutor.tui import commands, messages, wording
 from tutor.tui.lesson_commands import LANGUAGES, command_at
 
 
@@ -53,6 +54,7 @@ class LessonView(VerticalScroll):
             ("   " + wording.LEVELS[lesson.difficulty], "$accent"),
             "\n",
             (f"{lesson.unit} · {files}", "$quiet"),
+            _to_predict(lesson),
         )
         self.query_one("#lesson-head", Static).update(head)
         self.scroll_home(animate=False)
@@ -78,3 +80,12 @@ class LessonView(VerticalScroll):
                 block.add_class("-found")
             else:
                 block.remove_class("-found")
+
+
+def _to_predict(lesson: Lesson) -> Content:
+    """Return a line that opens the lesson's predictions; empty if it has none."""
+    if not lesson.predictions:
+        return Content()
+    programs = counted(len(lesson.predictions), "given program")
+    link = Content.from_markup("[@click=screen.do('predict')]Predict what $n do, then see[/]", n=programs)
+    return Content.assemble("\n", (commands.PREDICT.shown_keys[0], "bold $accent"), " ", link)
