@@ -113,7 +113,7 @@ class AnswersAtOnce(Form):
         for call in seen.calls:
             if not is_right(asking, call):
                 others = [reply for other in seen.calls for reply in other.replies]
-                observed, why = what_is_wrong(asking, seen, call, shared=self._shared(call, others))
+                observed, why = what_is_wrong(asking, seen, call, beside=True, shared=self._shared(call, others))
                 return failed(expected, observed, why, lines)
         how = "both asked for at once" if seen.overlapped else "one asked for after the other"
         return passed(expected, f"both answered; {how}", lines)

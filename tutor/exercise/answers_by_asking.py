@@ -172,10 +172,12 @@ def no_answer(asking: Asking, seen: AskingRun, call: AskingCall, *, at_once: int
     )
 
 
-def what_is_wrong(asking: Asking, seen: AskingRun, call: AskingCall, *, shared: str = "") -> tuple[str, Observation]:
+def what_is_wrong(
+    asking: Asking, seen: AskingRun, call: AskingCall, *, beside: bool = False, shared: str = ""
+) -> tuple[str, Observation]:
     """What was observed of a call with a wrong answer, and the symptom.
 
-    `shared`: with what it was answered, if that comes from another call made at the same time.
+    `beside`: there was another call at the same time. `shared`: with what it was answered, if that comes from another call made at the same time.
     """
     name, answer, own = asking.service.name, call.answer, asking.passed_on(call.answer.request)
     assert answer.response is not None
@@ -189,6 +191,9 @@ def what_is_wrong(asking: Asking, seen: AskingRun, call: AskingCall, *, shared: 
         if refused:
             says = f"{name} refuses, though {asking.asks.name} is there"
             do = "Look at what the callback takes for a sign that nobody is there."
+        if refused and beside:
+            says = f"{name} refuses one of two calls made at once"
+            do = "Let each call ask for itself, or wait for its turn, and pass on what it is told."
     elif not asked:
         observed = f"{asking.asks.name} was asked with {_shown(call.exchanges[0].asked)}, not {own}"
         says = f"{name} got {_shown(answer.request)}, and asks {asking.asks.name} for something else"
