@@ -177,7 +177,7 @@ def what_is_wrong(
 ) -> tuple[str, Observation]:
     """What was observed of a call with a wrong answer, and the symptom.
 
-    `beside`: there was another call at the same time. `shared`: with what it was answered, if that comes from another call made at the same time.
+    `beside`: there was another call at the same time. `shared`: what it was answered with, if that is the other's.
     """
     name, answer, own = asking.service.name, call.answer, asking.passed_on(call.answer.request)
     assert answer.response is not None
