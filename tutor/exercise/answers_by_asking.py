@@ -11,6 +11,7 @@ from tutor.exercise.asking import (
     BusyWatch,
     DumpWhileAsking,
     answers_with,
+    gave_up,
     is_right,
     open_desk,
     wait_for_both,
@@ -26,11 +27,8 @@ from tutor.judge.stuck_nodes import ask_unless_stuck
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Ending
 from tutor.judge.tracebacks import Frame
-from tutor.judge.verdict import Verdict, failed, passed
+from tutor.judge.verdict import Verdict, failed, passed, undecided
 from tutor.judge.wording import describe_no_answer, output_tail
-
-GIVEN_UP_S = 0.5
-"""A refusal that takes this long, though we have replied at once, comes at the end of a time limit."""
 
 ROUNDS = 2
 """How often each request is made: an answer that is kept from the call before shows."""
@@ -109,6 +107,8 @@ class AnswersByAsking(Form):
                 observed = no_answer_in_words(asking, seen, call)
                 return failed(expected, observed, no_answer(asking, seen, call), (*lines[:-1], *tail))
             if not is_right(asking, call):
+                if seen.slowed and gave_up(asking, call):
+                    return undecided(f"to wait for the answer of {asking.service.name}")
                 observed, why = what_is_wrong(asking, seen, call)
                 return failed(expected, observed, why, lines)
         return passed(expected, f"{len(seen.calls)} calls, each with its own reply", lines)
@@ -183,7 +183,7 @@ def what_is_wrong(
     assert answer.response is not None
     got, asked = dict(answer.response), [e for e in call.exchanges if agrees(e.asked, own)]
     refused = bool(asking.refusal) and answers_with(answer, asking.refusal)
-    given_up = refused and bool(call.replies) and answer.took_s >= GIVEN_UP_S
+    given_up = gave_up(asking, call)
     if not call.exchanges:
         observed = f"answered {got}, without asking {asking.asks.name}"
         says = f"{name} answers, and nobody has asked {asking.asks.name}"
