@@ -107,6 +107,14 @@ def test_other_answers_are_wrong_and_it_is_told_how_far_they_came(made: AskingCa
     assert_failed(judge_of(CHECK, "asks")(AskedInTurn(trace(), calls=(RIGHT, made))), mistake, words, check=CHECK)
 
 
+def test_a_busy_machine_may_be_to_blame_for_giving_up() -> None:
+    late = call(True, (True, "oven 7"), success=False, message="late", took_s=3.0)
+    assert isinstance(judge_of(CHECK, "asks")(AskedInTurn(trace(), slowed=True, calls=(late,))), Undecided)
+    assert isinstance(judge_of(CHECK, "at-once")(CalledAtOnce(trace(), slowed=True, calls=(RIGHT, late))), Undecided)
+    still = UnrepliedRun(trace(), slowed=True, calls=(REFUSED,), later=late)
+    assert isinstance(judge_of(CHECK, "missing")(still), Undecided)
+
+
 def test_a_missing_service_is_told() -> None:
     assert_failed(judge_of(CHECK, "asks")(AskedInTurn(trace(), offered=False)), "service missing", "/cook", check=CHECK)
     assert judge_of(CHECK, "at-once")(CalledAtOnce(trace(), offered=False)).status is Status.SKIPPED
@@ -185,7 +193,7 @@ def test_two_calls_at_once() -> None:
     lost = CalledAtOnce(trace(), calls=(RIGHT, call(False, *both)))
     assert_failed(judge(lost), "no answer", "/oven was asked, and has replied", check=CHECK)
     refused = CalledAtOnce(trace(), calls=(RIGHT, call(False, success=False, message="busy")))
-    assert_failed(judge(refused), "wrong answer", "refuses", check=CHECK)
+    assert_failed(judge(refused), "wrong answer", "refuses one of two calls", check=CHECK)
 
 
 @pytest.mark.parametrize("ours", ["missing", "silent"])

@@ -15,6 +15,7 @@ from tutor.exercise.asking import (
     Desk,
     DumpWhileAsking,
     answers_with,
+    gave_up,
     is_right,
     open_desk,
     wait_for_both,
@@ -25,7 +26,7 @@ from tutor.exercise.service_calls import ANSWER_S
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
 from tutor.judge.tasks import Tasks
-from tutor.judge.verdict import Verdict, failed, passed, skipped
+from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
 from tutor.judge.wording import output_tail
 
 SECOND_S = 0.7
@@ -112,8 +113,10 @@ class AnswersAtOnce(Form):
                 return failed(expected, observed, why, (*lines, *output_tail(seen.trace)))
         for call in seen.calls:
             if not is_right(asking, call):
+                if seen.slowed and gave_up(asking, call):
+                    return undecided(f"to wait for the answer of {name}")
                 others = [reply for other in seen.calls for reply in other.replies]
-                observed, why = what_is_wrong(asking, seen, call, shared=self._shared(call, others))
+                observed, why = what_is_wrong(asking, seen, call, beside=True, shared=self._shared(call, others))
                 return failed(expected, observed, why, lines)
         how = "both asked for at once" if seen.overlapped else "one asked for after the other"
         return passed(expected, f"both answered; {how}", lines)

@@ -11,6 +11,7 @@ from tutor.exercise.asking import (
     BusyWatch,
     DumpWhileAsking,
     answers_with,
+    gave_up,
     is_right,
     open_desk,
     wait_for_both,
@@ -26,11 +27,8 @@ from tutor.judge.stuck_nodes import ask_unless_stuck
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Ending
 from tutor.judge.tracebacks import Frame
-from tutor.judge.verdict import Verdict, failed, passed
+from tutor.judge.verdict import Verdict, failed, passed, undecided
 from tutor.judge.wording import describe_no_answer, output_tail
-
-GIVEN_UP_S = 0.5
-"""A refusal that takes this long, though we have replied at once, comes at the end of a time limit."""
 
 ROUNDS = 2
 """How often each request is made: an answer that is kept from the call before shows."""
@@ -109,6 +107,8 @@ class AnswersByAsking(Form):
                 observed = no_answer_in_words(asking, seen, call)
                 return failed(expected, observed, no_answer(asking, seen, call), (*lines[:-1], *tail))
             if not is_right(asking, call):
+                if seen.slowed and gave_up(asking, call):
+                    return undecided(f"to wait for the answer of {asking.service.name}")
                 observed, why = what_is_wrong(asking, seen, call)
                 return failed(expected, observed, why, lines)
         return passed(expected, f"{len(seen.calls)} calls, each with its own reply", lines)
@@ -172,16 +172,18 @@ def no_answer(asking: Asking, seen: AskingRun, call: AskingCall, *, at_once: int
     )
 
 
-def what_is_wrong(asking: Asking, seen: AskingRun, call: AskingCall, *, shared: str = "") -> tuple[str, Observation]:
+def what_is_wrong(
+    asking: Asking, seen: AskingRun, call: AskingCall, *, beside: bool = False, shared: str = ""
+) -> tuple[str, Observation]:
     """What was observed of a call with a wrong answer, and the symptom.
 
-    `shared`: with what it was answered, if that comes from another call made at the same time.
+    `beside`: there was another call at the same time. `shared`: what it was answered with, if that is the other's.
     """
     name, answer, own = asking.service.name, call.answer, asking.passed_on(call.answer.request)
     assert answer.response is not None
     got, asked = dict(answer.response), [e for e in call.exchanges if agrees(e.asked, own)]
     refused = bool(asking.refusal) and answers_with(answer, asking.refusal)
-    given_up = refused and bool(call.replies) and answer.took_s >= GIVEN_UP_S
+    given_up = gave_up(asking, call)
     if not call.exchanges:
         observed = f"answered {got}, without asking {asking.asks.name}"
         says = f"{name} answers, and nobody has asked {asking.asks.name}"
@@ -189,6 +191,9 @@ def what_is_wrong(asking: Asking, seen: AskingRun, call: AskingCall, *, shared: 
         if refused:
             says = f"{name} refuses, though {asking.asks.name} is there"
             do = "Look at what the callback takes for a sign that nobody is there."
+        if refused and beside:
+            says = f"{name} refuses one of two calls made at once"
+            do = "Let each call ask for itself, or wait for its turn, and pass on what it is told."
     elif not asked:
         observed = f"{asking.asks.name} was asked with {_shown(call.exchanges[0].asked)}, not {own}"
         says = f"{name} got {_shown(answer.request)}, and asks {asking.asks.name} for something else"

@@ -13,6 +13,7 @@ from tutor.exercise.asking import (
     BusyWatch,
     DumpWhileAsking,
     answers_with,
+    gave_up,
     is_right,
     open_desk,
     wait_for_both,
@@ -22,7 +23,7 @@ from tutor.exercise.nouns import Program
 from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Observation, Symptom
-from tutor.judge.verdict import Verdict, failed, passed, skipped
+from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
 from tutor.judge.wording import output_tail
 
 Ours = Literal["missing", "silent"]
@@ -141,6 +142,8 @@ class AnswersWithoutReply(Form):
             observed = f"answered while {without}; once it replies: {no_answer_in_words(asking, seen, later)}"
             return failed(expected, observed, self._waits(seen, later), (*lines, *tail))
         if not is_right(asking, later):
+            if seen.slowed and gave_up(asking, later):
+                return undecided(f"to wait for the answer of {name}")
             got = dict(later.answer.response)
             says, do = f"{name} still answers {got} once {asks} replies", "Look again in each call who is there."
             observed = f"answered while {without}; once it replies: answered {got}"

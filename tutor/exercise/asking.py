@@ -15,10 +15,13 @@ from tutor.judge.bench import Bench, HoldingServer, Run
 from tutor.judge.tasks import Tasks
 from tutor.judge.trace import CallAnswer, HeldRequest
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE
+from tutor.judge.waiting_for_nodes import HARDLY_WAITED_SHARE
 
 REACH_S = 5.0
 """Time in which the node finds our server: until then, it may rightly answer that there is none."""
+
+GIVEN_UP_S = 0.5
+"""A refusal that takes this long, though we have replied at once, comes at the end of a time limit."""
 
 LATE_S = 1.0
 """A node that gives up has waited for longer than this."""
@@ -196,7 +199,7 @@ class BusyWatch:
         A reply may get lost, or a node give up, before it is there. Without a reply, the limit of the call is enough.
         """
         late = any(call.replies and (call.answer.response is None or call.answer.took_s >= LATE_S) for call in calls)
-        return late and _cpu_wait_s(self._run) - self._waited_s >= CPU_WAIT_SHARE * (self._run.now() - self._since)
+        return late and _cpu_wait_s(self._run) - self._waited_s >= HARDLY_WAITED_SHARE * (self._run.now() - self._since)
 
 
 def _cpu_wait_s(run: Run) -> float:
@@ -236,6 +239,12 @@ def is_right(asking: Asking, call: AskingCall) -> bool:
     own = asking.passed_on(call.answer.request)
     replies = [exchange.reply for exchange in call.exchanges if agrees(exchange.asked, own)]
     return any(reply is not None and answers_with(call.answer, asking.right_answer(reply)) for reply in replies)
+
+
+def gave_up(asking: Asking, call: AskingCall) -> bool:
+    """Whether a call was refused at the end of some time limit, though our server has replied."""
+    refused = bool(asking.refusal) and answers_with(call.answer, asking.refusal)
+    return refused and bool(call.replies) and call.answer.took_s >= GIVEN_UP_S
 
 
 def answers_with(answer: CallAnswer, wanted: Mapping[str, Any]) -> bool:

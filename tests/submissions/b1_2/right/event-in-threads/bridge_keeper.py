@@ -34,14 +34,15 @@ class BridgeKeeper(Node):
 
 
 def main() -> None:
+    rclpy.init()
+    executor = MultiThreadedExecutor(num_threads=8)
+    executor.add_node(BridgeKeeper())
     try:
-        with rclpy.init():
-            node = BridgeKeeper()
-            executor = MultiThreadedExecutor(num_threads=8)
-            executor.add_node(node)
-            executor.spin()
+        executor.spin()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    finally:
+        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":
