@@ -49,9 +49,9 @@ def test_colcon_builds_the_workspace(tmp_path: Path, *, solved: bool) -> None:
     workspace = Workspace(tmp_path / "ws")
     for lesson in load_course().lessons:
         files = start(lesson, workspace).files.written
-        solutions = {file.name: file.solution for file in lesson.files}
+        solutions = {workspace.path_of(file.name): file.solution for file in lesson.files}
         for file in files if solved else ():
-            shutil.copyfile(solutions[file.name], file)
+            shutil.copyfile(solutions[file], file)
 
     build(workspace.root, tmp_path / "log")
 
