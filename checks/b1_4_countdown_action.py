@@ -22,8 +22,8 @@ from tutor.exercise import (
 
 SERVER, CLIENT = Program("countdown_server.py"), Program("countdown_client.py")
 COUNTDOWN = Action("/countdown", "example_interfaces/action/Fibonacci")
-LONG = {"order": 1000}
-"""It takes minutes: none that we send gets to its end."""
+LONG = {"order": 300}
+"""It takes more than a minute: none that we send gets to its end."""
 
 
 def short() -> Mapping[str, Any]:

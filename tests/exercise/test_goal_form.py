@@ -41,6 +41,7 @@ REFUSED = GoalAnswer(accepted=False)
         ("canceled", replace(RUNNING, cancel_accepted=False), "wrong goal", "cancel_callback"),
         ("canceled", replace(RUNNING, cancel_accepted=True), "wrong goal", "still runs 3 s after it accepted"),
         ("canceled", RUNNING, "wrong goal", "gets no answer"),
+        ("canceled", REFUSED, "wrong goal", "it is rejected, not canceled"),
     ],
 )
 def test_a_goal_ends_as_it_should(ends: Outcome, answer: GoalAnswer, cause: str, words: str) -> None:

@@ -106,7 +106,7 @@ class HandlesGoal(Form):
             return unanswered(self.action, seen, answer, self.within_s)
         if outcome != self.ends:
             ended = "it is accepted" if self.ends == "rejected" else f"it is {outcome}"
-            if self.ends == "canceled" and not answer.cancel_accepted:
+            if self.ends == "canceled" and answer.accepted and not answer.cancel_accepted:
                 do = "Let the goal take its time, and let the node take in requests meanwhile."
                 return wrong(f"{ended}, not canceled: it ended before our request was taken in", do)
             accept = "Let the goal_callback return GoalResponse.ACCEPT for it."

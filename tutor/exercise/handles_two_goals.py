@@ -112,7 +112,8 @@ class HandlesTwoGoals(Form):
         ended = [_describe(answer, waited) for answer in found.of_goals]
         observed = f"the first {ended[0]}, the second {ended[1]}"
         # Of a goal that is not taken in, or waits for its turn, the other one is the reason.
-        for which in (1, 0) if found.of_goals[1].accepted is None else (0, 1):
+        unheard = found.of_goals[0].accepted and found.of_goals[1].accepted is None
+        for which in (1, 0) if unheard else (0, 1):
             name, answer, wanted = ("first", "second")[which], found.of_goals[which], self.ends[which]
             says, do, shared = f"the {name} goal {ended[which]}, instead of being {wanted}", _STEPS[wanted], False
             if outcome_of(answer) == wanted:
@@ -122,7 +123,7 @@ class HandlesTwoGoals(Form):
                 says = f"the {name} goal ends with {dict(answer.result or {})}, not {dict(result)}"
                 do = "Keep what belongs to one goal in local variables of its callback, since two may be in it at once."
                 shared = has_more(answer.result or {}, result)
-            elif answer.accepted is None:
+            elif which == 1 and answer.accepted is None:
                 says, do = "the second goal gets no answer while the first one runs", _LET_IN
             about = {"action": action.name, "wanted": wanted, "found": outcome_of(answer), "answer": answer}
             why = found.symptom(Symptom.WRONG_GOAL, says=says, do=do, shared=shared, **about)
