@@ -156,6 +156,7 @@ def test_a_node_that_does_everything_right_passes(criterion: str) -> None:
         ("activates", "activate", {"rate": Rate(1.0, 6, 5.0)}, "wrong rate", "1.00 Hz"),
         ("deactivates", "activate", {"rate": Rate(10.0, 6, 0.5)}, "old timer kept", "5 Hz of an older timer"),
         ("cleans", "cleanup", {"publishes": True}, "left after cleanup", "still there after the cleanup"),
+        ("cleans", "activate", {"rate": Rate(5.0, 6, 1.0)}, "parameter not read again", "rate was set while"),
         ("cleans", "activate", {"rate": Rate(7.0, 6, 0.7)}, "old timer kept", "2 Hz and the 5 Hz of an older"),
         ("ends", "shutdown", {"state": "active", "change": FAILED}, "wrong lifecycle state", "on_shutdown"),
     ],

@@ -182,6 +182,45 @@ def ordinary_publisher(case: Case) -> Iterator[Found]:
 
 
 @mistake(
+    "parameter-not-read-again",
+    explains=[Symptom.WRONG_RATE],
+    evidence=Evidence.RUN,
+    says="{parameter} was set while the node was unconfigured, and configuring it again has changed nothing: the new "
+    "value is not read, or does not get to the timer",
+    do="Read {parameter} each time the node is configured, and let the timer follow it.",
+    example=in_run(Symptom.WRONG_RATE, parameter="tempo", unchanged=True, configured_again=True),
+)
+def not_read_again(case: Case) -> Iterator[Found]:
+    """A lifecycle node that is configured again keeps its old settings.
+
+    Parameters are set while a node is unconfigured, and take effect when it is configured the next time. That works
+    only if on_configure reads them: __init__ runs once, and what it has read stays.
+
+    Bad:
+
+        class Bell(LifecycleNode):
+            def __init__(self):
+                super().__init__('bell')
+                self.tempo = self.declare_parameter('tempo', 2.0).value
+
+    Good:
+
+        class Bell(LifecycleNode):
+            def __init__(self):
+                super().__init__('bell')
+                self.declare_parameter('tempo', 2.0)
+
+            def on_configure(self, state):
+                self.tempo = self.get_parameter('tempo').value
+                return TransitionCallbackReturn.SUCCESS
+
+    See it: `ros2 lifecycle set NODE cleanup`, `ros2 param set NODE tempo 4.0`, then configure and activate it again.
+    """
+    if case.about("configured_again") and case.about("unchanged"):
+        yield Found({"parameter": case.about("parameter")})
+
+
+@mistake(
     "forgotten-instead-of-destroyed",
     explains=[Symptom.NOT_CLEANED_UP],
     says="{line} only forgets {attribute}: the node keeps it, and others still see it",
