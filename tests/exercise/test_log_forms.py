@@ -6,7 +6,18 @@ from dataclasses import replace
 
 import pytest
 
-from tests.checks.builders import START, assert_failed, assert_passed, ending, exited, graph, judge_of, lines, trace
+from tests.checks.builders import (
+    START,
+    assert_failed,
+    assert_passed,
+    assert_undecided,
+    ending,
+    exited,
+    graph,
+    judge_of,
+    lines,
+    trace,
+)
 from tutor.exercise import EndsCleanly, Event, Feed, Form, LogsAt, Program, StaysQuiet, Throttles, Topic, check
 from tutor.exercise.told_events import FeedRun, tell
 from tutor.judge.check import Check
@@ -122,6 +133,15 @@ def test_what_lasts_is_logged_again_and_again_but_not_too_often(at: tuple[float,
         assert_failed(verdict, cause, words, check=made)
     else:
         assert_passed(verdict)
+
+
+def test_a_busy_machine_may_be_to_blame_for_a_late_message_and_so_may_our_own_delay() -> None:
+    form = Throttles("blocked", FEED, BLOCKED.kind, period_s=2.0)
+    late = ran(logged(3.01, 30), logged(6.5, 30))
+    assert_undecided(judged(form, replace(late, slowed=True, cpu_wait_s=0.8))[0])
+    paused = (BLOCKED, (*SENT[3][1][:10], *(sent + 2.0 for sent in SENT[3][1][50:])))  # none for 4 s
+    told = tell([*SENT[:3], paused], (logged(3.01, 30), logged(7.6, 30), logged(9.7, 30)))
+    assert_passed(judged(form, FeedRun(trace(), told=told))[0])
 
 
 def test_a_node_that_does_not_listen_or_ends_is_told() -> None:

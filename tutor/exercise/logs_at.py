@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from typing import Any
 
 from tutor.exercise.form import Exercise, Form
@@ -14,7 +14,7 @@ from tutor.judge.bench import Scenario
 from tutor.judge.check import Criterion
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Level, LogRecord
-from tutor.judge.verdict import Verdict, failed, passed
+from tutor.judge.verdict import Verdict, failed, passed, undecided
 from tutor.judge.wording import counted, output_tail
 
 EARLY_SHARE = 0.9
@@ -227,10 +227,11 @@ class Throttles(FeedForm):
             says = f"while {self.kind}, {counted(len(logs), 'message')} came in {lasted_s:.1f} s, and hide all others"
             do = f"Let the line that logs it speak at most once in {self.period_s:g} s."
             return self.too_much(found, logs, observed, says=says, do=do)
-        waits = [stamps[0] - told.sent[0], *(gap - self.period_s for gap in gaps)]
-        waits += [told.sent[-1] - stamps[-1] - self.period_s]
+        waits = [stamps[0] - told.sent[0], *self._late(told, stamps)]
         if max(waits) <= LATE_S:
             return None
+        if max(waits) <= LATE_S + found.cpu_wait_s:
+            return undecided("to tell whether the node is late")
         if max(waits) == waits[0]:
             observed = f"the first message at {level} {waits[0]:.1f} s after the first of {_sent(told)}"
             says = f"{self.kind} is logged at {level} only {waits[0]:.1f} s after it has begun"
@@ -240,6 +241,16 @@ class Throttles(FeedForm):
             says = f"{self.kind} is logged, but then it goes on, and nothing says so for {last_s:.1f} s"
         do = f"Log it each time it is noticed, and let the throttle drop what comes within {self.period_s:g} s."
         return self.wrong(found, told, observed, says=says, do=do, too_few=True)
+
+    def _late(self, told: Told, stamps: list[float]) -> Iterator[float]:
+        """How long after the first message of ours that was due for it each further log message came, in seconds.
+
+        The last one may not have come at all: then, how long we have sent messages in vain.
+        """
+        for stamp, following in zip_longest(stamps, stamps[1:], fillvalue=told.sent[-1]):
+            due = next((sent for sent in told.sent if sent >= stamp + self.period_s), None)
+            if due is not None:
+                yield following - due
 
 
 def _sent(told: Told) -> str:
