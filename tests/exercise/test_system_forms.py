@@ -83,6 +83,10 @@ def test_a_starved_system_has_no_rate_unless_its_messages_are_even() -> None:
     assert RATE.judge(system(uneven, cpu_wait_s=3.0)).status is Status.ERROR
     assert RATE.judge(system(uneven)).status is Status.FAILED
     assert RATE.judge(system(samples(LEVEL, [1.0] * 6, 1.0), cpu_wait_s=3.0)).status is Status.FAILED
+    twice = sorted(
+        [*samples(LEVEL, [1.0] * 50), *samples(LEVEL, [1.0] * 50, first_s=0.02)], key=lambda s: s.source_time
+    )
+    assert RATE.judge(system(twice, cpu_wait_s=3.0)).status is Status.FAILED
 
 
 def orders(*at: float) -> list[Sent]:
