@@ -43,8 +43,7 @@ def one_of(kind: str, *messages: Reading, at: str = "") -> Event:
 
 def shift() -> tuple[Event, ...]:
     """What happens while someone is on call: one thing after another."""
-    statuses = random.sample((CHARGING, DISCHARGING, NOT_CHARGING, FULL), 4)
-    begins, *changes, last = statuses
+    begins, *changes, last = random.sample((CHARGING, DISCHARGING, NOT_CHARGING, FULL), 4)
     return (
         one_of(FIRST, reading(begins), at="info"),
         one_of(ORDINARY, *(reading(begins) for _ in range(random.randint(3, 5)))),
