@@ -80,9 +80,11 @@ def test_check_all_with_nothing_to_judge_lists_every_exercise(run: Run, folder: 
     document = json.loads(result.out)
     assert_report_shape(document)
     assert result.code == 2
-    assert [each["id"] for each in document["exercises"]] == [lesson.id for lesson in load_course().lessons]
-    assert {each["verdict"] for each in document["exercises"]} == {"error"}
-    assert [[c["id"] for c in each["criteria"]] for each in document["exercises"]] == [["shutdown"]] * 6
+    lessons = load_course().lessons
+    assert [(each["id"], each["verdict"]) for each in document["exercises"]] == [
+        (lesson.id, "error") for lesson in lessons if any(criterion.id == "shutdown" for criterion in lesson.criteria)
+    ]
+    assert all([c["id"] for c in each["criteria"]] == ["shutdown"] for each in document["exercises"])
 
 
 @pytest.mark.parametrize(

@@ -20,6 +20,7 @@ LESSONS = load_course().lessons
 def test_an_untouched_skeleton_has_a_first_todo_until_it_is_changed(lesson: Lesson, tmp_path: Path) -> None:
     files = {file.name: tmp_path / file.name for file in lesson.files if file.skeleton.is_file()}
     for file in lesson.files:
+        (tmp_path / file.name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(file.skeleton, tmp_path / file.name)
     submission = Submission(lesson.id, files)
     todo = first_todo(lesson, submission)

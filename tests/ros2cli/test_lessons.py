@@ -48,10 +48,15 @@ class Shell:
         self._outputs = bench.folder / "outputs"
         self._outputs.mkdir()
         self._count = 0
+        self.env: dict[str, str] = {}
 
     @contextmanager
     def open(self) -> Iterator[None]:
-        """Run the shell itself during the block: it provides the programs that the command lines need."""
+        """Run the shell itself during the block: it provides the programs that the command lines need.
+
+        Within another block, it is a second shell, which has what the workspace has got since.
+        """
+        before = self.env
         words = [
             *TUTOR,
             "shell",
@@ -74,6 +79,7 @@ class Shell:
             finally:
                 os.killpg(shell.pid, signal.SIGKILL)
         shutil.rmtree(Path(self.env["PATH"].partition(":")[0]).parent, ignore_errors=True)
+        self.env = before
 
     @contextmanager
     def start(self, line: str) -> Iterator[Started]:
@@ -177,6 +183,8 @@ def test_each_command_of_a_lesson_prints_what_the_lesson_shows(bench: Bench, she
                     assert "Traceback" not in started.output
             if command.line.startswith("ros-tutor start"):
                 copy_solution(lesson, shell.workspace)
+                if any("/" in file.name for file in lesson.files):  # types of the workspace's own are built and sourced
+                    nodes.enter_context(shell.open())
         failed = [f"{node.line}\n{node.output}" for node in running if node.code not in (None, 0)]
         assert not failed, failed
 

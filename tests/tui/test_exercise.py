@@ -29,7 +29,7 @@ async def test_start_copies_the_skeleton_unless_the_file_exists(learner: Any) ->
         await me.press("n", "2")
         await me.sees("server.py is not in your workspace yet")
         await me.press("s")
-        await me.sees("is in your")
+        await me.sees("are in your")
         await me.sees("1  import signal")
         await me.until(lambda: "started" in me.screen().partition("Calculator Service")[2].partition("I2.3")[0])
 

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Exercise B1.1: log all that a warehouse publishes, and miss nothing."""
+"""Exercise B1.1: log all that a warehouse publishes."""
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
-# TODO 1: find out what the publishers offer, with ros2 topic info -v or in
-#         Live. Then import from rclpy.qos what you need, and the types of
-#         the messages from std_msgs.msg.
+# TODO 1: find out what the publishers offer, with ros2 topic info -v
+#         or in Live. Then import from rclpy.qos what you need, and the
+#         types of the messages from std_msgs.msg.
 
 
 class WarehouseMonitor(Node):
@@ -15,16 +15,16 @@ class WarehouseMonitor(Node):
 
     def __init__(self) -> None:
         super().__init__("warehouse_monitor")
-        # TODO 2: subscribe to /map (String). It has been published already.
+        # TODO 2: subscribe to /map (String). It was published before.
 
         # TODO 3: subscribe to /range (Int32). Its sensor is lossy.
 
-        # TODO 4: subscribe to /parcels (String). Up to 200 come at once.
+        # TODO 4: subscribe to /parcels (String). 200 come at once.
 
         self.get_logger().info("Waiting for the warehouse")
 
-    # TODO 5: write the callbacks: one log message for each message, with
-    #         its data.
+    # TODO 5: write the callbacks: one log message for each message,
+    #         with its data.
 
 
 def main() -> None:

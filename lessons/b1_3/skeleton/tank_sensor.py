@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exercise B1.3: a sensor that publishes messages of a type of its own."""
+"""Exercise B1.3: a sensor that publishes a type of its own."""
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
