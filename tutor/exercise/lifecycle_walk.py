@@ -216,8 +216,9 @@ async def _look_at_topic(run: Run, lifecycle: Lifecycle, step: Step, since: floa
     if move.watched in ("silence", "publisher"):
         # A callback that runs in another thread may be about to publish when the node is deactivated.
         quiet_from = since + (1 / hz + IN_FLIGHT_S if was_active else 0.0)
-        until = quiet_from + QUIET_PERIODS / hz + IN_FLIGHT_S
-        await run.until(lambda: bool(sent(quiet_from)) or run.now() >= until, until - run.now() + 2, idle_s=IDLE_S)
+        # The limit is longer by what the node waits for a CPU: meanwhile it is silent, whatever it means to do.
+        quiet_until = quiet_from + QUIET_PERIODS / hz + IN_FLIGHT_S
+        await run.until(lambda: bool(sent(quiet_from)), quiet_until - run.now(), idle_s=IDLE_S)
         step = replace(step, sent=sent(quiet_from))
     if move.watched == "publisher":
         await run.until(publishes, RESENT_S, idle_s=RESENT_S)
