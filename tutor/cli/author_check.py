@@ -176,7 +176,7 @@ def _prove(
 
     runnable = [lesson for lesson in chosen.lessons if lesson.id in checks and _has_all_files(lesson)]
     with private_folders.temporary("author") as scratch:
-        jobs = [] if chosen.submissions else list(jobs_of_lessons(runnable))
+        jobs = [] if chosen.submissions else list(jobs_of_lessons(runnable, scratch))
         jobs += _jobs_of_submissions(arguments, chosen, runnable, submissions, scratch)
         return interruptible(lambda: prove(jobs, course, report_progress), NoDisplay()) if jobs else ()
 

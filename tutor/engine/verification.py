@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterator, Sequence
+import shutil
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -56,15 +57,25 @@ class Proof:
     left: tuple[str, ...] = ()
 
 
-def jobs_of_lessons(lessons: Sequence[Lesson]) -> Iterator[Job]:
+def jobs_of_lessons(lessons: Sequence[Lesson], scratch: Path) -> Iterator[Job]:
     """Yield all skeletons, then all solutions.
 
-    Skeletons first: they take longest, since a check waits until the timeout for what never comes.
+    Skeletons first: they take longest, since a check waits until the timeout for what never comes. Where a skeleton has
+    some files of the solution, as what is handed over, its files are put together in `scratch`. Raises OSError.
     """
     for kind in (Kind.SKELETON, Kind.SOLUTION):
         for lesson in lessons:
             files = {file.name: getattr(file, kind.value) for file in lesson.files}
+            if kind is Kind.SKELETON and any(file.skeleton == file.solution for file in lesson.files):
+                files = _put_together(files, scratch / lesson.folder.name / kind.value)
             yield Job(lesson, kind, Submission(lesson.id, files))
+
+
+def _put_together(files: Mapping[str, Path], folder: Path) -> dict[str, Path]:
+    for name, path in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, folder / name)
+    return {name: folder / name for name in files}
 
 
 def job_of_case(lesson: Lesson, case: Case, scratch: Path) -> Job | None:

@@ -101,7 +101,8 @@ class RunGoalClient:
             stuck = await run.dump_stacks() if ended is None else ()
             clients = tuple(client for client in watch.clients if client.name.endswith(GOAL_SERVICE))
             waited_s += run.our_cpu_wait_s() - our_wait_s
-            if not goals and ended is not None and waited_s >= CPU_WAIT_SHARE * watched_s:
+            left_after_us = ended is not None and watch.up_at is not None  # else it did not wait for a server at all
+            if not goals and left_after_us and waited_s >= CPU_WAIT_SHARE * watched_s:
                 raise MachineTooBusy("this machine is too busy for a client to find our action server in time")
             slowed = waited_s >= HARDLY_WAITED_SHARE * watched_s or (not goals and _missed_server(watch, ended))
             return GoalClientRun(trace, replies, goals, ended, stuck, clients, watched_s, slowed)
