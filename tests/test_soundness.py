@@ -1,8 +1,8 @@
 """Judge a sample of tests/submissions against their expect.yaml files, small enough to end in minutes.
 
-`tests.sampling` chooses the sample; each is judged by what it shows (`judged_criteria`). `python -m tests.soundness`
-judges all submissions by all criteria. The hostile ones are judged with the sample (`python -m tests.hostile` shows
-what they cost), except those in `EXCLUDED`.
+`tests.sampling` chooses the sample; each is judged by what it shows (`judged_criteria`). Of the wrong ones that are on
+record, one of each exercise runs. `python -m tests.soundness` judges all submissions by all criteria. The hostile ones
+are judged with the sample (`python -m tests.hostile` shows what they cost), except those in `EXCLUDED`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import tempfile
 import threading
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
@@ -25,10 +25,11 @@ import pytest
 from tests import soundness
 from tests.hostile import find_hostile
 from tests.judging import ROOT, Outcome, compare, find_cases, holds_here, judge, laid_out
+from tests.recordings.recording import kept_cases
 from tests.sameness import JudgedRun, Way, variations
 from tests.sampling import changed, judged_criteria, sample, shows
 from tutor.content import load_course
-from tutor.content.submissions import Case, Expected, read_case
+from tutor.content.submissions import WRONG, Case, Expected, read_case
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
 
@@ -42,7 +43,18 @@ EXCLUDED = {
     "i2.1/hostile/megabytes-on-the-topic",
     "i2.1/hostile/parameters-of-megabytes",
 }
-_SELECTED = [case for case in [*sample(ALL_CASES), *find_hostile()] if holds_here(case) and str(case) not in EXCLUDED]
+_RECORDED = kept_cases()
+
+
+def _without_recorded(cases: Sequence[Case]) -> list[Case]:
+    """Leave out the wrong ones whose recordings tests judge again (`tests/recordings`), but one of each exercise."""
+    wrong = [case for case in cases if case.kind == WRONG]
+    real = {case.exercise: case for case in reversed(wrong)}.values()
+    return [case for case in cases if case not in wrong or case in real or str(case) not in _RECORDED]
+
+
+_CHOSEN = [*_without_recorded(sample(ALL_CASES)), *find_hostile()]
+_SELECTED = [case for case in _CHOSEN if holds_here(case) and str(case) not in EXCLUDED]
 ORDERED_CASES = sorted(
     sorted(_SELECTED, key=lambda case: case.exercise, reverse=True), key=lambda case: not case.expected.keeps_busy
 )

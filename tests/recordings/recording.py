@@ -103,6 +103,11 @@ def read_documents(file: Path) -> list[dict[str, Any]]:
     return documents
 
 
+def kept_cases() -> frozenset[str]:
+    """The submissions that are recorded in the repository, such as "i1.1/wrong/rate-as-period"."""
+    return frozenset(document["case"] for file in KEPT.glob(f"*{SUFFIX}") for document in read_documents(file))
+
+
 def from_document(document: Mapping[str, Any]) -> Recording:
     """A recording of what is stored."""
     facts = [_facts(name, value) for name, value in document["facts"]]
