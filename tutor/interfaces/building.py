@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import subprocess
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -16,7 +15,7 @@ from pathlib import Path
 
 from tutor import __version__
 from tutor.interfaces import compiling
-from tutor.interfaces.compiling import CompileError, Job, Python, compile_package
+from tutor.interfaces.compiling import CompileError, Job, Python, compile_package, run_to_end
 from tutor.interfaces.definitions import MAX_BYTES
 from tutor.interfaces.package import (
     MAX_DEPTH,
@@ -208,19 +207,8 @@ def _generate(
     """Run the generators in the Python of the ROS in use. Raises CompileError."""
     given = scratch / "arguments.json"
     given.write_text(json.dumps(arguments), encoding="utf-8")
-    try:
-        ended = subprocess.run(
-            [str(ros.python), "-P", str(_GENERATOR), str(given)],
-            env=dict(environment),
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            timeout=_GENERATE_LIMIT_S,
-            check=False,
-        )
-    except (OSError, subprocess.SubprocessError) as error:
-        raise CompileError(str(error)) from error
+    command = [str(ros.python), "-P", str(_GENERATOR), str(given)]
+    ended = run_to_end(command, _GENERATE_LIMIT_S, environment)
     if ended.returncode:
         raise CompileError((ended.stderr.strip().splitlines() or ["the generators failed"])[-1])
     answer = json.loads(ended.stdout)

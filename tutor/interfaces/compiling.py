@@ -7,7 +7,7 @@ the type support of our RMW and what Python needs, which takes a tenth of the ti
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -137,19 +137,27 @@ def _run_all(commands: Iterable[list[str]], done: Callable[[object], None]) -> N
             future.result()
 
 
-def _run(command: list[str]) -> None:
+def run_to_end(
+    command: list[str], limit_s: float, environment: Mapping[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """Run a tool, in our environment by default. Raises CompileError if it cannot be run, or takes too long."""
     try:
-        ended = subprocess.run(
+        return subprocess.run(
             command,
+            env=environment,
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
             errors="replace",
-            timeout=_LIMIT_S,
+            timeout=limit_s,
             check=False,
         )
     except (OSError, subprocess.SubprocessError) as error:
         raise CompileError(str(error)) from error
+
+
+def _run(command: list[str]) -> None:
+    ended = run_to_end(command, _LIMIT_S)
     if ended.returncode:
         lines = ended.stderr.splitlines()
         first = next((line for line in lines if "error" in line or "undefined" in line), lines[-1] if lines else "")
