@@ -77,6 +77,12 @@ CASES = {
     "deep": DEEP,
     "subreaper": SUBREAPER,
 }
+CHAIN = """
+note('chain')
+while True:
+    if os.fork(): os._exit(0)
+    os.setsid()
+"""
 each_case = pytest.mark.parametrize("source", CASES.values(), ids=CASES.keys())
 
 
@@ -238,6 +244,24 @@ while True:
         assert os.read(pipe, 1) == b""
     finally:
         os.close(pipe)
+
+
+async def test_a_chain_of_processes_is_ended_beside_many_others(bench: Any) -> None:
+    """The more processes there are, the longer a scan of /proc takes, in which a chain goes on by many processes."""
+    others = await bench.start("""
+for n in range(500):
+    if os.fork() == 0: time.sleep(1000)
+note('others')
+forever()
+""")
+    chain = await bench.start(CHAIN)
+    for name in ("others", "chain"):
+        await bench.noted_pid(name)
+    start = time.monotonic()
+    await chain.end()
+    assert time.monotonic() - start < 3.0, "it took so long that the supervisor was killed"
+    await others.end()
+    assert bench.leftovers() == []
 
 
 async def test_end_kills_a_process_that_restarts_its_killed_children(bench: Any) -> None:
