@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import asyncio
 import subprocess
 from pathlib import Path
 
 import pytest
 
 from tests.interfaces.packages import write_package
+from tests.live.private_domain import private_domain
 from tutor.interfaces import Build, build_workspace
 from tutor.interfaces.toolchain import Toolchain, find_toolchain
+from tutor.live.protocol import Describe, Follow
+from tutor.live.updates import RequestForm, TopicUpdate
 from tutor.ros import workspace_interfaces
 from tutor.ros.environment import detect, learner_env
+from tutor.tui.live.watcher import LiveChild, watcher_command
 
 pytestmark = [pytest.mark.process, pytest.mark.timeout(400)]
 
@@ -105,6 +110,47 @@ def test_nodes_use_messages_services_and_actions_of_two_packages(tmp_path: Path)
     done = _run(tmp_path, tmp_path, "node.py")
     assert done.returncode == 0, done.stderr
     assert "RIHS01_" in done.stdout or "type_hash" in done.stdout.lower()
+
+
+RINGING = """
+import rclpy
+from bell_interfaces.msg import Ding
+
+rclpy.init()
+node = rclpy.create_node("ringing")
+publisher = node.create_publisher(Ding, "/ding", 10)
+node.create_timer(0.1, lambda: publisher.publish(Ding(volume=0.5)))
+rclpy.spin(node)
+"""
+
+
+async def test_the_live_page_shows_messages_and_forms_of_these_types(tmp_path: Path) -> None:
+    _write_bells(tmp_path)
+    _build(tmp_path)
+    (tmp_path / "node.py").write_text(RINGING)
+    with private_domain() as domain:
+        ros = detect()
+        env = learner_env(ros, domain_id=domain.domain, log_dir=tmp_path, package_root=None, isolated=False)
+        workspace_interfaces.add(env, tmp_path)
+        child = await LiveChild.start(watcher_command(domain.domain, domain.environ, workspace=tmp_path))
+        with subprocess.Popen([str(ros.python), str(tmp_path / "node.py")], env=env) as node:
+            try:
+                child.send(Describe("bell_interfaces/srv/Ring"))
+                child.send(Follow("/ding"))
+                form = text = ""
+                async with asyncio.timeout(60):
+                    async for update in child.updates():
+                        if isinstance(update, RequestForm):
+                            form = update.problem or update.fields[0].path
+                        elif isinstance(update, TopicUpdate):
+                            text = update.problem or update.text or text
+                        if form and text:
+                            break
+            finally:
+                node.kill()
+                await child.stop()
+    assert form == "times"
+    assert text == "volume: 0.5\n"
 
 
 def test_what_has_not_changed_is_not_built_again_and_what_has_is(tmp_path: Path) -> None:

@@ -80,6 +80,8 @@ def prepare_for_rclpy(ros: RosEnvironment, *, isolated: bool) -> None:
     from tutor.ros import bundled_interfaces
 
     bundled_interfaces.activate()
+    if sys.flags.isolated:  # Python has ignored PYTHONPATH, by which the packages of a workspace are found
+        sys.path += [entry for entry in prefixes.entries(env, "PYTHONPATH") if workspace_interfaces.is_built(entry)]
 
 
 def keep_stdout() -> None:
