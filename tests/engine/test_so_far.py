@@ -10,7 +10,8 @@ import pytest
 
 from tests.checks.builders import CRASH, NODE_UP, exited, graph, log, samples, trace
 from tests.engine.helpers import FILE, Scene, criterion, node
-from tutor.content import LiveTopic, LiveView
+from tutor.content import LiveTopic, LiveView, load_course
+from tutor.content.near_miss import near_misses
 from tutor.engine import progress
 from tutor.engine.progress import RunSnapshot, ScenarioProgress, SoFar, describe
 from tutor.judge.bench import Bench
@@ -83,6 +84,22 @@ def test_a_misspelled_name_is_a_likely_cause() -> None:
     services = LiveView(services=("/add", "/divide"))
     seen = trace(graph=graph(services={"/add": "a/srv/B", "/devide": "a/srv/B"}))
     assert describe(RunSnapshot(seen), services).text == "likely wrong name: /node serves /devide, not /divide"
+
+
+def test_a_node_that_serves_what_is_asked_has_misspelled_nothing() -> None:
+    asked = LiveView(services=("/sensor/get_state",))
+    state, states = "/sensor/get_state", "/sensor/get_states"
+    assert [miss.found for miss in near_misses(graph(services={states: "a/srv/B"}), asked)] == [states]
+    assert list(near_misses(graph(services={state: "a/srv/B", states: "a/srv/B"}), asked)) == []
+    assert list(near_misses(graph(publishers={TOPIC: TYPE, f"{TOPIC}s": TYPE}), VIEW)) == []
+
+
+def test_a_hidden_fault_is_not_pointed_to() -> None:
+    hidden = replace(VIEW, has_hidden_fault=True)
+    misspelled = trace(graph=graph(publishers={"/sensor/temprature": TYPE}))
+    assert list(near_misses(misspelled.graph, hidden)) == []
+    assert not describe(RunSnapshot(misspelled, {TOPIC: TYPE}), hidden).likely
+    assert [lesson.id for lesson in load_course().lessons if lesson.live.has_hidden_fault] == ["b1.7"]
 
 
 def test_missing_services_and_subscriptions_are_reported() -> None:

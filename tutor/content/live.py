@@ -32,11 +32,15 @@ class Partner:
 
 @dataclass(frozen=True, slots=True)
 class LiveView:
-    """The topics, services and partner nodes that the app shows for a lesson; the first ones are shown first."""
+    """The topics, services and partner nodes that the app shows for a lesson; the first ones are shown first.
+
+    `has_hidden_fault`: the learner is to find what differs from it, so that nothing may point to that.
+    """
 
     topics: tuple[LiveTopic, ...] = ()
     services: tuple[str, ...] = ()
     partners: tuple[Partner, ...] = ()
+    has_hidden_fault: bool = False
 
     def partner_of(self, file: str) -> Partner | None:
         """Return the partner of one of the learner's files, if it has one."""

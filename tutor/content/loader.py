@@ -175,6 +175,7 @@ def _read_live(fields: Fields | None, folder: Path) -> LiveView:
         topics=tuple(_read_topic(item) for item in fields.mappings("topics", optional=True)),
         services=fields.texts("services", optional=True),
         partners=tuple(_read_partner(item, folder) for item in fields.mappings("partners", optional=True)),
+        has_hidden_fault=(folder / CASES).is_file(),
     )
     fields.done()
     return found

@@ -27,20 +27,30 @@ class NearMiss:
 
 
 def near_misses(graph: Graph, asked: LiveView) -> Iterator[NearMiss]:
-    """Yield every near miss: first by topic, then by service."""
+    """Yield every near miss: first by topic, then by service; none where such a name may be the fault to be found.
+
+    A node that also uses the wanted name has misspelled nothing.
+    """
+    if asked.has_hidden_fault:
+        return
     topics, services = [topic.name for topic in asked.topics], list(asked.services)
+    ends = [
+        ("publishes", {topic.name: {end.node for end in topic.publishers} for topic in graph.topics}),
+        ("listens to", {topic.name: {end.node for end in topic.subscriptions} for topic in graph.topics}),
+    ]
     for topic in graph.topics:
         if topic.is_standard or topic.name in topics:
             continue
-        for does, ends in (("publishes", topic.publishers), ("listens to", topic.subscriptions)):
-            for node in dict.fromkeys(end.node for end in ends):
-                if wanted := _closest(topic.name, topics, node):
+        for does, nodes in ends:
+            for node in sorted(nodes[topic.name]):
+                if (wanted := _closest(topic.name, topics, node)) and node not in nodes.get(wanted, ()):
                     yield NearMiss(node, does, topic.name, wanted)
+    serving = {service.name: set(service.nodes) for service in graph.services}
     for service in graph.services:
         if service.is_standard or service.name in services:
             continue
         for node in service.nodes:
-            if wanted := _closest(service.name, services, node):
+            if (wanted := _closest(service.name, services, node)) and node not in serving.get(wanted, ()):
                 yield NearMiss(node, "serves", service.name, wanted)
 
 

@@ -102,7 +102,9 @@ def _why(seen: Observation) -> Diagnosis:
 
 
 def _find_causes(seen: RunSnapshot, requested: LiveView) -> Iterator[str]:
-    """Yield the possible causes, the likeliest first."""
+    """Yield the possible causes, the likeliest first; none where the learner is to find them."""
+    if requested.has_hidden_fault:
+        return
     trace, graph = seen.trace, seen.trace.graph
     silent = [topic for topic in _silent_topics(seen) if topic not in seen.published_elsewhere]
     for topic in silent:
