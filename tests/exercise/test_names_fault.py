@@ -80,8 +80,7 @@ def test_no_report_yet(form: NamesFault, report: str, says: str) -> None:
 @pytest.mark.parametrize(
     ("what", "where", "says"),
     [
-        ("rate", "pump.py", "the file is the right one"),
-        ("qos", "tank.yaml", "not the fault of the system"),  # not told that half of it is right
+        ("rate", "pump.py", "the file is right"),
         ("rate", "tank.yaml", "not the fault of the system"),
     ],
 )
@@ -89,6 +88,14 @@ def test_a_wrong_report_is_told_what_it_would_show(form: NamesFault, what: str, 
     words, do, reported = seen(form.judge(f"case: a1b2\nwhat: {what}\nwhere: {where}\n"))
     assert says in words
     assert do.startswith("If it were so: ")
+    assert reported
+
+
+def test_the_right_kind_in_another_file_is_not_called_another_fault(form: NamesFault) -> None:
+    """What it would show is what the learner has seen, so it would lead away from it."""
+    words, do, reported = seen(form.judge("case: a1b2\nwhat: qos\nwhere: tank.yaml\n"))
+    assert "this kind of fault is right" in words
+    assert "hand-over note" in do
     assert reported
 
 

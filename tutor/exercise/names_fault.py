@@ -33,8 +33,8 @@ class NamesFault(Form):
     """The learner's report names the fault of the case that was handed over: what it is, and in which file.
 
     The report is a file of the submission with the keys `case`, `what` and `where`, and as `tries` how many answers
-    were given; `ros-tutor answer` writes it. A wrong answer is told whether the file is right, and by what the fault
-    that it names would show, so that the next answer is no guess. `faults`: all cases, and the choices.
+    were given; `ros-tutor answer` writes it. A wrong answer is told whether the file or the kind is right, and by what
+    the fault that it names would show, so that the next answer is no guess. `faults`: all cases, and the choices.
 
         NamesFault("found", Faults.read(Path(__file__).parents[1] / "lessons/x1_4/cases.yaml"))
     """
@@ -77,7 +77,10 @@ class NamesFault(Form):
             return passed(EXPECTED, answer)
         shows = f"If it were so: {kinds[what].shows[0].lower()}{kinds[what].shows[1:]}" if kinds[what].shows else ""
         if where == fault.where:
-            return self._failed(answer, "the file is the right one, and what is wrong in it is something else", shows)
+            return self._failed(answer, "the file is right, but something else is wrong in it", shows)
+        if what in fault.what:
+            do = "Which side differs from what was agreed? Compare each of them with the hand-over note."
+            return self._failed(answer, "this kind of fault is right, but it is in another file", do)
         return self._failed(answer, "this is not the fault of the system that you were given", shows)
 
     def _failed(self, observed: str, says: str, do: str) -> Verdict:
