@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 
-from tutor.exercise.nouns import Program, Topic
+from tutor.exercise.nouns import Program, Topic, is_int_in_float
 from tutor.exercise.publishing_start import PublishingStart, cancel
 from tutor.exercise.rate_probes import ProbeRates
 from tutor.judge import randomness
@@ -43,9 +43,11 @@ class CollectedValues:
 
 
 def find_out_of_range(values: Iterable[float], topic: Topic) -> list[float]:
-    """The values outside the topic's range, if it has one, NaN included."""
+    """The values outside the topic's range, if it has one; NaN and the bits of an int are outside of any."""
     low, high = topic.low, topic.high
-    return [value for value in values if low is not None and high is not None and not low <= value <= high]
+    if low is None or high is None:
+        return []
+    return [value for value in values if not low <= value <= high or is_int_in_float(value)]
 
 
 @dataclass(frozen=True)

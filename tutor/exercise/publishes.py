@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tutor.exercise.form import Exercise, Form
-from tutor.exercise.nouns import Topic
+from tutor.exercise.nouns import Topic, is_int_in_float
 from tutor.exercise.publishing_start import NOT_STARTED, PublishingRun, PublishingStart
 from tutor.exercise.seen_run import Seen, fits
 from tutor.exercise.watched_start import Watching
@@ -32,8 +32,9 @@ def stopped(trace: Trace | None, topic: Topic) -> Observation:
 def wrong_value(trace: Trace, topic: Topic, sample: Sample, says: str, do: str) -> Observation:
     """A message has another value than it should; `do`: the next step, if there is a better one than to look."""
     do = do or f"Look at what the node puts into {topic.field} before it publishes."
-    text = str(topic.value(sample))
-    return Symptom.WRONG_VALUES.seen(trace, topic=topic.name, text=text, says=says, do=do)
+    value = topic.value(sample)
+    about = {"wrong": (value,)} if is_int_in_float(value) else {}
+    return Symptom.WRONG_VALUES.seen(trace, topic=topic.name, text=str(value), says=says, do=do, **about)
 
 
 @dataclass(frozen=True)
@@ -270,4 +271,7 @@ class FieldEquals(WatchingMessages):
 
     def _deciding(self, samples: Sequence[Sample]) -> Sample | None:
         """The first message that decides: one that is wrong, if every one must be right, or else one that is right."""
-        return next((sample for sample in samples if fits(self.wanted, self.topic.value(sample)) != self.every), None)
+        return next((sample for sample in samples if self._is_right(self.topic.value(sample)) != self.every), None)
+
+    def _is_right(self, value: Any) -> bool:
+        return fits(self.wanted, value) and not is_int_in_float(value)
