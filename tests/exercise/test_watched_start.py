@@ -22,6 +22,7 @@ from tests.checks.builders import (
     trace,
 )
 from tutor.exercise import AtLeast, EndsCleanly, FieldEquals, Form, LogsText, Program, Receives, Topic, check
+from tutor.exercise.collected_values import find_out_of_range
 from tutor.exercise.nouns import agrees
 from tutor.exercise.receives import Reception, says
 from tutor.exercise.seen_run import Seen
@@ -110,6 +111,16 @@ def test_a_field_equals(form: FieldEquals, words: str) -> None:
         assert_failed(verdict, "wrong values", words, check=made)
     else:
         assert_passed(verdict)
+
+
+def test_the_bits_of_an_int_are_no_value() -> None:
+    """What arrives of an int in a float field is in the range only by chance, and in no message is it right."""
+    ints = trace(*(sample(BATTERY.name, 4e-323, 1001.0 + n / 10) for n in range(10)), graph=FULL.graph)
+    for every in (True, False):
+        form = FieldEquals("any", BATTERY, lambda value: value < 1, what="below 1", every=every)
+        verdict, made = judged(form, ints)
+        assert_failed(verdict, "an int in a float field", check=made)
+    assert find_out_of_range([4e-323, 0.0, 0.5], Topic("/x", "y/msg/Z", low=0.0, high=1.0)) == [4e-323]
 
 
 def test_one_message_decides() -> None:
