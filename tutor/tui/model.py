@@ -43,6 +43,16 @@ class AppModel:
         return self.session.path(self.file)
 
     @property
+    def program(self) -> LessonFile:
+        """The file that is run: the one shown or, if that is no program (a message type, parameters), the first one."""
+        return self.file if self.file.name.endswith(".py") else self.lesson.files[0]
+
+    @property
+    def program_path(self) -> Path:
+        """That file's path in the workspace."""
+        return self.session.path(self.program)
+
+    @property
     def paths(self) -> list[Path]:
         """The paths of all of the lesson's files."""
         return [self.session.path(file) for file in self.lesson.files]

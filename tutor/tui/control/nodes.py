@@ -37,7 +37,7 @@ class Nodes:
         """Number of the latest request to run each file; earlier ones still waiting are dropped."""
         host.register(commands.RUN, self.run, lambda: not self._nodes_to_stop)
         host.register(commands.STOP, self.stop, lambda: bool(self._nodes_to_stop))
-        host.register(commands.RESTART, self.restart, lambda: self._is_alive(host.model.path))
+        host.register(commands.RESTART, self.restart, lambda: self._is_alive(host.model.program_path))
         host.register(commands.PARTNER, self.partner, lambda: self._partner is not None)
         host.register(commands.OTHER_FILE, self.other_file, lambda: len(host.model.lesson.files) > 1)
         host.register(commands.OPTIONS, self.options)
@@ -70,7 +70,7 @@ class Nodes:
     def stop_key(self, path: Path) -> str:
         """Return the key that stops this node."""
         model = self._host.model
-        if path == model.path or path not in self._paths_of(model.lesson):
+        if path == model.program_path or path not in self._paths_of(model.lesson):
             return commands.STOP.keys[0]
         return commands.OTHER_FILE.keys[0] if path in model.paths else commands.PARTNER.keys[0]
 
@@ -95,8 +95,8 @@ class Nodes:
     def _nodes_to_stop(self) -> list[Node]:
         """What Stop acts on: the node of the file shown or, if this lesson has run none, those of another lesson."""
         model = self._host.model
-        if self._is_alive(model.path):
-            return [self.by_path[model.path]]
+        if self._is_alive(model.program_path):
+            return [self.by_path[model.program_path]]
         if any(path in self.by_path for path in model.paths):
             return []
         own = self._paths_of(model.lesson)
@@ -105,14 +105,14 @@ class Nodes:
     # --- run and stop ---
 
     def run(self) -> None:
-        """Run the file shown."""
+        """Run the file shown, or the lesson's first one if that is no program."""
         model = self._host.model
         if self._files.offer_start_if_missing("run"):
             return
-        if not model.path.exists():
-            self._host.show_error(f"{model.file.name} is not in your workspace yet.")
+        if not model.program_path.exists():
+            self._host.show_error(f"{model.program.name} is not in your workspace yet.")
             return
-        self._start(model.lesson, model.file)
+        self._start(model.lesson, model.program)
 
     def stop(self) -> None:
         """Stop the node, as Ctrl+C would."""
@@ -150,7 +150,7 @@ class Nodes:
 
     def restart(self) -> None:
         """Stop the node of the file shown, and run it again."""
-        self._start(self._host.model.lesson, self._host.model.file)
+        self._start(self._host.model.lesson, self._host.model.program)
 
     def saved(self, message: messages.FileSaved) -> None:
         """Handle a saved file: restart its lesson's running nodes, if restarting on save is on."""
@@ -223,7 +223,7 @@ class Nodes:
         from tutor.tui.dialogs.run_options import RunOptionsScreen
 
         model = self._host.model
-        lesson, file = model.lesson, model.file
+        lesson, file = model.lesson, model.program
 
         def answered(answer: tuple[RunOptions, bool] | None) -> None:
             if answer is None:
@@ -231,7 +231,7 @@ class Nodes:
             options, run = answer
             self._preferences.replace(model.state.with_run(lesson.id, options))
             if run and model.lesson is lesson:
-                (self.restart if self._is_alive(model.path) else self.run)()
+                (self.restart if self._is_alive(model.program_path) else self.run)()
 
         self._host.app.push_screen(
             RunOptionsScreen(file, model.run_options, lambda options: model.session.command_line(file, options)),
