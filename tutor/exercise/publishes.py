@@ -33,8 +33,8 @@ def wrong_value(trace: Trace, topic: Topic, sample: Sample, says: str, do: str) 
     """A message has another value than it should; `do`: the next step, if there is a better one than to look."""
     do = do or f"Look at what the node puts into {topic.field} before it publishes."
     value = topic.value(sample)
-    about = {"wrong": (value,)} if is_int_in_float(value) else {}
-    return Symptom.WRONG_VALUES.seen(trace, topic=topic.name, text=str(value), says=says, do=do, **about)
+    wrong = (value,) if is_int_in_float(value) else ()
+    return Symptom.WRONG_VALUES.seen(trace, topic=topic.name, text=str(value), says=says, do=do, wrong=wrong)
 
 
 @dataclass(frozen=True)
