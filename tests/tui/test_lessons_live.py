@@ -306,10 +306,10 @@ async def test_b1_1(session: Session) -> None:
         await me.press("b")
         await me.sees("● running  warehouse", "Published the map hall-")
         await me.press("r")
-        me.reads("there is one warning at the start", "New publisher discovered on topic 'range'")
+        me.reads("it warns once, at the start", "New publisher discovered on topic 'range'")
         for text in ("map: hall-", "publisher discovered on topic 'range'", r"parcel: lorry-\d+-200"):
             await me.until(lambda text=text: re.search(text, "\n".join(me.background())) is not None, text)  # type: ignore[misc]
-        me.reads("**Graph** (`G`): where a publisher and a subscription do not fit, the line is broken")
+        me.reads("where a publisher and a subscription are not compatible, the line between them is broken")
         await me.press("4", "G")
         await me.sees("✗ 1 connection does not work", "/warehouse ──✗ /warehouse_monitor", "asks for reliable")
         me.reads("choose `/range`, and the line above its messages says what the publisher offers")

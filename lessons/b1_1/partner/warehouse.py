@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The given warehouse: a map that is published once, a lossy range sensor, and parcels that come many at once."""
+"""The given warehouse: a map that is published once, a lossy range sensor, and parcels that come in bursts."""
 
 import random
 
@@ -13,7 +13,7 @@ PARCELS_AT_ONCE = 200
 
 
 class Warehouse(Node):
-    """Publishes what a warehouse knows, whether somebody listens or not."""
+    """Publishes what a warehouse knows, whether anyone listens or not."""
 
     def __init__(self) -> None:
         super().__init__("warehouse")

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Exercise B1.1: log all that a warehouse publishes."""
+"""Exercise B1.1: log everything that a warehouse publishes."""
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 # TODO 1: find out what the publishers offer, with ros2 topic info -v
-#         or in Live. Then import from rclpy.qos what you need, and the
-#         types of the messages from std_msgs.msg.
+#         or in Live. Then import what you need from rclpy.qos, and
+#         the message types from std_msgs.msg.
 
 
 class WarehouseMonitor(Node):
-    """Listens to a warehouse that was there before."""
+    """Listens to a warehouse that was there first."""
 
     def __init__(self) -> None:
         super().__init__("warehouse_monitor")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Logs all that a warehouse publishes, each with the QoS that its publisher calls for."""
+"""Logs everything that a warehouse publishes, with the QoS that each publisher calls for."""
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -7,22 +7,22 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Int32, String
 
-# Published once, before we came: the publisher keeps it, and hands it to whoever asks.
+# Published once, before we joined: the publisher keeps it, and hands it to whoever asks.
 MAP_QOS = QoSProfile(
     depth=1,
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
 
-# The sensor offers best effort: whoever asks for more is not connected.
+# The sensor offers best effort: a subscription that asks for more is not connected.
 RANGE_QOS = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 
-# 200 at once must find room while the callback handles the first of them.
+# 200 at once must fit in the queue while the callback handles the first of them.
 PARCELS_QOS = QoSProfile(depth=200, reliability=ReliabilityPolicy.RELIABLE)
 
 
 class WarehouseMonitor(Node):
-    """Listens to a warehouse that was there before."""
+    """Listens to a warehouse that was there first."""
 
     def __init__(self) -> None:
         super().__init__("warehouse_monitor")

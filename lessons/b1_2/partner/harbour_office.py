@@ -34,7 +34,7 @@ class HarbourOffice(Node):
         return response
 
     async def think(self) -> None:
-        """Return after a while, without keeping the thread."""
+        """Return after a while, without blocking the thread."""
         thought = Future()
         timer = self.create_timer(THINKS_S, lambda: thought.set_result(None))
         await thought

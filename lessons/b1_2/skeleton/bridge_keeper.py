@@ -33,7 +33,7 @@ class BridgeKeeper(Node):
         response: SetBool.Response,
     ) -> SetBool.Response:
         """Say whether the bridge moves: up if request.data is true."""
-        # TODO 3: if the harbour is not there, answer so, with
+        # TODO 3: if the harbour is not there, say so: answer with
         #         success = False and a message that says why.
 
         # TODO 4: ask the harbour with the same data, wait for its

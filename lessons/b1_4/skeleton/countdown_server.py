@@ -10,7 +10,7 @@ from rclpy.node import Node
 
 
 class CountdownServer(Node):
-    """Has one countdown at a time: a new goal replaces the old one."""
+    """Runs one countdown at a time: a new goal replaces the old one."""
 
     def __init__(self) -> None:
         super().__init__("countdown_server")
@@ -37,7 +37,7 @@ def main() -> None:
     rclpy.init()
     node = CountdownServer()
     try:
-        # TODO 6: while a goal is executed, requests must get in: what
+        # TODO 6: while a goal is executing, requests must get in: what
         #         has to run the callbacks for that?
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):

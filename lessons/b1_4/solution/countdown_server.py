@@ -15,7 +15,7 @@ THREADS = 4
 
 
 class CountdownServer(Node):
-    """Has one countdown at a time: a new goal replaces the one that is running."""
+    """Runs one countdown at a time: a new goal replaces the one that is running."""
 
     def __init__(self) -> None:
         super().__init__("countdown_server")
@@ -44,7 +44,7 @@ class CountdownServer(Node):
         return CancelResponse.ACCEPT
 
     def replace(self, goal_handle: ServerGoalHandle) -> None:
-        """Make this goal the newest one, and start it. The goal before it sees that it is not the newest any more."""
+        """Make this goal the newest one, and start it. The previous one sees that it is no longer the newest."""
         self.newest = goal_handle
         goal_handle.execute()
 

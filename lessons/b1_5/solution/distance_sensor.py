@@ -22,7 +22,7 @@ class DistanceSensor(LifecycleNode):
         self.timer = None
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Make what the node needs, or fail: then the node stays unconfigured."""
+        """Make what the node needs, or fail, which leaves the node unconfigured."""
         rate = self.get_parameter("rate").value
         if not MIN_RATE_HZ <= rate <= MAX_RATE_HZ:  # Written this way so that nan is refused, too.
             self.get_logger().error(f"rate must be from {MIN_RATE_HZ} to {MAX_RATE_HZ} Hz, not {rate}")
@@ -47,12 +47,12 @@ class DistanceSensor(LifecycleNode):
         return TransitionCallbackReturn.SUCCESS
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Let go of everything, from whichever state the node comes."""
+        """Let go of everything, whichever state the node comes from."""
         self.release()
         return TransitionCallbackReturn.SUCCESS
 
     def release(self) -> None:
-        """Destroy timer and publisher, if there are any. Setting them to None would not: the node keeps them."""
+        """Destroy timer and publisher, if there are any. Setting them to None would not do: the node keeps them."""
         if self.timer is not None:
             self.destroy_timer(self.timer)
             self.timer = None

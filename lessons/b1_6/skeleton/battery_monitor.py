@@ -13,7 +13,7 @@ class BatteryMonitor(Node):
     def __init__(self) -> None:
         super().__init__("battery_monitor")
         # TODO 1: what must the node remember from one reading to the
-        #         next, to see a change and the begin of an outage?
+        #         next, to see a change and the start of an outage?
         self.subscription = self.create_subscription(
             BatteryState,
             "/battery",
@@ -23,8 +23,8 @@ class BatteryMonitor(Node):
 
     def on_battery(self, battery: BatteryState) -> None:
         """Handle one reading. rclpy calls this for each."""
-        # TODO 2: this shows every reading, all day long. Bring it to
-        #         the level of what is read only in search of a fault.
+        # TODO 2: this shows every reading, all day long. Use the level
+        #         of what is read only when someone looks for a fault.
         print("reading:", battery.percentage, battery.temperature)
 
         # TODO 3: say once that the battery reports at all.
@@ -34,8 +34,8 @@ class BatteryMonitor(Node):
         # TODO 5: warn of a charge below 0.2, and of more than 45 °C,
         #         each of them at most once in two seconds.
 
-        # TODO 6: log the begin of an outage, in which the charge is no
-        #         number, or not from 0 to 1.
+        # TODO 6: log the start of an outage, in which the charge is not
+        #         a number, or not from 0 to 1.
 
 
 def main() -> None:

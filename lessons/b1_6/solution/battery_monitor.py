@@ -33,7 +33,7 @@ class BatteryMonitor(Node):
     def on_battery(self, battery: BatteryState) -> None:
         """Handle one reading."""
         charge = battery.percentage
-        # NaN is neither below 0 nor above 1: only a range that it must be in finds it.
+        # NaN is neither below 0 nor above 1: only a test that it is inside the range finds it.
         if not 0.0 <= charge <= 1.0:
             self.on_broken_reading(charge)
             return
@@ -49,7 +49,7 @@ class BatteryMonitor(Node):
             logger.warning(f"The battery is hot: {battery.temperature:.1f} °C", throttle_duration_sec=PERIOD_S)
 
     def on_broken_reading(self, charge: float) -> None:
-        """Log the first one of an outage."""
+        """Log the first broken reading of an outage."""
         if not math.isnan(charge):
             reason = f"a charge of {charge:g} is not from 0 to 1"
         else:
@@ -59,7 +59,7 @@ class BatteryMonitor(Node):
         self.outage = True
 
     def on_status(self, status: int) -> None:
-        """Log a status that is not the one before."""
+        """Log a status that differs from the one before."""
         before, self.status = self.status, status
         if before is not None and status != before:
             self.get_logger().info(f"The battery is {STATUSES.get(status, status)}")

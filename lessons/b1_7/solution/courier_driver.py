@@ -20,7 +20,7 @@ LATCHED = QoSProfile(
     depth=1,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
-"""Also gets a goal that was sent before this node has started."""
+"""Also gets a goal that was sent before this node started."""
 
 
 class Driver(Node):
