@@ -41,8 +41,8 @@ class HandlesGoal(Form):
     `goal`: its fields and their values, or a function that draws them at random. `ends`: "succeeded", "aborted",
     "rejected", or "canceled", where we ask for that once it is accepted and the feedback is there, and not before
     `cancel_after_s`. `feedback`: how many messages of it must come at least. `result`: those of its fields that matter,
-    with their values, or a function that makes them of the goal. `partial`: of a list in the result, the beginning must
-    be there, and not all. `within_s`: how long the goal may take, in seconds; once canceled, it is 3 s at most.
+    with their values, or a function that makes them from the goal. `partial`: of a list in the result, the beginning
+    must be there, and not all. `within_s`: how long the goal may take, in seconds; once canceled, it is 3 s at most.
 
         HandlesGoal("counts", FIBONACCI, {"order": 5}, feedback=1, result={"sequence": [0, 1, 1, 2, 3, 5]})
         HandlesGoal("stops", FIBONACCI, {"order": 50}, ends="canceled", feedback=2)
@@ -127,9 +127,9 @@ _LET_IN = "Let the node take in requests while the goal runs: see what runs its 
 class SendsFeedback(Form):
     """The goal of another criterion gets feedback step by step, while it runs.
 
-    `of`: that criterion. `steps`: the feedback messages in their order, or a function that makes them of the goal. Each
-    one that comes must be one of them, and none may come after a later one; `may_miss` says how many need not come, as
-    the first or the last one. `over_s`: from the first to the last one, at least so many seconds must pass.
+    `of`: that criterion. `steps`: the feedback messages in their order, or a function that makes them from the goal.
+    Each one that comes must be one of them, and none may come after a later one; `may_miss` says how many need not
+    come, as the first or the last one. `over_s`: from the first to the last one, at least so many seconds must pass.
 
         SendsFeedback("feedback", counts, lambda goal: [{"sequence": [0, 1][:n]} for n in (1, 2)], over_s=0.3)
     """

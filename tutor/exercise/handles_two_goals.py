@@ -85,7 +85,7 @@ class HandlesTwoGoals(Form):
     `goals`: the first one, which takes long, and the second one; each with its fields and their values, or a function
     that draws them at random. `ends`: how each must end; ("aborted", "succeeded") is a server where a new goal replaces
     the one that runs, ("succeeded", "succeeded") one that serves both, ("succeeded", "rejected") one that is busy.
-    `result`: of each goal that must succeed, those of its fields that matter, or a function that makes them of the
+    `result`: of each goal that must succeed, those of its fields that matter, or a function that makes them from the
     goal. `within_s`: how long both may take from the second goal on, in seconds.
 
         HandlesTwoGoals("newer", COUNT, ({"order": 50}, {"order": 3}), ("aborted", "succeeded"))

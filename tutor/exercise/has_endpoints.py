@@ -48,7 +48,7 @@ class Endpoint:
 class HasEndpoints(SystemForm):
     """A system has these publishers and subscriptions, with their types and QoS, as agreed on with others.
 
-    What it has besides does not matter. A difference is told plainly: where that would give a fault away, let this
+    What it has besides does not matter. A difference is reported plainly: where that would give a fault away, let this
     criterion come `after` the one that asks for it. The exercise's program must be a `LaunchFile`:
 
         HasEndpoints("interfaces", publishers=(Endpoint("/lamp", "/lamp/state", "std_msgs/msg/Bool"),))

@@ -151,7 +151,7 @@ class LogsAt(FeedForm):
 
 @dataclass(frozen=True)
 class StaysQuiet(FeedForm):
-    """Of events of a kind nothing is logged at all, and the program prints nothing in the whole run.
+    """Nothing at all is logged for events of a kind, and the program prints nothing in the whole run.
 
     `feed`: what happens, event by event, while the node runs. `kind`: that of the events that are judged.
 

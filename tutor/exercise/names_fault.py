@@ -33,8 +33,9 @@ class NamesFault(Form):
     """The learner's report names the fault of the case that was handed over: what it is, and in which file.
 
     The report is a file of the submission with the keys `case`, `what` and `where`, and as `tries` how many answers
-    were given; `ros-tutor answer` writes it. A wrong answer is told whether the file or the kind is right, and by what
-    the fault that it names would show, so that the next answer is no guess. `faults`: all cases, and the choices.
+    were given; `ros-tutor answer` writes it. After a wrong one, the learner is told whether the file or the kind is
+    right, and how the fault that it names would show, so that the next one is no guess. `faults`: all cases, and the
+    choices.
 
         NamesFault("found", Faults.read(Path(__file__).parents[1] / "lessons/x1_4/cases.yaml"))
     """

@@ -35,7 +35,7 @@ class Program:
 class LaunchFile:
     """A launch file that the learner writes, which `ros2 launch` runs. `file`: its file, as the lesson names it.
 
-    Files of the submission that are beside it are there when it runs: nodes of the learner's own, for one.
+    Files of the submission that are beside it are there when it runs, such as nodes of the learner's own.
     """
 
     file: str
@@ -114,7 +114,7 @@ class SetsRate:
 
 @dataclass(frozen=True)
 class SwitchesOff:
-    """The effect of a parameter with which nothing is published while it is false."""
+    """The effect of a parameter that stops a topic's messages while it is false."""
 
     topic: Topic
 

@@ -191,7 +191,7 @@ class WatchingMessages(Watching):
 
 @dataclass(frozen=True)
 class AtLeast(WatchingMessages):
-    """At least so many messages arrive on a topic within a time, counted from the first one.
+    """At least this many messages arrive on a topic within a time, counted from the first one.
 
     `messages`: how many, the first one included. `within_s`: the time in seconds, to which a busy machine may add.
     A message or two that the node sends at once at its start may not reach anyone: ask for it of a topic that goes on.

@@ -111,7 +111,7 @@ class HandlesRejection(Form):
     """The client of another criterion says that its goal was rejected, and ends by itself, whatever the exit code.
 
     `of`: that criterion, which should be among those that this one is `after`. A message is what the client logs or
-    prints now and not when its goal is accepted; a traceback is none.
+    prints now and not when its goal is accepted; a traceback does not count.
 
         HandlesRejection("client-rejected", client, after=client)
     """

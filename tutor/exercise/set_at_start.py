@@ -189,8 +189,8 @@ class SetAtStart(Form):
 
     `starts`: for each start, the parameters and the values that it is given. What a parameter's effect is says what
     must be seen: the value in the messages, the rate, or silence while a switch is false. A failure of the first start
-    that publishes is told before the others are over. Give one start two things at once, such as a text and a rate, and
-    another a rate that shows rounding: 1.5 Hz is out of tolerance from 1 and 2 Hz.
+    that publishes is reported before the others are over. Give one start two things at once, such as a text and a
+    rate, and another a rate that shows rounding: 1.5 Hz is out of tolerance from 1 and 2 Hz.
     """
 
     starts: tuple[Mapping[Parameter, Value], ...]

@@ -18,7 +18,7 @@ from tutor.judge.wording import counted, output_tail
 class StartsPair(Form):
     """One launch without arguments starts two nodes: one that publishes and one that subscribes.
 
-    On whichever topics: that they are connected is `PairCommunicates`. The second may come some seconds after the
+    On any topics: whether they are connected is for `PairCommunicates`. The second may come some seconds after the
     first. The exercise's program must be a `LaunchFile`:
 
         CHECK = check("x1.3", LaunchFile("lamp_launch.py"), StartsPair("starts"))

@@ -22,7 +22,7 @@ class Tells(SystemForm):
 
     `topic`: the topic with the texts. `of`: the topic that it tells of. `words`: returns what must be in the text, for
     a value of that topic. `all_of`: what must have been told at the end: what shows that changes are told, too.
-    `lag_s`: by how much a text may be behind; `within_s`: how long it may take until all was told, in seconds. The
+    `lag_s`: by how much a text may be behind; `within_s`: how long it may take until all has been told, in seconds. The
     exercise's program must be a `LaunchFile`:
 
         Tells("warns", STATE, LEVEL, lambda level: "full" if level > 9 else "filling", ("filling", "full"))

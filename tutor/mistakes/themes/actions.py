@@ -77,7 +77,7 @@ def cancel_not_accepted(case: Case) -> Iterator[Found]:
     """An action server rejects every request to cancel.
 
     A client can only ask for a goal to be canceled. The server's cancel_callback decides, and the one that rclpy uses
-    without yours rejects everything. What it returns has to be a CancelResponse: anything else, also True, rejects.
+    without yours rejects everything. What it returns has to be a CancelResponse: anything else, even True, rejects.
 
     Bad:
 
@@ -114,7 +114,7 @@ def cancel_not_accepted(case: Case) -> Iterator[Found]:
 def cancel_request_not_looked_at(case: Case) -> Iterator[Found]:
     """A goal is asked to cancel, and goes on.
 
-    To accept a request to cancel sets a flag on the goal handle, and nothing else: rclpy cannot stop a callback that is
+    Accepting a request to cancel sets a flag on the goal handle, and nothing else: rclpy cannot stop a callback that is
     running. The callback has to look at is_cancel_requested again and again, and end itself.
 
     Bad:

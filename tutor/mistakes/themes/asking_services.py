@@ -64,7 +64,7 @@ def no_limit(case: Case) -> Iterator[Found]:
     """A callback waits for a reply without a limit.
 
     A service may take a request and never reply: it hangs, or ends before it is done. Neither call() nor await notices.
-    Who has asked then waits for ever, and everyone who waits for that one as well.
+    Whoever asked then waits for ever, and so does everyone who waits for them.
 
     Bad:
 
@@ -137,7 +137,7 @@ def limit_runs_out(case: Case) -> Iterator[Found]:
 
     See it: the other service logs the call at once, and the answer always takes as long as the limit.
 
-    Lesson: b1.2, three ways to stand still.
+    Lesson: b1.2, three ways to get stuck.
     """
     for file in case.files if case.about("given_up") else ():
         callbacks = file.callbacks("create_service")

@@ -113,7 +113,7 @@ def interfaces_not_built(case: Case) -> Iterator[Found]:
 def types_not_built(case: Case) -> Iterator[Found]:
     """A program imports a type from a package of the workspace that is not built.
 
-    The package is found, and is not the trouble of the program: what it would be made of has a mistake.
+    The package is found, and the program is not to blame: there is a mistake in what the package is made from.
 
     Bad:
 

@@ -44,8 +44,8 @@ def wrong_state(case: Case) -> Iterator[Found]:
 def publishes_while_inactive(case: Case) -> Iterator[Found]:
     """A lifecycle node publishes although it is not active.
 
-    Only an active node works. What it has started when it was activated, a timer above all, has to be stopped when it
-    is deactivated.
+    Only an active node works. What it started when it was activated, a timer above all, has to be stopped when it is
+    deactivated.
 
     Bad:
 

@@ -106,7 +106,7 @@ def throttled_events(case: Case) -> Iterator[Found]:
     """A throttle drops events that differ from each other.
 
     A throttle is for a state that lasts and that would be logged again and again: one message stands for all those that
-    it drops. Of single events, each says something else, and those within the time are lost for good.
+    it drops. But each single event says something else, and those within that time are lost for good.
 
     Bad:
 
@@ -235,7 +235,7 @@ def _is_new(made: ast.Call) -> bool:
 def level_set(case: Case) -> Iterator[Found]:
     """A node sets the level of its logger in its code.
 
-    Which messages are made is for the one who runs a node: INFO by default, `--log-level debug` in search of a fault. A
+    Which messages are made is up to whoever runs a node: INFO by default, `--log-level debug` to look for a fault. A
     level that is set in the code wins over the command line, and nobody can switch it without changing the program.
 
     Bad:

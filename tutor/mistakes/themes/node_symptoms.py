@@ -208,9 +208,9 @@ def not_logged(case: Case) -> Iterator[Found]:
 def wrong_level(case: Case) -> Iterator[Found]:
     """What happened is not logged at its level.
 
-    The level says who must read a message: DEBUG in search of a fault, INFO for what has happened, WARN for what should
-    be looked at before it gets worse, ERROR for what does not work now. Who filters by level sees nothing of an event
-    that has another one, or none.
+    The level says who must read a message: DEBUG when looking for a fault, INFO for what has happened, WARN for what
+    should be looked at before it gets worse, ERROR for what does not work now. Whoever filters by level sees nothing of
+    an event that has another one, or none.
 
     Bad:
 
@@ -236,8 +236,8 @@ def wrong_level(case: Case) -> Iterator[Found]:
 def logged_too_often(case: Case) -> Iterator[Found]:
     """The same thing is logged again and again.
 
-    A callback runs for each message, and what it logs comes as often. A change is logged when it happens, which takes a
-    look at what was before; what lasts is throttled; and what nobody must read by default is for DEBUG.
+    A callback runs for each message, and what it logs comes as often. A change is logged when it happens, which means
+    knowing what was before; what lasts is throttled; and what nobody needs to read by default is for DEBUG.
 
     Bad:
 

@@ -131,7 +131,7 @@ def short_queue(case: Case) -> Iterator[Found]:
     """A burst is longer than the queue of a subscription.
 
     Messages wait in a queue of the subscription until the executor calls the callback. Its length is the QoS depth.
-    When it is full, each message that comes pushes out the oldest one, also if both ends are reliable: that was
+    When it is full, each message that comes pushes out the oldest one, even if both ends are reliable: that was
     delivered, and nobody sends it again. With the history "keep all", nothing is pushed out.
 
     Bad:

@@ -19,7 +19,7 @@ def system_at_fault(case: Case) -> Iterator[Found]:
 
     Most faults between nodes are silent: no exception, no log message, just something that does not come. Do not read
     all of the code. Follow one message from where it begins, and find the last place where all is as it should be; the
-    fault is right behind it. At each step, compare what runs with what was agreed on: nodes and their namespaces
+    fault comes right after it. At each step, compare what runs with what was agreed on: nodes and their namespaces
     (`ros2 node list`), names and types of topics (`ros2 topic list -t`), both ends of a topic and their QoS
     (`ros2 topic info --verbose`), what is sent and how often (`ros2 topic echo`, `ros2 topic hz`), and parameters as
     the node has them, not as the file says (`ros2 param get`).
@@ -73,8 +73,8 @@ def repair_changes_more(case: Case) -> Iterator[Found]:
 def fault_not_reported(case: Case) -> Iterator[Found]:
     """Nothing was reported yet on the fault of a system, or the report cannot be read.
 
-    Whoever repairs a system says first what is wrong, and where. That keeps a repair small, and shows whether one has
-    understood it or was lucky. The report has one of the given choices for each question.
+    Before you repair a system, say what is wrong, and where. That keeps the repair small, and shows whether you have
+    understood the fault or were lucky. The report has one of the given choices for each question.
 
     Bad:
 
