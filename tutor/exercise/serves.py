@@ -42,8 +42,8 @@ def ended_by_a_call(exercise: Exercise) -> Verdict:
 class Serves(Form):
     """Services with these names and types are there, and answer a call as `ros2 service call` makes it.
 
-    `call_with`: the values of the request's fields, easy ones that suit all of them. A server that a call ends is told
-    by the criterion `Answers`, if the exercise has one.
+    `call_with`: the values of the request's fields, easy ones that suit all of them. A server that a call ends is
+    reported by the criterion `Answers`, if the exercise has one.
     """
 
     services: tuple[Service, ...]

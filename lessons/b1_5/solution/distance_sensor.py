@@ -47,7 +47,7 @@ class DistanceSensor(LifecycleNode):
         return TransitionCallbackReturn.SUCCESS
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Let go of everything, whichever state the node comes from."""
+        """Let go of everything, from whichever state the node comes."""
         self.release()
         return TransitionCallbackReturn.SUCCESS
 
