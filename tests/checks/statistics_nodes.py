@@ -7,8 +7,6 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from checks.i1_2_message_statistics.plans import JUMP_AFTER
-
 Log = tuple[int, str]
 """The level and the text of a log message."""
 
@@ -16,13 +14,12 @@ type Wording = str | Sequence[str | Log] | Callable[[FakeStats], Wording]
 """Templates of log messages: {count}, {rate}, {first}, ... stand for what the node has under that name."""
 
 PLAIN = "count={count} rate={rate:.2f} first={first} last={last}"
+SWAPPED = "{count} at {rate:.2f}/s, first message: '{last}', last message: '{first}'"
 MISSING = "{missing} missing"
-GAPS = "{count} at {rate:.1f}/s, {gaps} gaps: {first} to {last}"
-LOST = "{count} at {rate:.1f}/s, {missed} lost: {first} to {last}"
 
 
 def true_rate(node: FakeStats) -> float:
-    return node.count / max(node.times[-1] - node.begin, 1e-9)
+    return node.count / max(node.elapsed_s, 1e-9)
 
 
 @dataclass
@@ -69,12 +66,12 @@ class FakeStats:
         return self.rating(self)
 
     @property
-    def one_more(self) -> int:
-        return self.count + 1
+    def elapsed_s(self) -> float:
+        return self.times[-1] - self.begin
 
     @property
-    def one_less(self) -> int:
-        return self.count - 1
+    def one_more(self) -> int:
+        return self.count + 1
 
     @property
     def expected(self) -> int:
@@ -94,20 +91,18 @@ class FakeStats:
 
     def receive(self, now: float, data: str) -> Iterator[Log]:
         self.now, self.data, self.incoming = now, data, int(data.split(":")[1])
-        if self.takes(self):
-            yield from self._take()
-
-    def _take(self) -> Iterator[Log]:
+        if not self.takes(self):
+            return
         fallen = self.number is not None and self.incoming < self.number
         if fallen and self.resets:
             yield from self._say(self.fall, level=30)
             self.count, self.first, self.number, self.restarts = 0, "", None, self.restarts + 1
         yield from self._say(self.heard)
         if not self.first:
-            self.first, self.begin = self.data, self.now
-        self.last = self.data
-        self.times.append(self.now)
-        self.messages.append(self.data)
+            self.first, self.begin = data, now
+        self.last = data
+        self.times.append(now)
+        self.messages.append(data)
         self.count += 1
         if self.number is not None and self.incoming not in (self.number, self.number + 1):
             yield from self._jump(fallen)
@@ -117,8 +112,7 @@ class FakeStats:
             yield from self.sum_up()
 
     def _jump(self, fallen: bool) -> Iterator[Log]:
-        assert self.number is not None
-        self.step, self.jumped_at = self.incoming - self.number, self.count
+        self.step, self.jumped_at = self.missing + 1, self.count
         self.largest = max(self.largest, self.step)
         if not fallen:
             self.gaps, self.missed = self.gaps + 1, self.missed + self.missing
@@ -159,11 +153,6 @@ def restarting(fall: Wording = "publisher restarted: counting from zero", **what
     return node(resets=True, fall=fall, **what)
 
 
-def receiving(takes: Callable[[FakeStats], bool], **what: Any) -> Make:
-    """A node that loses all other messages."""
-    return node(takes=takes, **what)
-
-
 def one_line_per_value(node: FakeStats) -> list[str]:
     rate = f"Rate: {node.rate:.1f} Nachrichten/s".replace(".", ",")
     values = ["Anzahl: {count}", rate, "Erste: {first}", "Letzte: {last}"]
@@ -171,16 +160,10 @@ def one_line_per_value(node: FakeStats) -> list[str]:
 
 
 def with_clock(node: FakeStats) -> str:
-    elapsed_s = node.times[-1] - node.begin
     return (
-        f"\x1b[32m2026-05-05 15:05:06,450 after 0:00:0{elapsed_s:.6f} ({elapsed_s:.2f} s, every {1 / node.rate:.3f} s)"
-        " {count} x {rate:.2f}\x1b[0m {first} {last}"
+        f"\x1b[32m2026-05-05 15:05:06,450 after 0:00:0{{elapsed_s:.6f}} ({{elapsed_s:.2f}} s, every {1 / node.rate:.3f}"
+        " s) {count} x {rate:.2f}\x1b[0m {first} {last}"
     )
-
-
-def complete_or_not(node: FakeStats) -> str:
-    word = "some are missing" if node.missed else "complete"
-    return f"{{count}} messages, {word}, {{rate:.1f}}/s, {{first}} - {{last}}"
 
 
 def now_and_then(node: FakeStats) -> Wording:
@@ -193,19 +176,8 @@ def noisy(node: FakeStats) -> Wording:
     return ["I heard: {data}", f"{len(node.data)} bytes, {{one_more}} so far"]
 
 
-def lost_for_ever(node: FakeStats) -> int:
-    """What a node counts as lost whose expected number never catches up after a gap."""
-    first = node.numbers[0]
-    return sum(max(0, number - first - index) for index, number in enumerate(node.numbers))
-
-
-def loss_keeps_rising(node: FakeStats) -> str:
-    return f"{{count}} at {{rate:.1f}}/s, {lost_for_ever(node)} lost: {{first}} to {{last}}"
-
-
-def gaps_keep_rising(node: FakeStats) -> str:
-    gaps = node.count - JUMP_AFTER if lost_for_ever(node) else 0
-    return f"{{count}} at {{rate:.1f}}/s, {gaps} gaps: {{first}} to {{last}}"
+def first_overwritten(node: FakeStats) -> str:
+    return f"count={{count}} rate={{rate:.2f}} first={node.messages[(node.count - 1) // 10 * 10]} last={{last}}"
 
 
 class WarnsForEverAfterAGap(FakeStats):
@@ -218,34 +190,6 @@ class WarnsForEverAfterAGap(FakeStats):
             self.number = before
 
 
-class DropsTheFirstAfterRestart(FakeStats):
-    """Resets its count and logs that, but does not count the message that revealed the restart."""
-
-    def receive(self, now: float, data: str) -> Iterator[Log]:
-        restarts = self.restarts
-        yield from super().receive(now, data)
-        if self.restarts > restarts:
-            self.count, self.first = 0, ""
-
-
-class EachSummaryTenLate(FakeStats):
-    """Holds each summary back until the next one is due."""
-
-    kept: tuple[Log, ...] = ()
-
-    def sum_up(self) -> Iterator[Log]:
-        yield from self.kept
-        self.kept = tuple(super().sum_up())
-
-
-class BoundedList(FakeStats):
-    """Counts what is in a list of at most 20 messages, so that from the 20th on every message brings a summary."""
-
-    def receive(self, now: float, data: str) -> Iterator[Log]:
-        self.count = min(self.count, 19)
-        yield from super().receive(now, data)
-
-
 class SubscribedTwice(FakeStats):
     """Receives each message twice, through two subscriptions."""
 
@@ -254,46 +198,18 @@ class SubscribedTwice(FakeStats):
         yield from super().receive(now + 1e-4, data)
 
 
-@dataclass
-class StarvedAfterRestart(FakeStats):
-    """A busy machine lets it run only at every third message of the new publisher: it receives three at once."""
-
-    held: list[Log] = field(default_factory=list)
-
-    def receive(self, now: float, data: str) -> Iterator[Log]:
-        logs = list(super().receive(now, data))
-        if self.every > 1:
-            yield from logs
-            return
-        self.held.extend(logs)
-        if self.count % 3 == 0:
-            yield from self.held
-            self.held.clear()
-
-
-class Throttled(FakeStats):
-    """Logs at most once a second."""
-
-    said_at: float = 0.0
-
-    def receive(self, now: float, data: str) -> Iterator[Log]:
-        logs = list(super().receive(now, data))
-        if not logs or now - self.said_at >= 1.0:
-            self.said_at = now if logs else self.said_at
-            yield from logs
-
-
-RIGHT = FakeStats
+RIGHT = node()
 GAP_BLIND = silent_about_gaps()
+BLIND_AFTER_ZERO = node(gap=lambda node: MISSING if node.number else ())
+SKIPS_THE_FIRST_GAP = node(gap=lambda node: MISSING if node.gaps > 1 else ())
+COMPARES_TEXTS = node(
+    heard=lambda node: [(30, "out of sequence")] if node.data < node.last else (), gap="out of sequence"
+)
 ONE_TOO_MANY = node(count=1)
 ONE_TOO_FEW = node(count=-1, summary=lambda node: PLAIN if node.count else ())
-FIRST_OVERWRITTEN = node(
-    summary=lambda node: (
-        f"count={{count}} rate={{rate:.2f}} first={node.messages[(node.count - 1) // 10 * 10]} last={{last}}"
-    )
-)
+N_AS_COUNT = node(summary="{number} at {rate:.2f}/s, {first} to {last}")
+FIRST_OVERWRITTEN = node(summary=first_overwritten)
 QUOTES_ALL = node(summary=PLAIN + " all={messages}")
 QUOTES_THE_FIRST = saying_on_any_jump([(20, "since {first}: something is missing before Hello World: {incoming}")])
 ONE_LINE_PER_VALUE = node(summary=one_line_per_value)
 NOISY = node(heard=noisy)
-LOSES_TWO = receiving(lambda node: node.incoming not in (30, 31))

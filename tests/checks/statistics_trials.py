@@ -2,38 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
-from checks.i1_2_message_statistics import CHECK
-from checks.i1_2_message_statistics.count import judge_count, judge_fast_count
-from checks.i1_2_message_statistics.gaps import judge_gaps
-from checks.i1_2_message_statistics.plans import (
-    AFTER_ZERO_MESSAGES,
-    FAST_HZ,
-    FAST_MESSAGES,
-    JUMP_AFTER,
-    JUMP_MESSAGES,
-    LEFT_OUT,
-    RESTART_AFTER,
-    RESTART_MESSAGES,
-    SECOND_JUMP_AFTER,
-)
-from checks.i1_2_message_statistics.rate import judge_rate
-from checks.i1_2_message_statistics.restart import judge_restart
+from checks.i1_2_message_statistics import CHECK, plans
+from checks.i1_2_message_statistics.count import judge_fast_count
+from checks.i1_2_message_statistics.plans import FAST_HZ, FAST_MESSAGES, JUMP_AFTER, LEFT_OUT
 from checks.i1_2_message_statistics.summary import judge_fast_summary
 from checks.i1_2_message_statistics.trial import Sent, Trial
 from tests.checks import builders
-from tests.checks.builders import NODE_UP, START, assert_passed, explained, trace
+from tests.checks.builders import NODE_UP, START, assert_passed, explained, judge_of, trace
 from tests.checks.statistics_nodes import FakeStats, Log, Make
 from tutor.judge.trace import LogRecord
 from tutor.judge.verdict import Status, Verdict
 from tutor.ros_model import TopicEndpoint
 
 LISTENING = replace(NODE_UP, subscriptions=(TopicEndpoint("/chatter", "std_msgs/msg/String", "/node"),))
-JUDGES = {criterion.id: criterion.judge for criterion in CHECK.criteria}
 LATE_S = 0.0005
+
+
+def logged(text: str, at: float = START, level: int = 20) -> LogRecord:
+    return LogRecord(level, "node", text, at, at)
 
 
 def feed(
@@ -74,40 +64,85 @@ def feed(
     return replace(Trial(trace(graph=LISTENING, logs=logs), tuple(sent), breaks, gone_at), **facts)
 
 
-def logged(text: str, at: float = START, level: int = 20) -> LogRecord:
-    return LogRecord(level, "node", text, at, at)
+def fast(node: FakeStats, *, first: int = 7, messages: int = FAST_MESSAGES, hz: float = FAST_HZ, **how: Any) -> Trial:
+    return feed(node, range(first, first + messages), hz, **how)
 
 
-def steady(node: FakeStats, hz: float = 4.95, **more: Any) -> Trial:
-    return feed(node, range(20), hz, **more)
+def restart(node: FakeStats, **how: Any) -> Trial:
+    before, after = plans.RESTART_AFTER, plans.RESTART_MESSAGES - plans.RESTART_AFTER
+    return feed(node, [*range(4, 4 + before), *range(after)], 8.0, breaks=(before,), away_s=1.5, **how)
 
 
-def jump(node: FakeStats, missed: int = LEFT_OUT[0], *, first: int = 95, twice: bool = False, **more: Any) -> Trial:
-    numbers = list(range(first, first + JUMP_MESSAGES))
-    breaks = (JUMP_AFTER, SECOND_JUMP_AFTER) if twice else (JUMP_AFTER,)
-    numbers = [n + missed * (n >= numbers[JUMP_AFTER]) + (twice and n >= numbers[SECOND_JUMP_AFTER]) for n in numbers]
-    return feed(node, numbers, 8.0, breaks=breaks, **more)
-
-
-def jump_twice(node: FakeStats, missed: int = LEFT_OUT[0], **more: Any) -> Trial:
-    return jump(node, missed, twice=True, **more)
-
-
-def jump_after_zero(node: FakeStats, missed: int = LEFT_OUT[0], **more: Any) -> Trial:
-    return feed(node, [0, *range(missed + 1, missed + AFTER_ZERO_MESSAGES)], 8.0, breaks=(1,), **more)
-
-
-def restart(node: FakeStats, **more: Any) -> Trial:
-    numbers = [*range(4, 4 + RESTART_AFTER), *range(RESTART_MESSAGES - RESTART_AFTER)]
-    return feed(node, numbers, 8.0, breaks=(RESTART_AFTER,), away_s=1.5, **more)
-
-
-def fast(node: FakeStats, **more: Any) -> Trial:
-    return feed(node, range(7, 7 + FAST_MESSAGES), FAST_HZ, **more)
-
+SCENARIOS = {
+    "count": ("steady", "jump", "fast"),
+    "rate": ("steady", "jump", "restart", "fast"),
+    "summary": ("steady", "jump", "fast"),
+    "restart": ("steady", "jump", "restart", "fast"),
+    "gaps": ("steady", "jump", "jump_twice", "jump_after_zero", "restart", "fast"),
+    "shutdown": ("fast",),
+}
+"""The trials by which each criterion is judged."""
 
 NOTHING = Trial(trace())
-"""A trial in which nothing was sent, for judges that are to judge by the others."""
+"""A trial in which nothing was sent: a judge then judges by the others."""
+
+
+@dataclass(frozen=True)
+class Trials:
+    """What is observed of a node in all scenarios."""
+
+    steady: Trial
+    jump: Trial
+    jump_twice: Trial = NOTHING
+    jump_after_zero: Trial = NOTHING
+    restart: Trial = NOTHING
+    fast: Trial = NOTHING
+
+    def judge(self, criterion: str) -> Verdict:
+        """The verdict on a criterion, with the mistake that explains it."""
+        trials = (getattr(self, scenario) for scenario in SCENARIOS[criterion])
+        return explained(judge_of(CHECK, criterion)(*trials), CHECK)
+
+
+def slowly(make: Make, *, hz: float = 4.95, missed: int = LEFT_OUT[0], first: int = 95, **how: Any) -> Trials:
+    """What is observed of such a node, a fresh one in each trial, if messages come slowly, from one publisher.
+
+    `missed`: how many numbers are left out. `first`: the first number of the trials in which N jumps.
+    """
+    before, between, after = JUMP_AFTER, plans.SECOND_JUMP_AFTER, plans.JUMP_MESSAGES
+    numbers = [first + index + missed * (index >= before) for index in range(after)]
+    more = [number + (index >= between) for index, number in enumerate(numbers)]
+    return Trials(
+        feed(make(), range(20), hz, **how),
+        feed(make(), numbers, 8.0, breaks=(before,), **how),
+        feed(make(), more, 8.0, breaks=(before, between), **how),
+    )
+
+
+def observe(make: Make, source: str = "", subscriptions: int = 1, **how: Any) -> Trials:
+    """What is observed of such a node in all scenarios. `source`: of the node, if the judges see it."""
+    after_zero = [0, *range(LEFT_OUT[0] + 1, LEFT_OUT[0] + plans.AFTER_ZERO_MESSAGES)]
+    zero = feed(make(), after_zero, 8.0, breaks=(1,), **how)
+    trials = replace(
+        slowly(make, **how), jump_after_zero=zero, restart=restart(make(), **how), fast=fast(make(), **how)
+    )
+    if not source:
+        return trials
+    graph = replace(LISTENING, subscriptions=subscriptions * LISTENING.subscriptions)
+    facts = {"graph": graph, "sources": {"node.py": source}}
+    return Trials(**{scenario: with_trace(trial, **facts) for scenario, trial in vars(trials).items()})
+
+
+def judge_trials(make: Make, source: str = "", subscriptions: int = 1, **how: Any) -> dict[str, Verdict]:
+    """The verdicts on such a node. Where the source is unknown, the early ones must be the same."""
+    trials = observe(make, source, subscriptions, **how)
+    rated = replace(trials, restart=NOTHING, fast=trials.fast if source else NOTHING)
+    verdicts = {name: (rated if name == "rate" else trials).judge(name) for name in SCENARIOS if name != "shutdown"}
+    early = {} if source else {"count": judge_fast_count(trials.fast), "summary": judge_fast_summary(trials.fast)}
+    for name, verdict in early.items():
+        assert verdict is None or verdict.status is verdicts[name].status is Status.FAILED
+        assert verdict is None or explained(verdict, CHECK).mistake == verdicts[name].mistake
+    return verdicts
 
 
 def with_trace(trial: Trial, **facts: Any) -> Trial:
@@ -115,65 +150,9 @@ def with_trace(trial: Trial, **facts: Any) -> Trial:
     return replace(trial, trace=replace(trial.trace, **facts))
 
 
-def with_delays(trial: Trial, number: int, *, sent_late_s: float = 0.0, cpu_wait_s: float = 0.0) -> Trial:
-    """The trial with this N sent late, and the node waiting for a CPU while it came."""
-    sent = [
-        replace(
-            message,
-            at=message.at + sent_late_s * (message.number == number),
-            cpu_wait_s=message.cpu_wait_s + cpu_wait_s * (message.number > number),
-        )
-        for message in trial.sent
-    ]
-    return replace(trial, sent=tuple(sent))
-
-
-def judge_slow_count(steady: Trial, jump: Trial) -> Verdict:
-    return judge_count(steady, jump, NOTHING)
-
-
-def judge_stated_rate(steady: Trial, jump: Trial, restart: Trial = NOTHING) -> Verdict:
-    return judge_rate(steady, jump, restart, NOTHING)
-
-
-def judge_new_publisher(restart: Trial, steady: Trial, jump: Trial) -> Verdict:
-    return judge_restart(steady, jump, restart, NOTHING)
-
-
-def judge_rising(jump: Trial, jump_twice: Trial, steady: Trial) -> Verdict:
-    return judge_gaps(steady, jump, jump_twice, NOTHING, NOTHING, NOTHING)
-
-
-def explain(verdict: Verdict) -> Verdict:
-    """The verdict with the mistake that explains it, if it is a failure."""
-    return explained(verdict, CHECK)
-
-
-def judge_trials(make: Make, source: str = "", subscriptions: int = 1, **how: Any) -> dict[str, Verdict]:
-    """The explained verdicts on such a node, a fresh one in each trial. `source`: of the node, if the judges see it."""
-
-    def observed(trial: Callable[..., Trial]) -> Trial:
-        seen = trial(make(), **how)
-        graph = replace(LISTENING, subscriptions=subscriptions * LISTENING.subscriptions)
-        return with_trace(seen, graph=graph, sources={"node.py": source}) if source else seen
-
-    trials = map(observed, (steady, jump, jump_twice, jump_after_zero, restart, fast))
-    steady_trial, jump_trial, twice_trial, zero_trial, restart_trial, fast_trial = trials
-    rated = (replace(restart_trial, sent=()), fast_trial) if source else (NOTHING, NOTHING)
-    verdicts = {
-        "count": JUDGES["count"](steady_trial, jump_trial, fast_trial),
-        "rate": JUDGES["rate"](steady_trial, jump_trial, *rated),
-        "summary": JUDGES["summary"](steady_trial, jump_trial, fast_trial),
-        "restart": JUDGES["restart"](steady_trial, jump_trial, restart_trial, fast_trial),
-        "gaps": JUDGES["gaps"](steady_trial, jump_trial, twice_trial, zero_trial, restart_trial, fast_trial),
-    }
-    verdicts = {name: explain(verdict) for name, verdict in verdicts.items()}
-    if not source:
-        early = {"count": judge_fast_count(fast_trial), "summary": judge_fast_summary(fast_trial)}
-        for name, verdict in early.items():
-            assert verdict is None or verdict.status is verdicts[name].status is Status.FAILED
-            assert verdict is None or explain(verdict).mistake == verdicts[name].mistake
-    return verdicts
+def with_log(trial: Trial, text: str, at: float, level: int) -> Trial:
+    """The trial with one more log message."""
+    return with_trace(trial, logs=(*trial.trace.logs, logged(text, at, level)))
 
 
 def assert_failed(verdict: Verdict | None, cause: str, *words: str) -> None:
@@ -187,8 +166,9 @@ def assert_all_passed(verdicts: dict[str, Verdict]) -> None:
         assert_passed(verdict)
 
 
-def assert_breaks(verdicts: dict[str, Verdict], criterion: str, cause: str) -> None:
-    """Fail unless this criterion failed with this cause, and no other criterion failed."""
+def assert_breaks(verdicts: dict[str, Verdict], breaks: str) -> None:
+    """Fail unless this criterion failed with this cause ("criterion: cause"), and no other criterion failed."""
+    criterion, cause = breaks.split(": ", 1)
     assert_failed(verdicts[criterion], cause)
     others = {name: verdict for name, verdict in verdicts.items() if name != criterion}
     assert [str(v) for v in others.values() if v.status not in (Status.PASSED, Status.SKIPPED)] == []

@@ -8,145 +8,108 @@ from dataclasses import replace
 import pytest
 
 from checks.i1_2_message_statistics.gaps import judge_jumps
-from checks.i1_2_message_statistics.plans import LEFT_OUT, SECOND_JUMP_AFTER
-from checks.i1_2_message_statistics.summary import judge_slow_summary
 from checks.i1_2_message_statistics.trial import Trial
+from tests.checks import statistics_nodes as nodes
 from tests.checks.builders import assert_passed, assert_undecided, trace
-from tests.checks.statistics_nodes import MISSING, ONE_TOO_FEW, RIGHT, FakeStats, node, receiving
-from tests.checks.statistics_trials import (
-    LATE_S,
-    assert_failed,
-    judge_new_publisher,
-    judge_slow_count,
-    judge_stated_rate,
-    jump,
-    jump_twice,
-    logged,
-    restart,
-    steady,
-    with_delays,
-    with_trace,
-)
+from tests.checks.statistics_nodes import RIGHT, FakeStats, node
+from tests.checks.statistics_trials import Trials, assert_failed, restart, slowly
+from tutor.judge.verdict import Verdict
 
-LOSES_100 = receiving(lambda node: node.incoming != 100)
+LOSES_100 = node(takes=lambda node: node.incoming != 100)
 """Does not receive N = 100: the next message was in its queue of one before it was read."""
 
-LOSES_8 = receiving(lambda node: node.incoming != 8)
+LOSES_8 = node(takes=lambda node: node.incoming != 8)
 
-Delays = dict[str, float]
+
+def with_delays(trial: Trial, number: int, *, sent_late_s: float = 0.0, cpu_wait_s: float = 0.0) -> Trial:
+    """The trial with this N sent late, and the node waiting for a CPU while it came."""
+    sent = [
+        replace(
+            message,
+            at=message.at + sent_late_s * (message.number == number),
+            cpu_wait_s=message.cpu_wait_s + cpu_wait_s * (message.number > number),
+        )
+        for message in trial.sent
+    ]
+    return replace(trial, sent=tuple(sent))
+
+
+def assert_excused(verdict: Verdict, excused: bool, cause: str) -> None:
+    """Fail unless the verdict is undecided, or else failed with this cause."""
+    assert_undecided(verdict) if excused else assert_failed(verdict, cause)
 
 
 @pytest.mark.parametrize(
-    ("number", "delays", "excused"),
+    ("number", "sent_late_s", "cpu_wait_s", "excused"),
     [
-        (100, {}, False),
-        (103, {"cpu_wait_s": 0.1}, False),
-        (100, {"cpu_wait_s": 0.1}, True),
-        (100, {"sent_late_s": 0.1}, True),
-        (100, {"cpu_wait_s": 0.04, "sent_late_s": 0.04}, True),
+        (100, 0.0, 0.0, False),
+        (103, 0.0, 0.1, False),
+        (100, 0.0, 0.1, True),
+        (100, 0.1, 0.0, True),
+        (100, 0.04, 0.04, True),
     ],
 )
 def test_a_loss_is_a_false_alarm_unless_the_machine_may_have_caused_it(
-    number: int, delays: Delays, excused: bool
+    number: int, sent_late_s: float, cpu_wait_s: float, excused: bool
 ) -> None:
-    verdict = judge_jumps(with_delays(jump(LOSES_100()), number, **delays), steady(RIGHT()))
-    assert_undecided(verdict) if excused else assert_failed(verdict, "false alarm")
+    jump = with_delays(slowly(LOSES_100).jump, number, sent_late_s=sent_late_s, cpu_wait_s=cpu_wait_s)
+    assert_excused(judge_jumps(jump, slowly(RIGHT).steady), excused, "false alarm")
 
 
 @pytest.mark.parametrize(("cpu_wait_s", "excused"), [(0.0, False), (0.02, False), (0.1, True)])
-def test_a_count_that_lacks_a_message_is_undecided_where_the_node_may_have_lost_it(
+def test_a_count_of_one_fewer_is_undecided_where_the_node_may_have_lost_that_message(
     cpu_wait_s: float, excused: bool
 ) -> None:
-    counted = judge_slow_count(steady(RIGHT()), with_delays(jump(LOSES_100()), 100, cpu_wait_s=cpu_wait_s))
-    assert_undecided(counted) if excused else assert_failed(counted, "off by one")
+    jump = with_delays(slowly(LOSES_100).jump, 100, cpu_wait_s=cpu_wait_s)
+    assert_excused(replace(slowly(RIGHT), jump=jump).judge("count"), excused, "off by one")
     restarted = with_delays(restart(LOSES_8()), 8, cpu_wait_s=cpu_wait_s)
-    verdict = judge_new_publisher(restarted, steady(RIGHT()), jump(RIGHT()))
-    assert_undecided(verdict) if excused else assert_failed(verdict, "wrong count after a restart")
+    verdict = replace(slowly(RIGHT), restart=restarted).judge("restart")
+    assert_excused(verdict, excused, "wrong count after a restart")
 
 
-def test_a_count_that_always_lacks_one_is_off_by_one_on_any_machine() -> None:
-    always = (
-        with_delays(steady(ONE_TOO_FEW()), 3, cpu_wait_s=0.1),
-        with_delays(jump(ONE_TOO_FEW()), 100, cpu_wait_s=0.1),
-    )
-    assert_failed(judge_slow_count(*always), "off by one")
-
-
-@pytest.mark.parametrize("cpu_wait_s", [0.0, 0.02, 2.0])
-def test_a_warning_about_one_gap_does_not_cover_the_other(cpu_wait_s: float) -> None:
-    skips_the_first = node(gap=lambda node: MISSING if node.gaps > 1 else ())
-    jump_trial = jump_twice(skips_the_first(), cpu_wait_s=cpu_wait_s)
-    assert_failed(judge_jumps(jump_trial, steady(skips_the_first())), "gap not noticed")
-
-
-@pytest.mark.parametrize(
-    ("text", "passes"), [("2 gaps", True), (f"{LEFT_OUT[0] + 1} numbers are missing", True), ("a gap", False)]
-)
-def test_one_message_may_cover_both_gaps_if_the_node_was_starved(text: str, passes: bool) -> None:
-    jump_trial, steady_trial = jump_twice(RIGHT()), steady(RIGHT())
-    logs = [log for log in jump_trial.trace.logs if "missing" not in log.text]
-    assert len(logs) == len(jump_trial.trace.logs) - 2
-    both = with_trace(jump_trial, logs=(*logs, logged(text, jump_trial.sent[SECOND_JUMP_AFTER].at + 0.1, 30)))
-    assert_failed(judge_jumps(both, steady_trial), "gap not noticed")
-    verdict = judge_jumps(replace(both, cpu_wait_s=0.5), steady_trial)
-    assert verdict.passed == passes, verdict
-
-
-@pytest.mark.parametrize("cpu_wait_s", [0.0, 2.0])
-@pytest.mark.parametrize(("first", "late_s"), [(91, LATE_S), (92, LATE_S), (92, 0.124), (90, LATE_S)])
-def test_an_alarm_next_to_a_summary_is_not_one_of_its_lines(first: int, late_s: float, cpu_wait_s: float) -> None:
-    compares_texts = node(
-        heard=lambda node: [(30, "out of sequence")] if node.data < node.last else (), gap="out of sequence"
-    )
-    jump_trial, steady_trial = jump(compares_texts(), first=first), steady(compares_texts())
-    alarm = next(log for log in jump_trial.trace.logs if log.text == "out of sequence")
-    late = logged(alarm.text, alarm.stamp + late_s, 30)
-    jump_trial = with_trace(jump_trial, logs=tuple(late if log is alarm else log for log in jump_trial.trace.logs))
-    jump_trial = replace(jump_trial, cpu_wait_s=cpu_wait_s)
-    assert_passed(judge_slow_summary(steady_trial, jump_trial))
-    assert_passed(judge_slow_count(steady_trial, jump_trial))
-    assert_failed(judge_jumps(jump_trial, steady_trial), "false alarm")
+def test_a_count_of_one_fewer_is_wrong_if_it_always_is() -> None:
+    trials = slowly(nodes.ONE_TOO_FEW)
+    starved = (with_delays(trial, n, cpu_wait_s=0.1) for trial, n in ((trials.steady, 3), (trials.jump, 100)))
+    assert_failed(Trials(*starved).judge("count"), "off by one")
 
 
 def test_a_first_message_delayed_by_the_machine_excuses_a_higher_rate() -> None:
     """The kernel reports a delay of half a second, so the node saw 10 messages in 1.3 s."""
-    first_message_late = node(rating=lambda node: node.count / (node.times[-1] - node.begin - 0.5))
-    steady_trial, jump_trial = steady(first_message_late()), jump(first_message_late())
+    trials = slowly(node(rating=lambda node: node.count / (node.elapsed_s - 0.5)))
+    assert_failed(trials.judge("rate"), "wrong rate")
     owed = [0.0, 0.25, *[0.5] * 18]
-    excused = tuple(replace(sent, cpu_wait_s=late_s) for sent, late_s in zip(steady_trial.sent, owed, strict=True))
-    assert_failed(judge_stated_rate(steady_trial, jump_trial), "wrong rate")
-    assert_passed(judge_stated_rate(replace(steady_trial, sent=excused, cpu_wait_s=0.5), jump_trial))
+    sent = tuple(replace(sent, cpu_wait_s=late_s) for sent, late_s in zip(trials.steady.sent, owed, strict=True))
+    assert_passed(replace(trials, steady=replace(trials.steady, sent=sent, cpu_wait_s=0.5)).judge("rate"))
 
 
 def test_a_pace_at_which_truncated_seconds_look_right_is_undecided() -> None:
     cut = node(
-        rating=lambda node: node.count / max(1, int(node.times[-1] - node.begin)),
-        summary="{count} | {rate} | {first} | {last}",
+        rating=lambda node: node.count / max(1, int(node.elapsed_s)), summary="{count} | {rate} | {first} | {last}"
     )
-    assert_undecided(judge_stated_rate(steady(cut(), 4.4), jump(cut())))
-    assert_passed(judge_stated_rate(steady(RIGHT(), 4.4), jump(RIGHT())))
+    assert_undecided(slowly(cut, hz=4.4).judge("rate"))
+    assert_passed(slowly(RIGHT, hz=4.4).judge("rate"))
 
 
 @pytest.mark.parametrize(
     ("rating", "late_s"),
     [
-        (lambda node: node.count / (node.times[-1] - node.begin + 0.8), 0.35),
-        (lambda node: node.count / int(node.times[-1] - node.begin + 0.2), 0.2),
+        (lambda node: node.count / (node.elapsed_s + 0.8), 0.35),
+        (lambda node: node.count / int(node.elapsed_s + 0.2), 0.2),
     ],
     ids=["since its start", "per whole second of late messages"],
 )
 def test_a_wrong_rate_of_a_summary_that_the_machine_delays_is_undecided(
     rating: Callable[[FakeStats], float], late_s: float
 ) -> None:
-    wrong, right = node(rating=rating), RIGHT
-    for make, judged in ((wrong, assert_undecided), (right, assert_passed)):
-        judged(judge_stated_rate(steady(make(), late_s=late_s, cpu_wait_s=0.5), jump(make())))
+    for make, judged in ((node(rating=rating), assert_undecided), (RIGHT, assert_passed)):
+        late, calm = slowly(make, late_s=late_s, cpu_wait_s=0.5), slowly(make)
+        judged(replace(late, jump=calm.jump).judge("rate"))
 
 
 def test_the_longest_delay_in_sending() -> None:
-    late = steady(RIGHT())
-    late = replace(late, sent=tuple(replace(sent, at=sent.at + 0.4 * (sent.number > 12)) for sent in late.sent))
-    assert steady(RIGHT()).max_delay_s == pytest.approx(0.0, abs=1e-6)
-    assert late.max_delay_s == pytest.approx(0.4, abs=1e-3)
+    prompt = slowly(RIGHT).steady
+    late = tuple(replace(sent, at=sent.at + 0.4 * (sent.number > 12)) for sent in prompt.sent)
+    assert prompt.max_delay_s == pytest.approx(0.0, abs=1e-6)
+    assert replace(prompt, sent=late).max_delay_s == pytest.approx(0.4, abs=1e-3)
     assert restart(RIGHT()).max_delay_s == pytest.approx(0.0, abs=1e-6), "the absence of a publisher is not a delay"
     assert Trial(trace()).max_delay_s == 0.0

@@ -11,35 +11,17 @@ from checks.i1_2_message_statistics.count import in_words
 from checks.i1_2_message_statistics.gaps import judge_jumps
 from checks.i1_2_message_statistics.logged_summaries import find_summaries
 from checks.i1_2_message_statistics.plans import JUMP_AFTER, RESTART_AFTER
-from checks.i1_2_message_statistics.summary import judge_slow_summary
+from tests.checks import statistics_nodes as nodes
 from tests.checks.builders import CRASH, FOLDER, NO_NODE, NODE_UP, assert_skipped, exited, trace
-from tests.checks.statistics_nodes import (
-    GAP_BLIND,
-    MISSING,
-    ONE_TOO_MANY,
-    RIGHT,
-    Make,
-    SubscribedTwice,
-    WarnsForEverAfterAGap,
-    node,
-    restarting,
-    silent_about_gaps,
-)
+from tests.checks.statistics_nodes import ONE_TOO_MANY, RIGHT, Make, node, restarting, silent_about_gaps
 from tests.checks.statistics_trials import (
-    JUDGES,
     LISTENING,
+    Trials,
     assert_failed,
-    explain,
-    fast,
-    judge_new_publisher,
-    judge_rising,
-    judge_slow_count,
-    judge_stated_rate,
     judge_trials,
-    jump,
-    jump_twice,
+    observe,
     restart,
-    steady,
+    slowly,
     with_trace,
 )
 from tutor.judge.trace import Trace
@@ -61,7 +43,7 @@ STUCK = (
     [
         (trace(graph=LISTENING), {}, "no summary", ""),
         (trace(graph=LISTENING), {"spins": False}, "no spin", ""),
-        (steady(WAITS()).trace, {"spins": False, "stuck": STUCK}, "no spin", "line 12"),
+        (slowly(WAITS).steady.trace, {"spins": False, "stuck": STUCK}, "no spin", "line 12"),
         (NO_NODE, {"sent": ()}, "no node", ""),
         (trace(), {"sent": ()}, "no subscription", ""),
         (trace(graph=LISTENING, out=SUMMARY), {}, "printed, not logged", ""),
@@ -71,33 +53,28 @@ STUCK = (
     ],
 )
 def test_causes_of_no_summary(seen: Trace, facts: dict[str, Any], cause: str, words: str) -> None:
-    trial = replace(steady(RIGHT()), trace=seen, **facts)
-    assert_failed(judge_slow_summary(trial, trial), cause, words)
+    trial = replace(slowly(RIGHT).steady, trace=seen, **facts)
+    assert_failed(Trials(trial, trial).judge("summary"), cause, words)
 
 
-def test_without_a_summary_the_other_criteria_are_skipped() -> None:
-    nothing = replace(steady(RIGHT()), trace=trace(graph=LISTENING))
-    for verdict in (
-        judge_slow_count(nothing, nothing),
-        judge_stated_rate(nothing, nothing),
-        judge_new_publisher(restart(RIGHT()), nothing, nothing),
-        judge_rising(nothing, nothing, nothing),
-    ):
-        assert_skipped(verdict, "")
+@pytest.mark.parametrize("criterion", ["count", "rate", "restart", "gaps"])
+def test_without_a_summary_the_other_criteria_are_skipped(criterion: str) -> None:
+    nothing = replace(slowly(RIGHT).steady, trace=trace(graph=LISTENING))
+    assert_skipped(Trials(nothing, nothing, nothing, restart=restart(RIGHT())).judge(criterion), "not judged")
 
 
 def test_a_node_that_exits_on_a_restart_or_a_jump_fails() -> None:
-    slowly, restart_trial = (steady(RIGHT()), jump(RIGHT())), restart(RIGHT())
-    ended = with_trace(restart_trial, exit=exited(0, after_s=4))
-    assert_failed(judge_new_publisher(ended, *slowly), "exit at once")
-    deaf = replace(restart_trial, sent=restart_trial.sent[:RESTART_AFTER], trace=trace(logs=restart_trial.trace.logs))
-    assert_failed(judge_new_publisher(deaf, *slowly), "no subscription")
-    assert find_summaries(replace(deaf, trace=restart_trial.trace))[0].messages == 10
-    crashed = trace(graph=LISTENING, logs=slowly[1].trace.logs, err=CRASH, exit=exited(1))
-    assert_failed(judge_jumps(replace(slowly[1], trace=crashed), slowly[0]), "unhandled exception")
-    twice = jump_twice(RIGHT())
+    trials, restarted = slowly(RIGHT), restart(RIGHT())
+    ended = with_trace(restarted, exit=exited(0, after_s=4))
+    assert_failed(replace(trials, restart=ended).judge("restart"), "exit at once")
+    deaf = replace(restarted, sent=restarted.sent[:RESTART_AFTER], trace=trace(logs=restarted.trace.logs))
+    assert_failed(replace(trials, restart=deaf).judge("restart"), "no subscription")
+    assert find_summaries(replace(deaf, trace=restarted.trace))[0].messages == 10
+    crashed = trace(graph=LISTENING, logs=trials.jump.trace.logs, err=CRASH, exit=exited(1))
+    assert_failed(judge_jumps(replace(trials.jump, trace=crashed), trials.steady), "unhandled exception")
+    twice = trials.jump_twice
     early = replace(twice, sent=twice.sent[:JUMP_AFTER], trace=replace(crashed, logs=twice.trace.logs[:1]))
-    assert_failed(judge_rising(slowly[1], early, slowly[0]), "unhandled exception")
+    assert_failed(replace(trials, jump_twice=early).judge("gaps"), "unhandled exception")
 
 
 TWO_SUBSCRIPTIONS = """
@@ -108,7 +85,7 @@ self.other = self.create_subscription(String, 'chatter', self.heard, 10)
 
 
 def test_two_subscriptions_are_the_cause_of_every_failure() -> None:
-    verdicts = judge_trials(node(SubscribedTwice), TWO_SUBSCRIPTIONS, 2).values()
+    verdicts = judge_trials(node(nodes.SubscribedTwice), TWO_SUBSCRIPTIONS, 2).values()
     failures = [verdict for verdict in verdicts if verdict.status is Status.FAILED]
     assert len(failures) >= 2
     for verdict in failures:
@@ -117,7 +94,7 @@ def test_two_subscriptions_are_the_cause_of_every_failure() -> None:
 
 @pytest.mark.parametrize(
     ("make", "subscriptions"),
-    [(node(SubscribedTwice), 1), (ONE_TOO_MANY, 2)],
+    [(node(nodes.SubscribedTwice), 1), (ONE_TOO_MANY, 2)],
     ids=["there is only one", "messages count once"],
 )
 def test_two_subscriptions_are_blamed_only_if_they_exist_and_messages_count_twice(
@@ -143,14 +120,8 @@ class Stats(Node):
 @pytest.mark.parametrize(("topic", "blamed"), [("/chatter", True), ("/log", False)])
 def test_a_node_that_publishes_on_the_topic_counts_its_own_messages(topic: str, blamed: bool) -> None:
     network = replace(LISTENING, publishers=(TopicEndpoint(topic, "std_msgs/msg/String", "/node"),))
-    verdict = explain(
-        JUDGES["count"](
-            *(
-                with_trace(trial(ONE_TOO_MANY()), graph=network, sources={"node.py": OWN_PUBLISHER})
-                for trial in (steady, jump, fast)
-            )
-        )
-    )
+    trials = vars(observe(ONE_TOO_MANY)).values()
+    verdict = Trials(*(with_trace(t, graph=network, sources={"node.py": OWN_PUBLISHER}) for t in trials)).judge("count")
     assert verdict.status is Status.FAILED
     assert verdict.cause.startswith("own messages") == blamed
 
@@ -159,9 +130,9 @@ def test_a_node_that_publishes_on_the_topic_counts_its_own_messages(topic: str, 
     ("code", "cause"), [("x = text[:12]", "content cut off"), ("x = text[-3:]", "first message missing")]
 )
 def test_a_slice_explains_a_content_without_its_number(code: str, cause: str) -> None:
-    cut = node(summary="count={count} rate={rate:.2f} first={first:.12} last={last:.12}")
-    seen = with_trace(steady(cut()), sources={"message_stats.py": code})
-    assert_failed(judge_slow_summary(seen, jump(cut())), cause)
+    trials = slowly(node(summary="count={count} rate={rate:.2f} first={first:.12} last={last:.12}"))
+    trials = replace(trials, steady=with_trace(trials.steady, sources={"message_stats.py": code}))
+    assert_failed(trials.judge("summary"), cause)
 
 
 HEARD = """\
@@ -178,15 +149,15 @@ COMPARED = f"{HEARD}        if number != self.last + 1: self.alarm()\n"
 @pytest.mark.parametrize(
     ("make", "source", "cause"),
     [
-        (GAP_BLIND, HEARD.replace(".split(':')[1]", "[-1]"), "number misread"),
+        (nodes.GAP_BLIND, HEARD.replace(".split(':')[1]", "[-1]"), "number misread"),
         (
-            GAP_BLIND,
+            nodes.GAP_BLIND,
             f"{HEARD}        self.count += 1\n        if number != self.count: self.alarm()",
             "number compared with the count",
         ),
-        (node(WarnsForEverAfterAGap), f"{COMPARED}        else: self.last = number", "last number out of date"),
+        (node(nodes.WarnsForEverAfterAGap), f"{COMPARED}        else: self.last = number", "last number out of date"),
         (
-            GAP_BLIND,
+            nodes.GAP_BLIND,
             f"{HEARD}        self.last = number\n        if number != self.last: self.alarm()",
             "last number set too early",
         ),
@@ -195,7 +166,7 @@ COMPARED = f"{HEARD}        if number != self.last + 1: self.alarm()\n"
             f"{HEARD}        if number < self.last: self.alarm()\n        self.last = number",
             "only lower numbers",
         ),
-        (GAP_BLIND, f"{COMPARED}        self.last = number", "gap not noticed"),
+        (nodes.GAP_BLIND, f"{COMPARED}        self.last = number", "gap not noticed"),
     ],
 )
 def test_the_source_shows_why_gaps_are_reported_wrongly(make: Make, source: str, cause: str) -> None:
@@ -208,7 +179,7 @@ def test_the_test_that_zero_does_not_pass_is_named() -> None:
         "    if last_number and n != last_number + 1:\n        node.get_logger().warning('gap')\n    last_number = n\n"
         "node.create_subscription(String, 'chatter', heard, 10)\n"
     )
-    verdict = judge_trials(node(gap=lambda node: MISSING if node.number else ()), source)["gaps"]
+    verdict = judge_trials(nodes.BLIND_AFTER_ZERO, source)["gaps"]
     assert "line 4: last_number counts as false when it is 0" in verdict.cause
 
 

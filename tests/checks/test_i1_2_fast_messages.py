@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -9,45 +10,35 @@ import pytest
 
 from checks.i1_2_message_statistics.count import judge_fast_count
 from checks.i1_2_message_statistics.plans import FAST_HZ, FAST_MESSAGES
-from checks.i1_2_message_statistics.summary import judge_fast_summary, judge_slow_summary
+from checks.i1_2_message_statistics.summary import judge_fast_summary
+from tests.checks import statistics_nodes as nodes
 from tests.checks.builders import assert_passed, assert_skipped, assert_undecided
-from tests.checks.statistics_nodes import (
-    FIRST_OVERWRITTEN,
-    GAP_BLIND,
-    LOSES_TWO,
-    NOISY,
-    ONE_LINE_PER_VALUE,
-    ONE_TOO_MANY,
-    QUOTES_ALL,
-    QUOTES_THE_FIRST,
-    RIGHT,
-    Make,
-    Throttled,
-    node,
-    receiving,
-)
+from tests.checks.statistics_nodes import FIRST_OVERWRITTEN, ONE_TOO_MANY, RIGHT, FakeStats, Log, Make, node
 from tests.checks.statistics_trials import (
-    JUDGES,
     LATE_S,
+    Trials,
     assert_failed,
     fast,
-    feed,
     judge_trials,
-    jump,
-    restart,
-    steady,
+    observe,
+    slowly,
     with_trace,
 )
-from tutor.judge.verdict import Status, Verdict
+from tutor.judge.verdict import Status
 
 
 def at_most(hz: float) -> Make:
     """A node that receives at most so many messages a second, and loses the rest."""
-    return receiving(lambda node: not node.times or node.now - node.times[-1] > 0.99 / hz, gap=())
+    return nodes.silent_about_gaps(takes=lambda node: not node.times or node.now - node.times[-1] > 0.99 / hz)
 
 
 SLOW, A_LITTLE_SLOW = at_most(10.0), at_most(16.0)
-LOSE_NONE = (RIGHT, ONE_LINE_PER_VALUE, NOISY, QUOTES_ALL, QUOTES_THE_FIRST, LOSES_TWO)
+LOSES_TWO = node(takes=lambda node: node.incoming not in (30, 31))
+"""As with a queue of one and a short scheduling delay."""
+
+IRREGULAR = node(due=lambda node: node.count % 7 in (0, 3))
+"""As if it summed up after every message, of which some come too fast to be told apart."""
+
 NAPS = """
 while rclpy.ok():
     rclpy.spin_once(node, timeout_sec=0.1)
@@ -63,15 +54,24 @@ class Stats(Node):
         time.sleep(0.2)
 """
 SHORT_QUEUE = "node.create_subscription(String, 'chatter', heard, 1)"
-IRREGULAR = node(due=lambda node: node.count % 7 in (0, 3))
-"""As if it summed up after every message, of which some come too fast to be told apart."""
+THROTTLES = "def heard(msg):\n    log.info('a',\n        throttle_duration_sec=1.0)\n"
 
 
-def judge_fast(make: Make, source: str = "", **how: Any) -> Verdict:
-    verdict: Verdict = JUDGES["count"](
-        steady(make()), jump(make()), with_trace(fast(make(), **how), sources={"node.py": source})
-    )
-    return verdict
+class Throttled(FakeStats):
+    """Logs at most once a second."""
+
+    said_at: float = 0.0
+
+    def receive(self, now: float, data: str) -> Iterator[Log]:
+        logs = list(super().receive(now, data))
+        if not logs or now - self.said_at >= 1.0:
+            self.said_at = now if logs else self.said_at
+            yield from logs
+
+
+def fed_fast(make: Make, source: str = "", **how: Any) -> Trials:
+    """What is observed of a node with this source if the messages also come fast, like this."""
+    return replace(slowly(make), fast=with_trace(fast(make(), **how), sources={"node.py": source}))
 
 
 @pytest.mark.parametrize("make", [SLOW, A_LITTLE_SLOW], ids=["10 Hz", "16 Hz"])
@@ -86,42 +86,41 @@ def judge_fast(make: Make, source: str = "", **how: Any) -> Verdict:
     ],
 )
 def test_causes_of_messages_lost_at_a_fast_rate(source: str, cause: str, words: str, make: Make) -> None:
-    assert_failed(judge_fast(make, source), cause, words)
-
-
-@pytest.mark.parametrize("make", LOSE_NONE)
-@pytest.mark.parametrize("late_s", [LATE_S, 0.1, 0.5, 1.0])
-def test_a_node_that_loses_no_messages_may_be_late(late_s: float, make: Make) -> None:
-    assert_passed(judge_fast(make, NAPS, late_s=late_s))
-    slowly = steady(make()), jump(make())
-    assert JUDGES["summary"](*slowly, fast(make(), late_s=late_s)).passed == judge_slow_summary(*slowly).passed
-
-
-def test_losses_that_a_busy_machine_may_explain_are_undecided() -> None:
-    assert_undecided(judge_fast(A_LITTLE_SLOW, cpu_wait_s=1.2))
-    assert_failed(judge_fast(SLOW, cpu_wait_s=0.2), "cannot keep up")
-    assert_passed(judge_fast(RIGHT, cpu_wait_s=3.0))
-    slowly = feed(RIGHT(), range(FAST_MESSAGES), 19.0)
-    assert_undecided(JUDGES["count"](steady(RIGHT()), jump(RIGHT()), slowly))
-    assert_failed(JUDGES["count"](steady(ONE_TOO_MANY()), jump(ONE_TOO_MANY()), slowly), "off by one")
-
-
-def test_a_summary_throttled_at_a_fast_rate_is_missing() -> None:
-    source = "def heard(msg):\n    log.info('a',\n        throttle_duration_sec=1.0)\n"
-    seen, slowly = fast(node(Throttled)()), (steady(node(Throttled)()), jump(RIGHT()))
-    throttled = with_trace(seen, sources={"node.py": source})
-    assert_passed(judge_slow_summary(*slowly))
-    assert_failed(JUDGES["summary"](*slowly, throttled), "log throttled", "line 2")
-    assert_failed(JUDGES["summary"](*slowly, seen), "missing summary", "tenth message")
-    assert_undecided(JUDGES["summary"](*slowly, replace(throttled, cpu_wait_s=1.2)))
+    assert_failed(fed_fast(make, source).judge("count"), cause, words)
 
 
 @pytest.mark.parametrize(
-    ("make", "cause"),
-    [
-        (ONE_TOO_MANY, "off by one"),
-        (node(summary="{number} at {rate:.2f}/s, {first} to {last}"), "number taken for the count"),
-    ],
+    "make",
+    [RIGHT, nodes.ONE_LINE_PER_VALUE, nodes.NOISY, nodes.QUOTES_ALL, nodes.QUOTES_THE_FIRST, LOSES_TWO],
+    ids=["right", "one line per value", "noisy", "quotes all", "quotes the first", "loses two"],
+)
+@pytest.mark.parametrize("late_s", [LATE_S, 0.1, 0.5, 1.0])
+def test_a_node_that_loses_no_messages_may_be_late(late_s: float, make: Make) -> None:
+    trials = fed_fast(make, NAPS, late_s=late_s)
+    assert_passed(trials.judge("count"))
+    assert trials.judge("summary").passed == slowly(make).judge("summary").passed
+
+
+def test_losses_that_a_busy_machine_may_explain_are_undecided() -> None:
+    assert_undecided(fed_fast(A_LITTLE_SLOW, cpu_wait_s=1.2).judge("count"))
+    assert_failed(fed_fast(SLOW, cpu_wait_s=0.2).judge("count"), "cannot keep up")
+    assert_passed(fed_fast(RIGHT, cpu_wait_s=3.0).judge("count"))
+    too_slowly = fast(RIGHT(), first=0, hz=19.0)
+    assert_undecided(replace(slowly(RIGHT), fast=too_slowly).judge("count"))
+    assert_failed(replace(slowly(ONE_TOO_MANY), fast=too_slowly).judge("count"), "off by one")
+
+
+def test_a_summary_throttled_at_a_fast_rate_is_missing() -> None:
+    throttled, plain = fast(node(Throttled)()), replace(slowly(RIGHT), steady=slowly(node(Throttled)).steady)
+    seen = with_trace(throttled, sources={"node.py": THROTTLES})
+    assert_passed(plain.judge("summary"))
+    assert_failed(replace(plain, fast=seen).judge("summary"), "log throttled", "line 2")
+    assert_failed(replace(plain, fast=throttled).judge("summary"), "missing summary", "tenth message")
+    assert_undecided(replace(plain, fast=replace(seen, cpu_wait_s=1.2)).judge("summary"))
+
+
+@pytest.mark.parametrize(
+    ("make", "cause"), [(ONE_TOO_MANY, "off by one"), (nodes.N_AS_COUNT, "number taken for the count")]
 )
 def test_a_wrong_count_already_fails_in_the_fast_stretch(make: Make, cause: str) -> None:
     assert_failed(judge_fast_count(fast(make())), cause)
@@ -132,10 +131,7 @@ def test_a_wrong_count_already_fails_in_the_fast_stretch(make: Make, cause: str)
     [
         (node(every=5), "too many summaries"),
         (FIRST_OVERWRITTEN, "first message overwritten"),
-        (
-            node(summary="{count} at {rate:.2f}/s, first message: '{last}', last message: '{first}'"),
-            "first and last swapped",
-        ),
+        (node(summary=nodes.SWAPPED), "first and last swapped"),
     ],
 )
 def test_surplus_or_incomplete_summaries_already_fail_in_the_fast_stretch(make: Make, cause: str) -> None:
@@ -148,20 +144,18 @@ def test_summaries_at_different_distances_are_left_to_the_slow_messages() -> Non
 
 
 @pytest.mark.parametrize("make", [RIGHT, ONE_TOO_MANY, FIRST_OVERWRITTEN])
-def test_a_slow_or_partial_fast_stretch_gives_no_early_verdict(make: Make) -> None:
-    slow = feed(make(), range(7, 7 + FAST_MESSAGES), FAST_HZ / 2)
-    part = feed(make(), range(7, 7 + FAST_MESSAGES // 2), FAST_HZ)
-    held_up = replace(fast(make()), cpu_wait_s=0.12)
-    for seen in (slow, part, held_up):
-        assert judge_fast_count(seen) is None
-        assert judge_fast_summary(seen) is None
+@pytest.mark.parametrize("how", [{"hz": FAST_HZ / 2}, {"messages": FAST_MESSAGES // 2}, {"cpu_wait_s": 0.12}])
+def test_a_slow_or_partial_fast_stretch_gives_no_early_verdict(make: Make, how: dict[str, Any]) -> None:
+    seen = fast(make(), **how)
+    assert judge_fast_count(seen) is None
+    assert judge_fast_summary(seen) is None
 
 
-@pytest.mark.parametrize("make", [RIGHT, receiving(lambda node: node.incoming % 7 != 5)], ids=["all", "loses some"])
+@pytest.mark.parametrize("make", [RIGHT, node(takes=lambda node: node.incoming % 7 != 5)], ids=["all", "loses some"])
 def test_a_node_that_renews_its_subscription_gets_the_same_verdicts_whatever_it_loses(make: Make) -> None:
     verdicts = judge_trials(make, new_subscriptions=17)
     assert_failed(verdicts.pop("count"), "a subscription for each message", "17 new subscriptions")
-    verdicts["rate"] = JUDGES["rate"](*(trial(make(), new_subscriptions=17) for trial in (steady, jump, restart, fast)))
+    verdicts["rate"] = observe(make, new_subscriptions=17).judge("rate")
     for verdict in verdicts.values():
         assert_skipped(verdict, "see `count`")
 
@@ -178,6 +172,6 @@ def test_a_sleep_in_a_wait_loop_is_not_blamed() -> None:
     assert not any("slow callback" in verdict.cause for verdict in judge_trials(RIGHT, waits, late_s=1.6).values())
 
 
-@pytest.mark.parametrize("make", [ONE_TOO_MANY, FIRST_OVERWRITTEN, GAP_BLIND, ONE_LINE_PER_VALUE])
+@pytest.mark.parametrize("make", [ONE_TOO_MANY, FIRST_OVERWRITTEN, nodes.GAP_BLIND, nodes.ONE_LINE_PER_VALUE])
 def test_a_sleep_is_not_blamed_if_the_node_keeps_up(make: Make) -> None:
     assert not any("slow" in verdict.cause for verdict in judge_trials(make, SLEEPS).values())

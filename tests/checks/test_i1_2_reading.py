@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from checks.i1_2_message_statistics.log_lines import parse_log, values
 from checks.i1_2_message_statistics.logged_summaries import find_summaries
 from tests.checks.statistics_nodes import RIGHT, node
-from tests.checks.statistics_trials import jump, logged, steady, with_trace
+from tests.checks.statistics_trials import logged, slowly, with_log
 
 
 @pytest.mark.parametrize(
@@ -61,12 +61,11 @@ def test_messages_with_the_same_wording_are_of_the_same_kind() -> None:
 
 def test_an_alarm_next_to_a_summary_is_not_part_of_the_next_one() -> None:
     beside = node(heard=lambda node: [(30, "by the way: 3")] if node.count == 10 else ())
-    summaries = find_summaries(steady(beside()))
+    summaries = find_summaries(slowly(beside).steady)
     assert [(summary.messages, len(summary.lines)) for summary in summaries] == [(10, 1), (20, 1)]
 
 
 def test_a_message_just_before_a_summary_is_due_is_not_part_of_it() -> None:
-    trial = jump(RIGHT())
-    early = logged("1 lost in the last second", trial.sent[29].at - 0.01, 40)
-    summaries = find_summaries(with_trace(trial, logs=(*trial.trace.logs, early)))
-    assert [summary.messages for summary in summaries] == [10, 20, 30]
+    trial = slowly(RIGHT).jump
+    seen = with_log(trial, "1 lost in the last second", trial.sent[29].at - 0.01, 40)
+    assert [summary.messages for summary in find_summaries(seen)] == [10, 20, 30]
