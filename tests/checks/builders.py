@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from tutor.judge.check import Check, EarlyJudge, Judge
+from tutor.judge.rates import Rate
 from tutor.judge.trace import CallAnswer, Ending, Exit, LogRecord, OutputLine, Sample, SetAnswer, Trace
 from tutor.judge.tracebacks import Frame
 from tutor.judge.verdict import Failure, Status, Undecided, Verdict
@@ -47,6 +48,11 @@ def samples(topic: str, hz: float, *, count: int = 10, data: Any = "Hello") -> t
     return tuple(sample(topic, data, START + 1 + i / hz) for i in range(count))
 
 
+def rate(hz: float) -> Rate:
+    """A steady rate, measured over ten messages."""
+    return Rate(hz, 10, 9 / hz)
+
+
 def log(text: str, level: int = 20) -> LogRecord:
     return LogRecord(level, "node", text, START, START)
 
@@ -63,7 +69,7 @@ def graph(
     """A graph in which `publishers` and `services` map names to types."""
     return Graph(
         nodes=tuple(nodes),
-        publishers=tuple(publisher(*each) for each in (publishers or {}).items()),
+        publishers=tuple(publisher(topic, type_name) for topic, type_name in (publishers or {}).items()),
         servers=tuple(ServiceEndpoint(name, type_name, "/node") for name, type_name in (services or {}).items()),
     )
 
@@ -87,8 +93,8 @@ def trace(
 ) -> Trace:
     """A run of node.py and what was observed of it; without arguments, a node that runs and writes nothing."""
     by_topic: dict[str, tuple[Sample, ...]] = {}
-    for each in messages:
-        by_topic[each.topic] = (*by_topic.get(each.topic, ()), each)
+    for message in messages:
+        by_topic[message.topic] = (*by_topic.get(message.topic, ()), message)
     return Trace(
         file="node.py",
         folder=FOLDER,
@@ -136,6 +142,10 @@ def frame(function: str, path: str = f"{FOLDER}/node.py", line: int = 12, code: 
     return Frame(path, line, function, code)
 
 
+EXECUTING = frame("await_or_execute", "/venv/rclpy/executors.py")
+"""The executor's frame below that of a callback."""
+
+
 def assert_passed(verdict: Verdict | None) -> None:
     assert verdict is not None
     assert verdict.status is Status.PASSED, verdict
@@ -150,12 +160,12 @@ def assert_undecided(verdict: Verdict) -> None:
 
 def judge_of(check: Check, criterion: str) -> Judge:
     """The judge of a criterion."""
-    return next(each.judge for each in check.criteria if each.id == criterion)
+    return next(one.judge for one in check.criteria if one.id == criterion)
 
 
 def early_judge_of(check: Check, criterion: str) -> EarlyJudge:
     """The early judge of a criterion that has one."""
-    ((_, judge),) = next(each.early for each in check.criteria if each.id == criterion)
+    ((_, judge),) = next(one.early for one in check.criteria if one.id == criterion)
     return judge
 
 

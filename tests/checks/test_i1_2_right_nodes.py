@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -118,7 +119,7 @@ right_nodes = pytest.mark.parametrize("make", RIGHT_NODES.values(), ids=RIGHT_NO
 @pytest.mark.parametrize(
     "how", [{"late_s": LATE_S}, {"late_s": 0.15}, {"late_s": 0.3}, {"slow_s": 0.3}, {"slow_s": 0.9}]
 )
-def test_right_nodes_pass_however_late_they_or_their_summaries_are(make: Make, how: dict[str, float]) -> None:
+def test_right_nodes_pass_however_late_they_or_their_summaries_are(make: Make, how: dict[str, Any]) -> None:
     assert_all_passed(judge_trials(make, **how))
 
 

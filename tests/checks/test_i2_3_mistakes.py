@@ -21,7 +21,8 @@ from checks.i2_3_multi_threaded_service.judges import (
 )
 from checks.i2_3_multi_threaded_service.single_calls import SingleCalls
 from checks.i2_3_multi_threaded_service.timer_pace import Fault, TimerPace
-from tests.checks.test_i2_3 import EXECUTING, SERVICE, SERVING, answer, series_in, tick_logs
+from tests.checks.builders import EXECUTING
+from tests.checks.slow_add import SERVICE, SERVING, answer, series_in, tick_logs
 from tutor.judge.symptom import Observation
 from tutor.judge.trace import Trace
 from tutor.judge.tracebacks import Frame
