@@ -99,6 +99,7 @@ def test_unnumbered_messages_at_1_hz_are_not_a_10_hz_timer(text: Text) -> None:
 
 HEARTBEAT = [log_at(f"heartbeat {n}", START + n) for n in range(1, 9)]
 GREETING = [log_at(f"loading module {n}", START + n / 1000) for n in range(300)]
+BLOCKED = tick_logs(pause=(0.4, 3.3))
 NUMBERS, BLOCKED_NUMBERS = tick_logs("{}".format), tick_logs("{}".format, pause=(0.4, 3.3))
 MONITOR = [log_at(f"{n}", START + n / 2 + 0.01, node="monitor") for n in range(1, 10)]
 SAID = logged_by("say", tick_logs(every=1, until_s=2.1))
@@ -107,25 +108,19 @@ SAID_BLOCKED = logged_by("say", [*tick_logs(every=1, pause=(0.35, 3.3)), *STEPS]
 AT_100_HZ = logged_by("on_timer", tick_logs(lambda n: f"tick {n} of {n % 7}, {n % 3} calls", hz=100, every=10))
 
 
-@pytest.mark.parametrize(
-    ("alone", "during_call", "told", "words"),
-    [
-        pytest.param([*GREETING, *tick_logs()], [*GREETING, *tick_logs()], "passed", "", id="a greeting is no timer"),
-        pytest.param([*tick_logs(), *HEARTBEAT], [*tick_logs(), *HEARTBEAT], "passed", "", id="a second, slow timer"),
-        pytest.param(
-            [*tick_logs(), *HEARTBEAT],
-            [*tick_logs(pause=(0.4, 3.3)), *HEARTBEAT],
-            WAITING,
-            "",
-            id="the fast one of two stops",
-        ),
-        pytest.param(HEARTBEAT, HEARTBEAT, "wrong rate", "1.0 times", id="only the slow one"),
-        pytest.param(SAID, SAID_BLOCKED, WAITING, "", id="a function that says all is no timer"),
-        pytest.param(AT_100_HZ, AT_100_HZ, "wrong rate", "100.0 times", id="every tenth of 100 a second"),
-        pytest.param([*NUMBERS, *MONITOR], [*NUMBERS, *MONITOR], "passed", "", id="another node with the same words"),
-        pytest.param([*NUMBERS, *MONITOR], [*BLOCKED_NUMBERS, *MONITOR], WAITING, "", id="only the other node goes on"),
-    ],
-)
+LOGS: dict[str, tuple[list[LogRecord], list[LogRecord], str, str]] = {
+    "a greeting is no timer": ([*GREETING, *tick_logs()], [*GREETING, *tick_logs()], "passed", ""),
+    "a second, slow timer": ([*tick_logs(), *HEARTBEAT], [*tick_logs(), *HEARTBEAT], "passed", ""),
+    "the fast one of two stops": ([*tick_logs(), *HEARTBEAT], [*BLOCKED, *HEARTBEAT], WAITING, ""),
+    "only the slow one": (HEARTBEAT, HEARTBEAT, "wrong rate", "1.0 times"),
+    "a function that says everything is no timer": (SAID, SAID_BLOCKED, WAITING, ""),
+    "every tenth of 100 a second": (AT_100_HZ, AT_100_HZ, "wrong rate", "100.0 times"),
+    "another node with the same words": ([*NUMBERS, *MONITOR], [*NUMBERS, *MONITOR], "passed", ""),
+    "only the other node goes on": ([*NUMBERS, *MONITOR], [*BLOCKED_NUMBERS, *MONITOR], WAITING, ""),
+}
+
+
+@pytest.mark.parametrize(("alone", "during_call", "told", "words"), LOGS.values(), ids=LOGS)
 def test_which_messages_are_ticks(alone: list[LogRecord], during_call: list[LogRecord], told: str, words: str) -> None:
     assert_told(judge_timer(idle_run(alone), single_calls(during_call)), told, words)
 

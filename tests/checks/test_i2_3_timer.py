@@ -43,33 +43,27 @@ from tutor.judge.verdict import Status
 EVERY = tick_logs(every=1)
 TICKS = tick_logs(lambda n: "tick", every=1)
 BURST = [log_at(f"Timer tick: {n}", START + 3.32 + n / 1e4) for n in range(3, 34)]
+CAUGHT_UP = [*tick_logs(every=1, until_s=0.25), *BURST, *EVERY[33:]]
 AT_ONCE = [log_at("Timer tick: 99", START + 3.2 + n / 1e3) for n in range(20)]
 WITHOUT_EVERY_SECOND = [tick for n, tick in enumerate(TICKS) if n % 2 or not 3 < n < 33]
 
 
-@pytest.mark.parametrize(
-    ("during_call", "how", "told", "words"),
-    [
-        pytest.param(
-            tick_logs(every=1, pause=(1.2, 2.6), until_s=8),
-            {"until": START + 8, "stuck": IN_WORKER},
-            "timer pauses",
-            "1.5 s",
-            id="pauses for part of the call",
-        ),
-        pytest.param(
-            [*tick_logs(every=1, until_s=0.25), *BURST, *EVERY[33:]],
-            {"stuck": IN_WORKER},
-            "timer waits for the service",
-            "",
-            id="catches up in a burst",
-        ),
-        pytest.param([*EVERY, *AT_ONCE], {}, "ticks in a burst", "", id="a burst without a gap"),
-        pytest.param(tick_logs(every=1, pause=(0.5, 1.6)), {"cpu_wait_s": 1.0}, "passed", "", id="a gap, excused"),
-        pytest.param(tick_logs(every=1, pause=(0.5, 2)), {"cpu_wait_s": 0.7}, "undecided", "", id="a longer gap"),
-        pytest.param(tick_logs(every=1, pause=(0.3, 3.3)), {"cpu_wait_s": 0.7}, WAITING, "", id="the whole call"),
-    ],
-)
+def every_tick_but(start_s: float, end_s: float, until_s: float = 4.6) -> list[LogRecord]:
+    return tick_logs(every=1, pause=(start_s, end_s), until_s=until_s)
+
+
+LONG = {"until": START + 8, "stuck": IN_WORKER}
+LOGS: dict[str, tuple[list[LogRecord], dict[str, Any], str, str]] = {
+    "pauses for part of the call": (every_tick_but(1.2, 2.6, until_s=8), LONG, "timer pauses", "1.5 s"),
+    "catches up in a burst": (CAUGHT_UP, {"stuck": IN_WORKER}, "timer waits for the service", ""),
+    "a burst without a gap": ([*EVERY, *AT_ONCE], {}, "ticks in a burst", ""),
+    "a gap on a busy machine": (every_tick_but(0.5, 1.6), {"cpu_wait_s": 1.0}, "passed", ""),
+    "a longer gap on a busy machine": (every_tick_but(0.5, 2), {"cpu_wait_s": 0.7}, "undecided", ""),
+    "stops for the call on a busy machine": (every_tick_but(0.3, 3.3), {"cpu_wait_s": 0.7}, WAITING, ""),
+}
+
+
+@pytest.mark.parametrize(("during_call", "how", "told", "words"), LOGS.values(), ids=LOGS)
 def test_a_timer_of_ten_messages_a_second(
     during_call: list[LogRecord], how: dict[str, Any], told: str, words: str
 ) -> None:
