@@ -10,8 +10,9 @@ from itertools import accumulate
 from checks.i1_2_message_statistics import plans
 from checks.i1_2_message_statistics.logged_summaries import find_summaries, last_due_count
 from checks.i1_2_message_statistics.trial import CHATTER, PROGRAM, SOON_S, Sent, Trial
-from tutor.judge.bench import Bench, Publisher, Run
+from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
+from tutor.judge.peers import Publisher
 from tutor.judge.stuck_nodes import ask_unless_stuck
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting_for_nodes import patience_s, wait_until_log_quiet, wait_until_seen

@@ -5,7 +5,8 @@ from __future__ import annotations
 import time
 
 from tests.engine.helpers import FILE, Scene, node
-from tutor.judge.bench import Offer, Publisher, Run
+from tutor.judge.bench import Run
+from tutor.judge.peers import Offer, Publisher
 from tutor.ros_model import QoS
 
 CHATTER, STRING = "/chatter", "std_msgs/msg/String"

@@ -20,8 +20,9 @@ from tutor.engine.run import RosRun
 from tutor.engine.waits import CollectedFacts
 from tutor.errors import CommandError, EngineError, NoFreeDomain, ProcessError
 from tutor.interfaces import Build
-from tutor.judge.bench import Offer, Run, Scenario
+from tutor.judge.bench import Run, Scenario
 from tutor.judge.interface_build import InterfaceBuild
+from tutor.judge.peers import Offer
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import MAX_CHARACTERS
 from tutor.process import LearnerProcess, run_limits

@@ -16,7 +16,7 @@ from typing import Any
 from tutor.engine import ending, source
 from tutor.engine.waits import POLL_S, CollectedFacts, Waits
 from tutor.errors import EngineError, UnknownType
-from tutor.judge.bench import GoalReplies, Handler
+from tutor.judge.peers import GoalReplies, Handler
 from tutor.judge.trace import (
     CallAnswer,
     Echo,

@@ -85,7 +85,7 @@ from tutor.exercise.survives_bad_call import SurvivesBadCall
 from tutor.exercise.tells import Tells
 from tutor.exercise.told_events import Event, Feed
 from tutor.exercise.watched_start import LogsText
-from tutor.judge.bench import GoalReplies
+from tutor.judge.peers import GoalReplies
 from tutor.ros_model import QoS
 
 __all__ = [

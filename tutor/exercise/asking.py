@@ -11,7 +11,8 @@ from typing import Any, Literal
 from tutor.exercise.nouns import Program, Service, agrees
 from tutor.exercise.seen_run import MATCH_S, Seen
 from tutor.exercise.service_calls import ANSWER_S, STUCK_CALL_S, Server
-from tutor.judge.bench import Bench, HoldingServer, Run
+from tutor.judge.bench import Bench, Run
+from tutor.judge.peers import HoldingServer
 from tutor.judge.tasks import Tasks
 from tutor.judge.trace import CallAnswer, HeldRequest
 from tutor.judge.tracebacks import Frame

@@ -9,7 +9,8 @@ from typing import Any
 
 from tutor.exercise.nouns import Program, Service
 from tutor.exercise.service_calls import STUCK_CALL_S, right_result
-from tutor.judge.bench import Bench, Handler, Run
+from tutor.judge.bench import Bench, Run
+from tutor.judge.peers import Handler
 from tutor.judge.stuck_nodes import StuckTest
 from tutor.judge.trace import Exit, ServedRequest, Trace
 from tutor.judge.tracebacks import Frame

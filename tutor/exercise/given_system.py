@@ -10,8 +10,9 @@ from tutor.exercise.node_parameters import DumpSilentNode
 from tutor.exercise.nouns import Program, Topic
 from tutor.exercise.receives import says
 from tutor.exercise.seen_run import Seen, look, settle
-from tutor.judge.bench import Bench, Offer, Run
+from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
+from tutor.judge.peers import Offer
 from tutor.judge.trace import Ending
 from tutor.judge.waiting_for_nodes import RESENT_S, patience_s, wait_until_log_quiet, wait_until_seen
 from tutor.ros_model import QoS, TopicEndpoint

@@ -9,7 +9,8 @@ from math import inf
 from tutor.exercise.client_run import MIN_CPU_WAIT_AT_LIMIT_S, MIN_CPU_WAIT_S, ClientWatch
 from tutor.exercise.nouns import GOAL_SERVICE, Action, Program
 from tutor.exercise.service_calls import STUCK_CALL_S
-from tutor.judge.bench import Bench, GoalReplies, GoalServer, MachineTooBusy
+from tutor.judge.bench import Bench, MachineTooBusy
+from tutor.judge.peers import GoalReplies, GoalServer
 from tutor.judge.stuck_nodes import StuckTest
 from tutor.judge.trace import Exit, ServedGoal, Trace
 from tutor.judge.tracebacks import Frame

@@ -9,7 +9,8 @@ from typing import Any, Literal
 
 from tutor.exercise.nouns import GOAL_SERVICE, GOAL_TYPE, Action, Program, show
 from tutor.exercise.seen_run import Seen, look, settle
-from tutor.judge.bench import Bench, GoalClient, Run
+from tutor.judge.bench import Bench, Run
+from tutor.judge.peers import GoalClient
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import GoalAnswer
 from tutor.judge.waiting_for_nodes import RESENT_S, patience_s, wait_until_seen

@@ -11,8 +11,9 @@ from typing import Any
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Program, Topic, agrees
 from tutor.exercise.seen_run import Seen, look, settle
-from tutor.judge.bench import Bench, Publisher, Run
+from tutor.judge.bench import Bench, Run
 from tutor.judge.check import Criterion
+from tutor.judge.peers import Publisher
 from tutor.judge.symptom import Symptom
 from tutor.judge.trace import Sample
 from tutor.judge.verdict import Verdict, failed, passed

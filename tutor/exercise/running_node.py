@@ -18,7 +18,8 @@ from tutor.exercise.rejects import Rejects
 from tutor.exercise.seen_run import SPIN_S, look
 from tutor.exercise.serves import service_missing
 from tutor.exercise.watched_start import text_in
-from tutor.judge.bench import Bench, Publisher, Run
+from tutor.judge.bench import Bench, Run
+from tutor.judge.peers import Publisher
 from tutor.judge.rates import TOLERANCE, describe
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Sample, SetAnswer

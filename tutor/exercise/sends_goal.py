@@ -11,8 +11,8 @@ from tutor.exercise.form import Exercise, Form
 from tutor.exercise.goal_client_run import GoalClientRun, RunGoalClient
 from tutor.exercise.nouns import Action, Program
 from tutor.judge import tracebacks
-from tutor.judge.bench import GoalReplies
 from tutor.judge.check import Criterion
+from tutor.judge.peers import GoalReplies
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Level, Trace
 from tutor.judge.verdict import Verdict, failed, passed

@@ -9,8 +9,9 @@ from typing import Any
 from tutor.exercise.nouns import Program, Topic
 from tutor.exercise.receives import wait_for_subscription
 from tutor.exercise.seen_run import Seen, look
-from tutor.judge.bench import Bench, Publisher, Run
+from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
+from tutor.judge.peers import Publisher
 from tutor.judge.trace import Ending, Level, LogRecord, OutputLine
 from tutor.judge.waiting_for_nodes import HARDLY_WAITED_SHARE, RESENT_S
 from tutor.ros_model import TopicEndpoint

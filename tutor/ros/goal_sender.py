@@ -27,7 +27,7 @@ _OUTCOMES = {4: "succeeded", 5: "canceled", 6: "aborted"}
 
 
 class GoalSender(Observer):
-    """Implements `GoalClient` of `tutor.judge.bench` on real DDS. Raises UnknownType if the type is not installed.
+    """Implements `GoalClient` of `tutor.judge.peers` on real DDS. Raises UnknownType if the type is not installed.
 
     All of rclpy's calls are made in the executor's thread: there, no answer can come before its request is noted.
     """

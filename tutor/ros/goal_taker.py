@@ -10,7 +10,7 @@ from typing import Any
 
 from rclpy.action.server import ActionServer, CancelResponse, GoalResponse
 
-from tutor.judge.bench import GoalReplies
+from tutor.judge.peers import GoalReplies
 from tutor.judge.trace import ServedGoal
 from tutor.ros.fields import assign
 from tutor.ros.interfaces import interface_class
@@ -25,7 +25,7 @@ MATCH_STEPS = 10
 
 
 class GoalTaker(Observer):
-    """Implements `GoalServer` of `tutor.judge.bench` on real DDS. Raises UnknownType if the type is not installed."""
+    """Implements `GoalServer` of `tutor.judge.peers` on real DDS. Raises UnknownType if the type is not installed."""
 
     def __init__(
         self, domain_id: int, action: str, type_name: str, replies: GoalReplies, on_change: Callable[[], None]

@@ -22,7 +22,7 @@ MAX_REQUESTS = 1000
 
 
 class HeldService(Observer):
-    """Implements `HoldingServer` of `tutor.judge.bench` on real DDS. Raises UnknownType if the type is not installed.
+    """Implements `HoldingServer` of `tutor.judge.peers` on real DDS. Raises UnknownType if the type is not installed.
 
     A request is held by a coroutine of the executor, which awaits the reply; so it keeps no thread.
     """

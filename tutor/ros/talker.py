@@ -25,7 +25,7 @@ DEFAULT_QOS = QoS()
 
 
 class Talker:
-    """Implements `Publisher` of `tutor.judge.bench` on real DDS. Raises UnknownType if the type is not installed."""
+    """Implements `Publisher` of `tutor.judge.peers` on real DDS. Raises UnknownType if the type is not installed."""
 
     def __init__(self, domain_id: int, topic: str, type_name: str, qos: QoS = DEFAULT_QOS, depth: int = DEPTH) -> None:
         """`qos`: what it offers, of which only reliability and durability are taken. `depth`: how many it keeps."""

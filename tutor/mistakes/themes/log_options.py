@@ -1,4 +1,4 @@
-"""Options of a log call that keep messages back."""
+"""Options of a log call that keep messages back: throttles, once and skip_first."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from tutor.judge.symptom import Symptom
-from tutor.mistakes.entry import Case, Found, found, mistake
-from tutor.source import called_name
+from tutor.judge.trace import Level, LogRecord
+from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
+from tutor.mistakes.examples import in_run
+from tutor.source import NodeFile, called_name, values_of
 
 _METHODS = ("debug", "info", "warning", "warn", "error", "fatal", "log")
 _OPTIONS = {
@@ -15,6 +17,43 @@ _OPTIONS = {
     "once": "only the first message",
     "skip_first": "every message but the first",
 }
+
+
+def _logged_before(function: str) -> tuple[LogRecord, ...]:
+    """An earlier event of the same kind that this function has logged, for an example."""
+    return (LogRecord(Level.INFO, "node", "open", 0.0, 0.0, function),)
+
+
+def _log_calls(file: NodeFile) -> Iterator[ast.Call]:
+    for node in file.nodes:
+        if isinstance(node, ast.Call) and called_name(node) in _METHODS and isinstance(node.func, ast.Attribute):
+            yield node
+
+
+def _options(call: ast.Call) -> list[str]:
+    """The options that a log call is given, but for those that are switched off."""
+    on = (each.arg for each in call.keywords if not (isinstance(each.value, ast.Constant) and not each.value.value))
+    return [name for name in on if name in _OPTIONS]
+
+
+def _logged_earlier_by(case: Case, option: str) -> Iterator[tuple[NodeFile, ast.Call]]:
+    """Calls with this option in the functions that have logged an earlier event of the kind, or this one."""
+    logs = (*case.about("earlier", ()), *(getattr(case.about("event"), "logs", ()) if case.about("too_few") else ()))
+    for file in case.files:
+        for call in _log_calls(file):
+            if option in _options(call) and any(_may_have_made(file, call, log) for log in logs):
+                yield file, call
+
+
+def _may_have_made(file: NodeFile, call: ast.Call, log: LogRecord) -> bool:
+    """Whether a log call is in the function that has logged a message, whose text has the call's fixed parts."""
+    function = file.function_around(call)
+    if function is None or function.name != log.function or not call.args:
+        return False
+    message = call.args[0]
+    parts = message.values if isinstance(message, ast.JoinedStr) else [message]
+    texts = [part.value for part in parts if isinstance(part, ast.Constant)]
+    return all(text in log.text for text in texts if isinstance(text, str))
 
 
 @mistake(
@@ -42,10 +81,172 @@ def kept_back(case: Case) -> Iterator[Found]:
     for file in case.files if "rate" not in case.about("fault", "") else ():
         for node in file.nodes:
             if isinstance(node, ast.Call) and called_name(node) in _METHODS:
-                for given in node.keywords:
-                    if given.arg in _OPTIONS and not _is_off(given.value):
-                        yield found(file, node, option=given.arg, what=_OPTIONS[given.arg])
+                for option in _options(node):
+                    yield found(file, node, option=option, what=_OPTIONS[option])
 
 
-def _is_off(value: ast.expr) -> bool:
-    return isinstance(value, ast.Constant) and not value.value
+@mistake(
+    "once-is-for-the-whole-run",
+    explains=[Symptom.WRONG_LEVEL],
+    evidence=Evidence.RUN,
+    says="{what} is logged the first time, and then never again in this run, since {line} has once=True: {code}",
+    do="Take once for what is true of the whole run; what happens again must be logged again.",
+    example=in_run(Symptom.WRONG_LEVEL, what="a door that opens", earlier=_logged_before("on_door")),
+)
+def once_for_the_run(case: Case) -> Iterator[Found]:
+    """A message with once=True is logged once in the whole run, not once in each event.
+
+    rclpy notes for each line whether it has logged, and never forgets it: there is nothing that would tell it that one
+    event is over and another one begins. For something that can happen again, remember in the node how it was before.
+
+    Bad:
+
+        def on_door(self, door):
+            if door.data:
+                self.get_logger().info('open', once=True)
+
+    Good:
+
+        def on_door(self, door):
+            if door.data and not self.open:
+                self.get_logger().info('open')
+            self.open = door.data
+
+    See it: let it happen twice, and look at `ros2 topic echo /rosout`.
+
+    Lesson: b1.6, on how often.
+    """
+    for file, call in _logged_earlier_by(case, "once"):
+        yield found(file, call, what=case.about("what", "it"))
+
+
+@mistake(
+    "throttled-though-each-one-counts",
+    explains=[Symptom.WRONG_LEVEL],
+    evidence=Evidence.RUN,
+    says="{line} drops what comes within {option} of the message before, and with it {what}: {code}",
+    do="Leave out the throttle where each event counts, and log the event only when it begins.",
+    example=in_run(Symptom.WRONG_LEVEL, what="a door that opens", earlier=_logged_before("on_door")),
+)
+def throttled_events(case: Case) -> Iterator[Found]:
+    """A throttle drops events that differ from each other.
+
+    A throttle is for a state that lasts and that would be logged again and again: one message stands for all those that
+    it drops. But each single event says something else, and those within that time are lost for good.
+
+    Bad:
+
+        def on_door(self, door):
+            if door.data and not self.open:
+                self.get_logger().info('open', throttle_duration_sec=5.0)
+            self.open = door.data
+
+    Good:
+
+        def on_door(self, door):
+            if door.data and not self.open:
+                self.get_logger().info('open')
+            self.open = door.data
+
+    See it: let two events come soon after each other, and look at `ros2 topic echo /rosout`.
+
+    Lesson: b1.6, on how often.
+    """
+    if not case.about("too_few"):
+        for file, call in _logged_earlier_by(case, "throttle_duration_sec"):
+            yield found(file, call, what=case.about("what", "it"), option="throttle_duration_sec")
+
+
+@mistake(
+    "throttle-shared-by-a-helper",
+    explains=[Symptom.WRONG_LEVEL],
+    says="{line} logs for {count} callers, and {option} counts by line, so that one keeps back the others: {code}",
+    do="Give each kind of message a log call of its own, or keep the time of the last one for each kind yourself.",
+)
+def shared_throttle(case: Case) -> Iterator[Found]:
+    """A helper logs messages of several kinds with one throttle.
+
+    rclpy keeps the time of the last message, and whether there was one, for each place in the code that calls the
+    logger. In a helper, this is one place for all who call it: the first message silences the others, whatever they
+    say.
+
+    Bad:
+
+        def warn(self, text):
+            self.get_logger().warning(text, throttle_duration_sec=10.0)
+
+        def on_door(self, door):
+            if door.blocked:
+                self.warn('blocked')
+            if door.loud:
+                self.warn('loud')
+
+    Good:
+
+        def on_door(self, door):
+            if door.blocked:
+                self.get_logger().warning('blocked', throttle_duration_sec=10.0)
+            if door.loud:
+                self.get_logger().warning('loud', throttle_duration_sec=10.0)
+
+    See it: let both happen at once; only one of them is in the log.
+
+    Lesson: b1.6, on which line.
+    """
+    for file in case.files:
+        for call in _log_calls(file):
+            function, options = file.function_around(call), _options(call)
+            if function is None or not options or not call.args:
+                continue
+            arguments = {argument.arg for argument in (*function.args.args, *function.args.kwonlyargs)}
+            used = {node.id for node in ast.walk(call.args[0]) if isinstance(node, ast.Name)}
+            callers = file.calls(function.name)
+            if used & (arguments - {"self"}) and len(callers) > 1:
+                yield found(file, call, option=options[0], count=len(callers))
+
+
+@mistake(
+    "throttle-without-memory",
+    explains=[Symptom.LOGGED_TOO_OFTEN],
+    says="{line} asks a new logger each time, which has logged nothing yet: {option} lets everything through: {code}",
+    do="Make the logger once, when the node is made, and keep it.",
+)
+def without_memory(case: Case) -> Iterator[Found]:
+    """A new logger for each message, with a throttle that remembers nothing.
+
+    What was logged, and when, is kept in the logger object. get_child() and rclpy.logging.get_logger() make a new one
+    each time they are called, and it has logged nothing yet. Only a node's own get_logger() returns the same one again.
+
+    Bad:
+
+        def on_door(self, door):
+            self.get_logger().get_child('door').warning('blocked', throttle_duration_sec=10.0)
+
+    Good:
+
+        def __init__(self):
+            super().__init__('lift')
+            self.door_logger = self.get_logger().get_child('door')
+
+        def on_door(self, door):
+            self.door_logger.warning('blocked', throttle_duration_sec=10.0)
+
+    See it: count the lines of `ros2 topic echo /rosout`.
+
+    Lesson: b1.6, a logger without memory.
+    """
+    for file in case.files:
+        for call in _log_calls(file):
+            options, function = _options(call), file.function_around(call)
+            logger = call.func.value if isinstance(call.func, ast.Attribute) else None
+            if not options or function is None or function.name == "__init__":
+                continue
+            if isinstance(logger, ast.Name):
+                logger = next(iter(values_of(logger.id, function)), None)
+            if isinstance(logger, ast.Call) and _is_new(logger):
+                yield found(file, call, option=options[0])
+
+
+def _is_new(made: ast.Call) -> bool:
+    """Whether a call makes a logger that is not the node's own."""
+    return called_name(made) == "get_child" or (called_name(made) == "get_logger" and bool(made.args))
