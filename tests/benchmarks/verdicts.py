@@ -32,7 +32,7 @@ from tutor.content.submissions import RIGHT, WRONG
 from tutor.engine.loading import load_check
 from tutor.judge.events import CriterionJudged, ExerciseJudged, decode
 from tutor.judge.verdict import Status
-from tutor.process.supervisor import descendants
+from tutor.process.process_table import descendants
 
 LIMIT_S = 180.0
 QUIET_S = 0.3

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tutor.process.supervisor import descendants, processes
+from tutor.process.process_table import descendants, processes
 
 ROOT = Path(__file__).parents[2]
 LIMIT_S = 60.0

@@ -20,7 +20,7 @@ from tutor.judge.events import Event
 from tutor.judge.result import ExerciseResult
 from tutor.judge.submission import Submission
 from tutor.judge.verdict import Status, Verdict, passed
-from tutor.process.supervisor import processes
+from tutor.process.process_table import processes
 from tutor.ros import domain
 
 if TYPE_CHECKING:  # it imports rclpy, which needs a prepared environment

@@ -18,7 +18,7 @@ import pytest
 from tests.engine.helpers import WAITS
 from tutor.judge.events import CheckFinished, CheckStarted, CriterionJudged, Event, ExerciseJudged, Progress, decode
 from tutor.judge.verdict import Status
-from tutor.process.supervisor import descendants, processes
+from tutor.process.process_table import descendants, processes
 
 LIMIT_S = 60
 SOLUTION = Path(__file__).parents[2] / "lessons" / "i1_1" / "solution"

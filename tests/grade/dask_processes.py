@@ -12,7 +12,7 @@ from pathlib import Path
 
 from tutor.interpreter import FLAGS
 from tutor.process.orphans import command_line
-from tutor.process.supervisor import descendants
+from tutor.process.process_table import descendants
 
 _WORKER = "from distributed.cli.dask_worker import main; main()"
 _START_S = 300.0

@@ -12,7 +12,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from tutor.process.supervisor import descendants, processes
+from tutor.process.process_table import descendants, processes
 
 ROOT = Path(__file__).parents[2]
 GONE_S = 30.0

@@ -30,7 +30,7 @@ from tutor.interpreter import module_command
 from tutor.judge.result import CriterionResult, ExerciseResult
 from tutor.judge.verdict import Status, Verdict
 from tutor.process import prctl
-from tutor.process.supervisor import descendants
+from tutor.process.process_table import descendants
 
 LIMIT_S = 180.0
 POLL_S = 0.02

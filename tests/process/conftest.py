@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from tutor.process import LearnerProcess
-from tutor.process.supervisor import processes
+from tutor.process.process_table import processes
 
 ROOT = Path(__file__).parents[2]
 LIMIT_S = 20.0

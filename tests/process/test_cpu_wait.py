@@ -7,7 +7,7 @@ import pytest
 
 from tutor.process import CpuMeter, CpuTime, cpu_wait, own_cpu_time
 from tutor.process.cpu_wait import estimate_unblocked_s
-from tutor.process.supervisor import Process
+from tutor.process.process_table import Process
 
 BUSY = "while True: pass"
 

@@ -12,7 +12,7 @@ import pytest
 
 from tutor.errors import EndError
 from tutor.process import LearnerProcess
-from tutor.process.supervisor import descendants, processes
+from tutor.process.process_table import descendants, processes
 
 CHILD = "if os.fork() == 0:\n    note('child'); forever()\nnote('main'); forever()\n"
 STUBBORN = """

@@ -13,7 +13,7 @@ from tests.waiting import wait_for
 from tutor.errors import StartError
 from tutor.process import terminal_program
 from tutor.process.orphans import command_line
-from tutor.process.supervisor import processes
+from tutor.process.process_table import processes
 from tutor.process.terminal_program import TerminalProgram
 
 LIMIT_S = 20.0

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.waiting import wait_for
-from tutor.process.supervisor import processes
+from tutor.process.process_table import processes
 from tutor.session import engine_process
 from tutor.session.engine_process import EngineChild, EngineStarter
 

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from tests.waiting import wait_for
-from tutor.process.supervisor import processes
+from tutor.process.process_table import processes
 from tutor.session.engine_process import EngineChild
 
 DAEMONIZES_AND_KILLS_ITSELF = """

@@ -18,7 +18,7 @@ from tests.ros.ordinary_domain import ordinary_domain
 from tests.tui import fakes
 from tutor.content import load_course
 from tutor.judge.events import ExerciseJudged
-from tutor.process.supervisor import descendants, processes
+from tutor.process.process_table import descendants, processes
 from tutor.workspace import Progress, Workspace, start
 
 APP = "import sys; from tutor.cli import main; sys.exit(main())"

@@ -14,7 +14,7 @@ import pytest
 from tests.benchmarks.terminal import Terminal
 from tutor.content import load_course
 from tutor.errors import EditorError
-from tutor.process.supervisor import processes
+from tutor.process.process_table import processes
 from tutor.tui.outside_editor import editor_command
 from tutor.workspace import Workspace, start
 

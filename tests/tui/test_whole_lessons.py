@@ -14,7 +14,7 @@ from tests.tui.conftest import Learner, open_app
 from tutor.content import load_course
 from tutor.content.courses import Courses
 from tutor.process.orphans import command_line
-from tutor.process.supervisor import descendants
+from tutor.process.process_table import descendants
 from tutor.session import Session
 from tutor.tui.live.request_form import FieldRow
 from tutor.workspace import AppState, Workspace

@@ -8,7 +8,7 @@ import time
 from collections.abc import Iterable
 from dataclasses import astuple, dataclass, replace
 
-from tutor.process.supervisor import Process, processes
+from tutor.process.process_table import Process, processes
 
 TABLE_MAX_AGE_S = 0.1
 """Maximum age of the cached process table. Reading it takes milliseconds of CPU, and thirty runs may ask at once."""

@@ -177,7 +177,7 @@ def _show(command_line: bytes, environment: Mapping[bytes, bytes] | None = None)
 def _main() -> None:
     """Import the modules, and serve. Returns at the end of the server, of a supervisor, and of a program."""
     control, names, _ = sys.argv[1:]
-    del sys.path[0], sys.modules["preloaded"], sys.modules["supervisor"]
+    del sys.path[0], sys.modules["preloaded"], sys.modules["process_table"], sys.modules["supervisor"]
     preloaded = preload(names.split(","))
     if len(os.listdir("/proc/self/task")) > 1:
         return  # the other threads would be missing in what is forked

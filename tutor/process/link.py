@@ -11,8 +11,8 @@ from collections.abc import Callable
 from tutor.judge.trace import Exit
 from tutor.process import orphans, prctl
 from tutor.process.cpu_wait import recent_processes
+from tutor.process.process_table import Process, descendants, descendants_in, kill, namespace_pid
 from tutor.process.spawner import DIRECTLY, Spawner, SupervisorProcess
-from tutor.process.supervisor import Process, descendants, descendants_in, kill, namespace_pid
 from tutor.process.wake_time import NextWake, next_wake
 
 # How long the supervisor may take to end everything before we take over, and how long we may then take.

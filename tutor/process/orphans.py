@@ -8,7 +8,7 @@ import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from tutor.process.supervisor import Process, kill, processes
+from tutor.process.process_table import Process, kill, processes
 
 MARK = "ROS_TUTOR_RUN"
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from tests.bundled_ros.launching.case import IMPORTS, Case, launch_file
 from tests.fork_server import Forked, ForkServer, fork_server
-from tutor.process.supervisor import processes
+from tutor.process.process_table import processes
 
 RUN = """\
 import sys
