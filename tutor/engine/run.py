@@ -9,11 +9,12 @@ import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from tutor.engine import ending, source
+from tutor.engine.requests import Requests
 from tutor.engine.waits import POLL_S, CollectedFacts, Waits
 from tutor.errors import EngineError, UnknownType
 from tutor.judge.peers import GoalReplies, Handler
@@ -32,21 +33,17 @@ from tutor.judge.trace import (
 from tutor.judge.tracebacks import Frame
 from tutor.judge.waiting_for_nodes import RESENT_S
 from tutor.process import LearnerProcess, next_wake, own_cpu_time
-from tutor.ros import echo, graph, parameters
+from tutor.ros import echo, graph
 from tutor.ros.goal_sender import GoalSender
 from tutor.ros.goal_taker import GoalTaker
 from tutor.ros.held_service import HeldService
 from tutor.ros.intake import MAX_SAMPLES
-from tutor.ros.messages import to_plain
-from tutor.ros.observer import ANY_PUBLISHER, AnswerTooLarge, Observer
+from tutor.ros.observer import ANY_PUBLISHER, Observer
 from tutor.ros.talker import Talker
 from tutor.ros_model import Graph, Parameter, echo_qos
 
 ROS_ARGUMENTS = "--ros-args"
 """The launch system passes this to every node, whether it has any such arguments or not."""
-
-NO_TIMEOUT_S = 1e6
-"""Timeout of a request whose time limit `until` enforces."""
 
 
 class RosRun:
@@ -73,6 +70,7 @@ class RosRun:
         self._unbuilt = unbuilt
         self._graph: tuple[float, Graph] = (0.0, Graph())
         self._waits = Waits(process, observer, facts.changed, self._is_known)
+        self._requests = Requests(observer, self._waits)
         self.interrupted_at: float | None = None
         """When Ctrl+C was pressed, in seconds since the epoch."""
 
@@ -167,57 +165,17 @@ class RosRun:
         return await self._waits.for_exit(limit_s, meanwhile, all_sent, given_up)
 
     async def parameters(self, limit_s: float) -> tuple[Parameter, ...] | None:
-        # One task per node, so that one that never answers does not hide the others. Each makes up to three requests.
-        answers = await asyncio.gather(
-            *(
-                self._waits.for_response(
-                    partial(parameters.get_parameters, self._observer, [node], NO_TIMEOUT_S),
-                    2 * limit_s,
-                    None,
-                    resend_s=parameters.RESEND_S,
-                )
-                for node in self.graph.parameter_nodes
-            )
-        )
-        answered = [answer for answer in answers if answer is not None]
-        return tuple(parameter for answer in answered for parameter in answer) if answered else None
+        return await self._requests.parameters(self.graph.parameter_nodes, limit_s)
 
     async def set_parameters(
         self, node: str, values: Mapping[str, Any], *, atomic: bool = False, limit_s: float = 5.0
     ) -> SetAnswer:
-        asked = time.time()
-        answer = await self._waits.for_response(
-            partial(parameters.set_parameters, self._observer, node, values, atomic=atomic, limit_s=NO_TIMEOUT_S),
-            limit_s,
-            None,
-        )
-        return answer or SetAnswer(values, False, False, "", asked, time.time())
+        return await self._requests.set_parameters(node, values, atomic=atomic, limit_s=limit_s)
 
     async def call(
         self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float, resend_s: float = math.inf
     ) -> CallAnswer:
-        # A new client needs a moment to discover the server, which is no part of the service's response time.
-        asked = time.time()
-        if matched := await self._waits.for_response(
-            partial(self._observer.wait_for_server, service, type, NO_TIMEOUT_S), limit_s, False
-        ):
-            asked = time.time()
-        response = None
-        with contextlib.suppress(AnswerTooLarge):
-            if matched:
-                response = await self._waits.for_response(
-                    partial(self._observer.call, service, type, request, NO_TIMEOUT_S, resend_s=resend_s),
-                    limit_s,
-                    None,
-                    resend_s=resend_s,
-                )
-        return CallAnswer(
-            service=service,
-            request=dict(request),
-            response=None if response is None else to_plain(response),
-            asked_at=asked,
-            answered_at=time.time(),
-        )
+        return await self._requests.call(service, type, request, limit_s=limit_s, resend_s=resend_s)
 
     @asynccontextmanager
     async def publisher(self, topic: str, type: str) -> AsyncIterator[Talker]:

@@ -6,15 +6,14 @@ import json
 import os
 import shutil
 import tempfile
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
 
 from tutor import __version__
-from tutor.interfaces import compiling
+from tutor.interfaces import build_cache, compiling
 from tutor.interfaces.compiling import CompileError, Job, Python, compile_package, run_to_end
 from tutor.interfaces.definitions import MAX_BYTES
 from tutor.interfaces.package import (
@@ -29,15 +28,10 @@ from tutor.interfaces.problem import Problem
 from tutor.interfaces.toolchain import Toolchain, find_toolchain
 from tutor.ros import prefixes, workspace_interfaces
 from tutor.ros.environment import RosEnvironment, tutor_env
-from tutor.workspace.locking import lock
 from tutor.workspace.regular import read_regular
 
 _GENERATOR = Path(__file__).with_name("generating.py")
-_STAMP = ".complete"
-_LOCK_LIMIT_S = 120.0
 _GENERATE_LIMIT_S = 120.0
-_KEPT_S = 30 * 24 * 3600.0
-"""How long a build is kept after its last use."""
 
 Progress = Callable[[str, float], object]
 """Told the name of the package that is being built, and which fraction of it is done."""
@@ -119,10 +113,9 @@ def _build(
     own = {name: workspace.builds[name].prefix for name in package.dependencies if name in workspace.builds}
     used = tuple(path for path in own.values() if path is not None)
     digest = _digest(package, workspace, used) if len(used) == len(own) else ""
-    prefix = workspace_interfaces.cache_root() / "built" / f"{package.name}-{digest}"
-    if digest and (prefix / _STAMP).is_file():
-        with suppress(OSError):
-            os.utime(prefix / _STAMP)
+    prefix = build_cache.place(package.name, digest)
+    if digest and build_cache.is_complete(prefix):
+        build_cache.note_use(prefix)
         return Build(package, prefix)
     shares = workspace.shares()
     problems = tuple(problems_of(package, KnownTypes(package, shares, tuple(workspace.packages))))
@@ -135,15 +128,15 @@ def _build(
     if isinstance(tools, str):
         return Build(package, problems=(Problem(package.folder, None, tools),))
     prefix.parent.mkdir(parents=True, exist_ok=True)
-    with _locked(prefix):
-        if not (prefix / _STAMP).is_file():
+    with build_cache.locked(prefix):
+        if not build_cache.is_complete(prefix):
             progress(package.name, 0.0)
             try:
                 _make(package, workspace, environment, prefix, used, shares, tools, progress)
             except CompileError as error:
                 return Build(package, problems=(Problem(package.folder, None, f"it cannot be compiled: {error}"),))
             progress(package.name, 1.0)
-            _remove_unused(prefix.parent)
+            build_cache.remove_unused()
     return Build(package, prefix)
 
 
@@ -195,10 +188,7 @@ def _make(
         _write_index(package, made, dependencies)
         shutil.copy2(package.folder / "package.xml", share / "package.xml")
         made.chmod(0o755)
-        (made / _STAMP).touch()
-        if prefix.exists():
-            shutil.rmtree(prefix)
-        made.rename(prefix)
+        build_cache.put(made, prefix)
 
 
 def _generate(
@@ -293,23 +283,3 @@ def _link(root: Path, builds: Sequence[Build]) -> None:
             temporary.unlink(missing_ok=True)
             temporary.symlink_to(build.prefix)
             temporary.replace(link)
-
-
-@contextmanager
-def _locked(prefix: Path) -> Iterator[None]:
-    """Keep other processes from building the same; after `_LOCK_LIMIT_S`, build all the same."""
-    handle = os.open(prefix.with_name(f".{prefix.name}.lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
-    try:
-        lock(handle, _LOCK_LIMIT_S)
-        yield
-    finally:
-        os.close(handle)
-
-
-def _remove_unused(folder: Path) -> None:
-    """Remove builds that nothing has used for long, and locks of builds that are gone."""
-    for stamp in folder.glob(f"*/{_STAMP}"):
-        with suppress(OSError):
-            if time.time() - stamp.stat().st_mtime > _KEPT_S:
-                shutil.rmtree(stamp.parent, ignore_errors=True)
-                stamp.parent.with_name(f".{stamp.parent.name}.lock").unlink(missing_ok=True)

@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 import shlex
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -243,7 +242,7 @@ class Session:
     def partner_command(self, partner: Partner) -> NodeCommand:
         """Return how to run our partner node in the learner's own ROS domain. Raises what `node_command` raises."""
         if partner.file is not None:
-            ros, env = self._ros_and_env(None)
+            ros, env = self._ros_and_env()
             typed = f"python3 {partner.file.name}"
             return NodeCommand(partner.name, (str(ros.python), str(partner.file)), env, partner.file.parent, typed)
         return replace(self.ros2_command(["run", *partner.run]), file=partner.name)
@@ -252,36 +251,15 @@ class Session:
         """Return how to run `ros2` with these words in the learner's own domain. Raises what `node_command` raises."""
         from tutor.bundled_ros.ros2 import starting  # imported late, not to delay the first paint
 
-        ros, env = self._ros_and_env(None)
+        ros, env = self._ros_and_env()
         folder = self.workspace.root if self.workspace.exists else Path.home()
         typed = shlex.join(["ros2", *words])
         return NodeCommand("ros2", (*starting.ros2_command(ros, env), *words), env, folder, typed)
 
-    def _ros_and_env(self, package: Path | None) -> tuple[RosEnvironment, dict[str, str]]:
-        """Return the ROS that nodes run with, and their environment, which is that of the terminal page.
+    def _ros_and_env(self, package: Path | None = None) -> tuple[RosEnvironment, dict[str, str]]:
+        from tutor.session.terminal_environment import ros_and_env  # imported late, not to delay the first paint
 
-        `package` is the root of the learner's package. Raises OSError if shared memory is full.
-        """
-        from tutor import private_folders
-        from tutor.bundled_ros.ros2 import sourced
-        from tutor.interfaces import build_workspace
-        from tutor.ros import shared_memory
-        from tutor.ros.environment import detect, learner_env
-
-        ros = detect()
-        shared_memory.require_enough()
-        if self.workspace.exists:
-            with suppress(OSError):  # a node may need none of its types; what is not built is said elsewhere
-                build_workspace(self.workspace.root, ros)
-        log_dir = private_folders.logs()
-        env = learner_env(ros, domain_id=self.domain, log_dir=log_dir, package_root=package, isolated=False)
-        tools = self._terminal_tools()
-        sourced.write_programs(tools, ros, env)
-        sourced.add_programs(env, tools)
-        if ros.kind == "system":
-            sourced.add_built_packages(env, self.workspace.root)
-        sourced.add_workspace(env, self.workspace.root)
-        return ros, env
+        return ros_and_env(self.workspace, self.domain, self._terminal_tools(), package)
 
     def _terminal_tools(self) -> Path:
         """Return the folder for the programs of a sourced terminal. Raises OSError."""
