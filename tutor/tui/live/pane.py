@@ -21,11 +21,11 @@ from tutor.live.updates import CallOutcome, NodeParameters, PublishStatus, Reque
 from tutor.ros_model import Graph
 from tutor.tui import messages
 from tutor.tui.key_latency import reduce_key_latency
-from tutor.tui.live import formatting
 from tutor.tui.live.automatic_topics import AutomaticTopics
 from tutor.tui.live.graph_panel import GraphPanel
 from tutor.tui.live.parameters_panel import ParametersPanel
 from tutor.tui.live.publish_dialog import PublishScreen
+from tutor.tui.live.publishing import Publishing
 from tutor.tui.live.services_panel import ServicesPanel
 from tutor.tui.live.state import LiveState
 from tutor.tui.live.status import TABS, empty_text, near_miss_text, status_line, tab_labels
@@ -64,6 +64,7 @@ class LivePane(Vertical):
         self.state = LiveState()
         self._watcher = Watcher(self.state, self._forward, self._show_end)
         self._automatic = AutomaticTopics(self.state)
+        self._publishing = Publishing(self.state, id="live-publishing")
         self._worker: Worker[None] | None = None
         self._command: Callable[[], WatcherCommand] | None = None
         self._restart_with: Callable[[], WatcherCommand] | None = None
@@ -78,7 +79,7 @@ class LivePane(Vertical):
         yield SteadyStatic(id="live-empty")
         yield SteadyStatic(id="live-note", markup=False)
         yield SteadyStatic(id="live-miss", markup=False)
-        yield SteadyStatic(id="live-publishing", markup=False)
+        yield self._publishing
         with ContentSwitcher(initial="topics", id="live-panels"):
             yield TopicsPanel(self.state, id="topics")
             yield ParametersPanel(self.state, id="parameters")
@@ -161,7 +162,7 @@ class LivePane(Vertical):
                 self._automatic.unfollow_stale_topics(self.query_one(TopicsPanel))
                 self._automatic.follow_own_topics(self.query_one(TopicsPanel))
                 self._show_all()
-                await self._choose_lesson_service()
+                await self.query_one(ServicesPanel).choose_lesson_service()
             case NodeParameters():
                 self.query_one(ParametersPanel).show_list()
                 self._show_status()
@@ -174,7 +175,7 @@ class LivePane(Vertical):
                 if isinstance(self.app.screen, PublishScreen):
                     await self.app.screen.show_form(update)
             case PublishStatus():
-                self._show_publishing()
+                self._publishing.show()
             case WatcherError(text):
                 self.post_message(messages.ErrorOccurred(text))
             case _:
@@ -187,7 +188,7 @@ class LivePane(Vertical):
         self.query_one(ServicesPanel).show_list()
         self.query_one(ServicesPanel).show_history()
         self.query_one(GraphPanel).show_list()
-        self._show_publishing()
+        self._publishing.show()
         self._show_status()
 
     def _show_status(self) -> None:
@@ -212,8 +213,7 @@ class LivePane(Vertical):
     def publish(self) -> None:
         """Stop publishing at a rate, on the shown topic first; if nothing is being published, ask what to publish."""
         topic = self.query_one(TopicsPanel).chosen if self._composed else ""
-        active = [held.topic for held in self.state.published.values() if held.rate_hz and not held.over]
-        if active:
+        if active := self._publishing.active:
             self._watcher.send(StopPublishing(topic if topic in active else active[0]))
             return
 
@@ -224,11 +224,6 @@ class LivePane(Vertical):
                 panel.post_message(WatcherRequested(request))  # posted after the request to follow
 
         self.app.push_screen(PublishScreen(topic, self.state.type_of, self._watcher.send), answered)
-
-    def _show_publishing(self) -> None:
-        text = "\n".join(formatting.publishing(held) for held in self.state.published.values())
-        self.set_class(bool(text), "-publishing")
-        self.query_one("#live-publishing", Static).update(text)
 
     # --- selection ---
 
@@ -258,15 +253,7 @@ class LivePane(Vertical):
 
     def _choose_lesson_topics(self) -> None:
         self._automatic.follow_lesson_topics(self.query_one(TopicsPanel))
-        self.call_later(self._choose_lesson_service)
-
-    async def _choose_lesson_service(self) -> None:
-        panel = self.query_one(ServicesPanel)
-        if panel.chosen_by_learner or self.state.graph is None:
-            return
-        for service in self.state.graph.services:
-            if service.name in self.state.lesson_view.services[:1] and service != panel.chosen:
-                await panel.choose(service, focus=False)
+        self.call_later(self.query_one(ServicesPanel).choose_lesson_service)
 
     def focus_content(self) -> None:
         """Focus the widget that the arrow keys move in, as soon as there is one."""

@@ -69,6 +69,14 @@ class ServicesPanel(Vertical):
         """The list of services."""
         return self.query_one("#services-table", RowTable)
 
+    async def choose_lesson_service(self) -> None:
+        """Choose the first service of the lesson shown if it is there, unless the learner has chosen one."""
+        if self.chosen_by_learner or self.state.graph is None:
+            return
+        for service in self.state.graph.services:
+            if service.name in self.state.lesson_view.services[:1] and service != self.chosen:
+                await self.choose(service, focus=False)
+
     # --- display ---
 
     def show_list(self) -> None:

@@ -14,8 +14,8 @@ from textual.content import Content
 from textual.widget import Widget
 from textual.widgets import Static
 
-from tutor.session.paths import short_path
 from tutor.tui.messages import EditWanted
+from tutor.tui.widgets import code_head
 from tutor.tui.widgets.code_body import CodeBody
 from tutor.tui.widgets.code_view import CodeView
 from tutor.tui.widgets.edit_offer import EditOffer
@@ -27,14 +27,6 @@ if TYPE_CHECKING:
 
 OWN_FILE_VIEW = "mine"
 """The name of the view in which the learner edits their own file."""
-
-_READ_ONLY_VIEWS = (
-    ("skeleton", "k", "Skeleton"),
-    ("changes", "d", "Changes"),
-    ("solution", "v", "Solution"),
-    ("against", "V", "Compare"),
-)
-"""Name, key and label of each read-only view."""
 
 
 class CodePane(Vertical):
@@ -282,39 +274,13 @@ class CodePane(Vertical):
         """Update the two head lines: file names, whether all is saved, and the view that is shown."""
         if not self._paths:
             return
-        shown = self._paths[self._chosen]
-        parts: list[Content | str | tuple[str, str]] = []
-        for index, path in enumerate(self._paths):
-            mark = "● " if self.is_unsaved(path) else ""
-            if index == self._chosen:
-                parts += [Content.styled(mark + path.name, "bold $primary"), "  "]
-            else:
-                parts += [
-                    mark,
-                    Content.from_markup(f"[@click=screen.show_file({index})]$name[/]", name=path.name),
-                    "  ",
-                ]
-        if len(self._paths) > 1 and not self._typing and not self.guarded:
-            parts.append(("f: other file  ", "$quiet"))
-        if self.editor is not None:
-            parts.append(("not saved yet  ", "$warn") if self.editor.changed else ("✓ saved  ", "$good"))
-        parts.append((short_path(shown.parent), "$quiet"))
-        self.query_one("#code-head", Static).update(Content.assemble(*parts), layout=False)
-        self.query_one("#code-looks", Static).update(self._view_links(), layout=False)
-
-    @property
-    def _typing(self) -> bool:
-        return self.editor is not None and self.editor.has_focus
-
-    def _view_links(self) -> Content:
-        parts: list[Content | str | tuple[str, str]] = []
+        typing = self.editor is not None and self.editor.has_focus
+        keys = not typing and not self.guarded
+        unsaved = [path for path in self._paths if self.is_unsaved(path)]
+        files = code_head.file_line(self._paths, self._chosen, unsaved, in_editor=self.editor is not None, keys=keys)
         if self.view != OWN_FILE_VIEW:
-            parts += [(self._title, "bold"), "  ", Content.from_markup("[@click=back]Esc: your file[/]")]
-            return Content.assemble(*parts)
-        if self.editor is not None and not self._typing:
-            parts += [("e", "bold $accent"), (" edit  ", "$quiet")]
-        if self._typing or self.guarded:
-            parts.append(("Esc, then  ", "$quiet"))
-        for view, key, name in _READ_ONLY_VIEWS:
-            parts += [(key, "bold $accent"), " ", Content.from_markup(f"[@click=screen.do('{view}')]{name}[/]"), "  "]
-        return Content.assemble(*parts)
+            views = code_head.back_line(self._title)
+        else:
+            views = code_head.view_line(editable=self.editor is not None and not typing, keys=keys)
+        self.query_one("#code-head", Static).update(files, layout=False)
+        self.query_one("#code-looks", Static).update(views, layout=False)

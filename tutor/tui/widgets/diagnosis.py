@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Protocol
 
-from rich.cells import cell_len
 from textual.app import ComposeResult
 from textual.containers import Horizontal, VerticalScroll
 from textual.content import Content
@@ -14,10 +14,20 @@ from textual.widgets import Static
 from tutor.content import Counts, Lesson
 from tutor.judge.result import ExerciseResult
 from tutor.judge.verdict import Status, Verdict
-from tutor.report.plain import REMARKS_HEADING, one_line, remark_lines
 from tutor.session.findings import Finding, Findings
 from tutor.tui import wording
+from tutor.tui.widgets import diagnosis_heads
 from tutor.tui.widgets.wrapped import WrappedText
+
+
+class _Text(Protocol):
+    """Makes a text; `typing`: whether letters are typed where the focus is, so that it names other keys."""
+
+    def __call__(self, *, typing: bool) -> Content: ...
+
+
+def _nothing(*, typing: bool) -> Content:
+    return Content("")
 
 
 class Part(Horizontal):
@@ -99,10 +109,8 @@ class Diagnosis(VerticalScroll):
         self._evidence: tuple[str, ...] = ()
         self._unfolded = False
         self._typing = False
-        self._head = partial(Content)
-        """Rebuilds the head, which names other keys while letters are typed."""
-        self._news, self._remarked = partial(Content), partial(Content)
-        """Rebuild the news and the remarks, likewise."""
+        self._head, self._news, self._remarks = _nothing, _nothing, _nothing
+        """Rebuild these parts, which name other keys while letters are typed."""
         self._mistake = ""
 
     @property
@@ -127,119 +135,29 @@ class Diagnosis(VerticalScroll):
         """Show one criterion, its evidence folded; above it the check's outcome, if the criterion does not tell it."""
         self._unfolded = False
         self._fill(
-            partial(self._finding_head, finding, findings),
+            partial(diagnosis_heads.finding_head, finding, findings),
             finding.verdict,
-            news=partial(self._outcome, finding, findings, following),
+            news=partial(diagnosis_heads.outcome, finding, findings, following),
         )
-
-    def _outcome(self, finding: Finding, findings: Findings, following: Lesson | None) -> Content:
-        if (result := findings.result) is None or findings.checking:
-            return Content("")
-        if result.verdict is Status.PASSED:
-            passed = Content.styled(f"✓ {result.id.upper()} passed", "bold $good")
-            if following is None:
-                return passed
-            key = wording.key_hint("n", typing=self._typing)
-            where = f" for {wording.label(following)} {following.title}"
-            return Content.assemble(passed, "  press ", (key, "bold $accent"), where)
-        failed = [c.id for c in result.criteria if c.verdict.status is Status.FAILED and not c.bonus]
-        if not failed or finding.id in failed:
-            return Content("")
-        return Content.assemble((f"✗ Not met yet: {', '.join(failed)}", "bold $bad"))
-
-    def _finding_head(self, finding: Finding, findings: Findings) -> Content:
-        verdict = finding.verdict
-        if verdict is not None:
-            mark, colour = wording.MARKS[verdict.status], wording.STATUS_COLOURS[verdict.status]
-            # An error is the tutor's own, and learners know no mark for that: add the word.
-            status = " error" if verdict.status is Status.ERROR else ""
-        else:
-            mark, colour, status = "○", "$quiet", " being checked" if finding.checking else ""
-            if finding.before is not None and not finding.checking:
-                mark = wording.MARKS[Status.PASSED] if finding.before else "○"
-        name = Content.assemble(
-            (f"{mark}{status} ", f"bold {colour}"), (finding.id, "bold"), "  ", (finding.text, "$quiet")
-        )
-        details = "  bonus: never changes the verdict" if finding.bonus else ""
-        if verdict is None and finding.so_far:
-            details += f"\n\n{finding.doing}\n\nSo far, and not final: {one_line(finding.so_far)}"
-        if verdict is None and not finding.checking:
-            met = "Met" if finding.before else "Not met"
-            last_result = (
-                f"{met} at the last check, {wording.format_time(findings.before)}"
-                if findings.before
-                else "Not checked yet"
-            )
-            details += f"\n\n{last_result}. Press {'F9' if self._typing else 'c'} to check."
-        return Content.assemble(name, (details, "$quiet"))
 
     def show_passed(self, result: ExerciseResult, following: Lesson | None, done: Counts | None) -> None:
         """Show the good news and what comes next; `done`: what is passed now, if it is all of the course or more."""
         self._unfolded = False
-        self._fill(partial(self._passed_head, result, following, done), remarks=partial(self._remarks, result))
-
-    def _passed_head(self, result: ExerciseResult, following: Lesson | None, done: Counts | None) -> Content:
-        missed = [c.id for c in result.criteria if c.bonus and c.verdict.status is not Status.PASSED]
-        line = f"✓ {result.id.upper()} {result.title} passed"
-        bonus = f"Still open as a bonus: {', '.join(missed)}.\n" if missed else ""
-        go_on = ("", "", "")
-        if done is not None:
-            command, key, where = "checklist", "6", "the checklist"
-            if following is not None and not done.all_done:
-                go_on = ("next", "n", f"{wording.label(following)} {following.title}")
-        elif following is not None:
-            command, key, where = "next", "n", f"{wording.label(following)} {following.title}"
-        else:
-            command, key, where = "lessons", "l", "the list of lessons"
-        gap = "" if result.remarks else "\n"  # the remarks below need the room
-        return Content.assemble(
-            (line, "bold $good"),
-            "\n",
-            ("━" * cell_len(line), "$good"),
-            f"\n{gap}Well done: your node does all that was asked for.\n",
-            _describe_done(done),
-            bonus,
-            f"{gap}Next: press ",
-            self._bold(key),
-            " for ",
-            self._link(command, where),
-            ", ",
-            *((self._bold(go_on[1]), " for ", self._link(go_on[0], go_on[2]), ", ") if go_on[0] else ()),
-            ("V", "bold $accent"),
-            " to ",
-            Content.from_markup("[@click=screen.do('against')]compare your code with our solution[/]"),
-            ".",
-            ("" if result.remarks else "\nChoose a criterion to see what was measured.", "$quiet"),
+        self._fill(
+            partial(diagnosis_heads.passed_head, result, following, done),
+            remarks=partial(diagnosis_heads.remarks, result),
         )
-
-    def _bold(self, key: str) -> tuple[str, str]:
-        return wording.key_hint(key, typing=self._typing), "bold $accent"
-
-    def _link(self, command: str, where: str) -> Content:
-        return Content.from_markup(f"[@click=screen.do('{command}')]$where[/]", where=where)
-
-    def _remarks(self, result: ExerciseResult) -> Content:
-        if not result.remarks:
-            return Content("")
-        parts: list[Content | str | tuple[str, str]] = [(REMARKS_HEADING, "bold $warn"), "\n"]
-        for line in remark_lines(result):
-            parts += [("- ", "$warn"), line, "\n"]
-        return Content.assemble(*parts, self._explain_link("why"))
-
-    def _explain_link(self, what: str) -> Content:
-        key = wording.key_hint("x", typing=self._typing)
-        return Content.from_markup("[@click=screen.do('explain')]$key explains $what[/]", key=key, what=what)
 
     def _fill(
         self,
-        head: partial[Content],
+        head: _Text,
         verdict: Verdict | None = None,
         *,
-        news: partial[Content] | None = None,
-        remarks: partial[Content] | None = None,
+        news: _Text = _nothing,
+        remarks: _Text = _nothing,
     ) -> None:
         verdict = verdict or Verdict(Status.SKIPPED)
-        self._head, self._news, self._remarked = head, news or partial(Content), remarks or partial(Content)
+        self._head, self._news, self._remarks = head, news, remarks
         self._mistake = verdict.mistake
         self.query_one("#part-expected", Part).show(Content(verdict.expected))
         self.query_one("#part-observed", Part).show(Content(verdict.observed))
@@ -274,10 +192,12 @@ class Diagnosis(VerticalScroll):
 
     def _show_head(self) -> None:
         """Show all that names keys."""
-        self.query_one("#diagnosis-head", WrappedText).update(self._head())
-        self._show("#diagnosis-news", self._news())
-        self._show("#diagnosis-remarks", self._remarked())
-        more = self._explain_link("this mistake") if self._mistake else Content("")
+        self.query_one("#diagnosis-head", WrappedText).update(self._head(typing=self._typing))
+        self._show("#diagnosis-news", self._news(typing=self._typing))
+        self._show("#diagnosis-remarks", self._remarks(typing=self._typing))
+        more = Content("")
+        if self._mistake:
+            more = diagnosis_heads.explain_link("this mistake", typing=self._typing)
         self.query_one("#part-more", Part).show(more)
 
     def _show_evidence(self) -> None:
@@ -290,12 +210,6 @@ class Diagnosis(VerticalScroll):
         )
         text = Content("\n").join([link, *(Content(line) for line in self._evidence)]) if self._unfolded else link
         self.query_one("#part-evidence", Part).show(text if count else Content(""))
-
-
-def _describe_done(done: Counts | None) -> str:
-    if done is None:
-        return ""
-    return "Every exercise is passed now.\n" if done.all_done else "Every exercise of the course is passed now.\n"
 
 
 def _why(verdict: Verdict) -> Content:
