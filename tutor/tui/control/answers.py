@@ -11,13 +11,14 @@ from tutor.session.paths import short_path
 from tutor.tui import commands, messages, wording
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
+from tutor.tui.control.skeletons import Skeletons
 
 
 class Answers:
     """Asks what is wrong with the system, and where; and hands over another one."""
 
-    def __init__(self, host: HostScreen, files: Files) -> None:
-        self._host, self._files = host, files
+    def __init__(self, host: HostScreen, files: Files, skeletons: Skeletons) -> None:
+        self._host, self._files, self._skeletons = host, files, skeletons
         host.register(commands.ANSWER, self.ask, self._is_asked)
         host.register(commands.ANOTHER, self.offer_another, self._is_asked)
 
@@ -26,7 +27,7 @@ class Answers:
 
     def ask(self) -> None:
         """Ask what it is, and where, and write it into the report."""
-        if not self._files.offer_start_if_missing("answer"):
+        if not self._skeletons.offer_start_if_missing("answer"):
             self._host.start_worker(self._ask, self._host.model.lesson, group="answer", exclusive=True)
 
     async def _ask(self, lesson: Lesson) -> None:
@@ -50,7 +51,7 @@ class Answers:
 
     def offer_another(self) -> None:
         """Hand over another fault, after asking for confirmation."""
-        if self._files.offer_start_if_missing("exchange"):
+        if self._skeletons.offer_start_if_missing("exchange"):
             return
         lesson = self._host.model.lesson
         text = "You get the system with another fault.\n\nYour files are moved to a folder that keeps them."

@@ -18,6 +18,7 @@ from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
+from tutor.tui.control.skeletons import Skeletons
 from tutor.workspace import Digests, LastCheck, digests_of, has_changed
 
 CRASHED = (
@@ -33,11 +34,13 @@ class Checks:
         self,
         host: HostScreen,
         files: Files,
+        skeletons: Skeletons,
         records: Records,
         preferences: Preferences,
         show: Callable[[Findings], object],
     ) -> None:
-        self._host, self._files, self._records, self._preferences, self._show = host, files, records, preferences, show
+        self._host, self._files, self._skeletons, self._records = host, files, skeletons, records
+        self._preferences, self._show = preferences, show
         self.running: CheckProcess | None = None
         self._engines = EngineStarter(host.model.session.engine_command)
         self._judged: dict[str, Digests] = {}
@@ -52,7 +55,7 @@ class Checks:
 
     def check(self) -> None:
         """Save the files and check the current lesson."""
-        if not self._files.offer_start_if_missing("check"):
+        if not self._skeletons.offer_start_if_missing("check"):
             self._begin(self._host.model.lesson)
             if self._host.has_class("-folded"):
                 self._host.show_page("criteria")

@@ -1,20 +1,17 @@
-"""Shows, edits, saves and watches the learner's files; if editor and disk differ, neither version is ever lost."""
+"""Reads, saves and watches the learner's files; if editor and disk differ, neither version is ever lost."""
 
 from __future__ import annotations
 
 import asyncio
-import signal
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from textual.timer import Timer
 
 from tutor.content import Lesson
-from tutor.errors import StorageError, WorkspaceError
-from tutor.session.paths import short_path
-from tutor.tui import commands, messages, wording
+from tutor.errors import StorageError
+from tutor.tui import commands, messages
 from tutor.tui.control.host import HostScreen
-from tutor.tui.control.records import Records
 from tutor.tui.file_watching import watch_files
 from tutor.tui.widgets.code_pane import CodePane
 from tutor.workspace import back_up_file, digest_of_file, digest_of_text, overwrite_file, read_source
@@ -26,8 +23,8 @@ AUTOSAVE_DELAY_S = 0.6
 class Files:
     """Keeps the editors and the disk in sync. Every read and every write happens under one lock."""
 
-    def __init__(self, host: HostScreen, pane: CodePane, records: Records) -> None:
-        self._host, self._pane, self._records = host, pane, records
+    def __init__(self, host: HostScreen, pane: CodePane) -> None:
+        self._host, self._pane = host, pane
         self._disk: dict[Path, str] = {}
         """The text of each file on disk, as last read or written by the app."""
         self._digests: dict[Path, str] = {}
@@ -35,14 +32,7 @@ class Files:
         self._lock = asyncio.Lock()
         self._autosave: Timer | None = None
         self._closed = False
-        host.register(commands.START, self.start)
-        host.register(commands.EDIT, self.edit)
         host.register(commands.SAVE, self.save)
-        host.register(commands.FIND, self.find, lambda: host.model.path in self._disk)
-        host.register(commands.FIND_NEXT, lambda: self.find(again=True), lambda: host.model.path in self._disk)
-        host.register(commands.OWN_EDITOR, self.open_outside)
-        host.register(commands.NEXT_FILE, self.next_file, lambda: len(host.model.lesson.files) > 1)
-        host.register(commands.RESET, self.reset)
 
     # --- which file ---
 
@@ -51,32 +41,19 @@ class Files:
         model = self._host.model
         model.file_index = index
         self._pane.show_names(model.paths, index)
-        self._watch()
+        self.watch()
 
-    def _watch(self) -> None:
+    def watch(self) -> None:
+        """Watch the lesson's files on disk; the first look reads them."""
+
         def on_change(path: Path) -> None:
             self._host.post_message(messages.FileTouched(path))
 
         self._host.start_worker(watch_files, self._host.model.paths, on_change, group="file", exclusive=True)
 
-    def next_file(self) -> None:
-        """Show the lesson's other file."""
-        model = self._host.model
-        self.show((model.file_index + 1) % len(model.lesson.files))
-        self._host.show_page("code")
-        self._pane.release()
-
-    def go_to(self, message: messages.GoToLine) -> None:
-        """Open the file of the message, and put the cursor on its line."""
-        paths = self._host.model.paths
-        if message.path in paths:
-            self.show(paths.index(message.path))
-            self._host.show_page("code")
-            self._host.start_worker(self._go_to, message, group="show-line", exclusive=True)
-
-    async def _go_to(self, message: messages.GoToLine) -> None:
-        await self.refresh(message.path)
-        self._pane.go_to(message.path, message.line)
+    def is_on_disk(self, path: Path) -> bool:
+        """Whether a file was on disk when it was last read or written."""
+        return path in self._disk
 
     # --- the disk has changed ---
 
@@ -236,114 +213,6 @@ class Files:
         if self._autosave is not None:
             self._autosave.stop()
 
-    # --- start, edit, reset ---
-
-    def offer_start_if_missing(self, what: str) -> bool:
-        """Return whether some of the lesson's files are missing, in which case offer to put the skeletons there."""
-        model = self._host.model
-        if not (missing := model.session.missing(model.lesson)):
-            return False
-        text = (
-            f"{_listed(missing)} not in your workspace yet, so there is nothing to {what}.\n\nPut the skeleton there?"
-        )
-        self._host.ask(f"Start {wording.label(model.lesson)}", text, "Start", self.start)
-        return True
-
-    def start(self) -> None:
-        """Put the lesson's skeletons into the workspace."""
-        self._host.start_worker(self._start, self._host.model.lesson, group="start", exclusive=True)
-
-    async def _start(self, lesson: Lesson) -> None:
-        try:
-            placed = await asyncio.to_thread(self._host.model.session.start, lesson)
-        except (WorkspaceError, StorageError) as error:
-            self._host.show_error(str(error))
-            return
-        self._host.post_message(messages.Started(lesson.id, tuple(path.name for path in placed.written)))
-        self._records.read()
-
-    def started(self, message: messages.Started) -> None:
-        """Show the code, now that the skeletons are in the workspace."""
-        if message.exercise != self._host.model.lesson.id:
-            return
-        self._watch()  # from now on: its first look reads the files
-        self._host.show_page("code")
-        if message.written:
-            self._host.say(f"{_listed(message.written)} in your workspace: e to edit, F9 to check.")
-        else:
-            self._host.say("Your files are there already; nothing was changed.")
-
-    def edit(self, text: str = "") -> None:
-        """Focus the editor, and type this text there."""
-        if self.offer_start_if_missing("edit"):
-            return
-        path = self._host.model.path
-        if self._pane.has_editor(path):
-            self._focus_editor(text)
-        else:  # requested before the file has been read
-            self._host.start_worker(self._focus_editor_when_read, path, text, group="show-line", exclusive=True)
-
-    def find(self, *, again: bool = False) -> None:
-        """Open the search in the file shown, or (`again`) find the next match."""
-        if self._host.page != "code":
-            self._host.show_page("code")
-        self._pane.find(again=again)
-
-    async def _focus_editor_when_read(self, path: Path, text: str) -> None:
-        await self.refresh(path)
-        if path == self._host.model.path:
-            self._focus_editor(text)
-
-    def _focus_editor(self, text: str) -> None:
-        self._pane.edit()
-        self._host.show_page("code")
-        self._pane.focus_content(typing=True)
-        if text and (editor := self._pane.editor) is not None:
-            editor.insert(text)
-
-    async def open_outside(self) -> None:
-        """Hand the terminal to the learner's own editor."""
-        from tutor.tui.outside_editor import edit_outside
-
-        if self.offer_start_if_missing("edit"):
-            return
-        await self.save_all()
-        model = self._host.model
-        # Ctrl+C in the editor reaches us, too. A no-op handler, unlike SIG_IGN, is not inherited by the editor.
-        before = signal.signal(signal.SIGINT, lambda *_: None)
-        try:
-            problem = await edit_outside(self._host.app, model.path)
-        finally:
-            signal.signal(signal.SIGINT, before)
-        if problem:
-            self._host.show_error(problem)
-        self._host.show_page("code")
-        self._pane.release()
-        self._host.refresh(layout=True)
-
-    def reset(self) -> None:
-        """Put the skeleton back, after asking for confirmation."""
-        if self.offer_start_if_missing("reset"):
-            return
-        name = self._host.model.file.name
-        text = f"{name} becomes the skeleton again.\n\nYour version is kept beside it as a backup."
-        self._host.ask(f"Reset {name}", text, "Reset", self._reset)
-
-    def _reset(self) -> None:
-        self._host.start_worker(self._reset_now, group="start", exclusive=True)
-
-    async def _reset_now(self) -> None:
-        model = self._host.model
-        lesson, file = model.lesson, model.file
-        try:
-            placed = await self.let_change((model.path,), model.session.reset, lesson, file)
-        except (WorkspaceError, StorageError) as error:
-            self._host.show_error(str(error))
-            return
-        if placed is not None:
-            where = f" Yours is kept as {short_path(placed.backups[0])}." if placed.backups else ""
-            self._host.say(f"{file.name} is the skeleton again.{where}", warn=True)
-
     async def let_change[**P, T](
         self, paths: Sequence[Path], change: Callable[P, T], *args: P.args, **options: P.kwargs
     ) -> T | None:
@@ -365,10 +234,3 @@ class Files:
                     if shown or self._pane.has_editor(path):
                         await self._pane.show_source(path, text, visible=shown)
         return changed
-
-
-def _listed(names: Sequence[str]) -> str:
-    """The names of files, with the verb: "a.py is", "a.py and b.py are", "a.py and 6 more files are"."""
-    if len(names) > 2:
-        return f"{names[0]} and {len(names) - 1} more files are"
-    return f"{' and '.join(names)} {'is' if len(names) == 1 else 'are'}"

@@ -1,4 +1,4 @@
-"""Runs, stops and restarts the learner's nodes, and our partner nodes, independently of each other; their log."""
+"""Runs, stops and restarts the learner's nodes, and our partner nodes, independently of each other."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tutor.tui import commands, messages
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.preferences import Preferences
-from tutor.tui.widgets.log_pane import LogPane
+from tutor.tui.control.skeletons import Skeletons
 from tutor.workspace import RunOptions
 
 
@@ -23,8 +23,8 @@ class Nodes:
     Only the nodes of one lesson run at a time: those of two lessons would interfere on the same topics.
     """
 
-    def __init__(self, host: HostScreen, files: Files, preferences: Preferences) -> None:
-        self._host, self._files, self._preferences = host, files, preferences
+    def __init__(self, host: HostScreen, files: Files, skeletons: Skeletons, preferences: Preferences) -> None:
+        self._host, self._files, self._skeletons, self._preferences = host, files, skeletons, preferences
         self.by_path: dict[Path, Node] = {}
         """The latest node of each file, running or not; partner nodes by their `partner_key`."""
         self._chosen: tuple[Path, Path] | None = None
@@ -107,7 +107,7 @@ class Nodes:
     def run(self) -> None:
         """Run the file shown, or the lesson's first one if that is no program."""
         model = self._host.model
-        if self._files.offer_start_if_missing("run"):
+        if self._skeletons.offer_start_if_missing("run"):
             return
         if not model.program_path.exists():
             self._host.show_error(f"{model.program.name} is not in your workspace yet.")
@@ -249,27 +249,3 @@ class Nodes:
 def partner_key(partner: Partner) -> Path:
     """Return the key of a partner node in `Nodes.by_path`, where learners' nodes are keyed by file."""
     return partner.file or Path(*partner.run)
-
-
-class Logs:
-    """Acts on the log page while it is shown or focused; go_to_error works from any page."""
-
-    def __init__(self, host: HostScreen, pane: LogPane) -> None:
-        self._host, self._pane = host, pane
-
-        def usable() -> bool:
-            return pane.has_class("-filled") and (host.page == "log" or pane.has_focus_within)
-
-        host.register(commands.LEVEL, pane.next_level, usable)
-        host.register(commands.FILTER, pane.filter, usable)
-        host.register(commands.PAUSE, pane.pause, usable)
-        host.register(commands.CLEAR, pane.clear, usable)
-        host.register(commands.GO_TO_ERROR, self.go_to_error, lambda: pane.has_class("-filled"))
-
-    def go_to_error(self) -> None:
-        """Put the cursor on the line of the learner's code that the last traceback names."""
-        location = self._pane.error_location
-        if location is None:
-            self._host.say("No error in the log points into your code.")
-        else:
-            self._host.post_message(messages.GoToLine(*location))

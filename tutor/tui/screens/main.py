@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import ClassVar
 
@@ -15,23 +14,26 @@ from textual.containers import Container, Horizontal, Vertical
 from textual.widget import Widget
 from textual.widgets import ContentSwitcher, ListView, Tab, Tabs, TextArea
 
-from tutor.content import Counts, Lesson
+from tutor.content import Lesson
 from tutor.session import Session
-from tutor.session.findings import Findings
-from tutor.session.node import Phase
 from tutor.tui import commands, messages
 from tutor.tui.control.answers import Answers
 from tutor.tui.control.checklist import ChecklistController
 from tutor.tui.control.checks import Checks
+from tutor.tui.control.editing import Editing
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
 from tutor.tui.control.interfaces import Interfaces
-from tutor.tui.control.nodes import Logs, Nodes
+from tutor.tui.control.lessons import Lessons
+from tutor.tui.control.logs import Logs
+from tutor.tui.control.nodes import Nodes
 from tutor.tui.control.pages import LessonCommands, Pages
 from tutor.tui.control.predictions import Predictions
 from tutor.tui.control.preferences import Preferences
 from tutor.tui.control.records import Records
 from tutor.tui.control.reports import Reports
+from tutor.tui.control.skeletons import Skeletons
+from tutor.tui.control.standing import Standing
 from tutor.tui.control.views import Views
 from tutor.tui.model import AppModel
 from tutor.tui.palette import Actions, LessonText
@@ -58,30 +60,31 @@ class MainScreen(HostScreen):
     def __init__(self, session: Session, state: AppState) -> None:
         super().__init__()
         self.model = AppModel.of(session, state)
-        code, log = CodePane(id="code"), LogPane(id="log")
-        self._code, self._log = code, log
+        self._code, self._log = code, log = CodePane(id="code"), LogPane(id="log")
         self.preferences = Preferences(self)
         self.pages = Pages(self, self.preferences, lambda: bool(self.nodes.running))
         self.records = Records(self)
-        self.files = Files(self, code, self.records)
+        self.files = Files(self, code)
+        self.skeletons = Skeletons(self, self.files, self.records)
+        self.editing = Editing(self, code, self.files, self.skeletons)
         Views(self, code, self.files, self.records)
-        Answers(self, self.files)
-        self.nodes = Nodes(self, self.files, self.preferences)
-        self.checks = Checks(self, self.files, self.records, self.preferences, self._show_findings)
+        Answers(self, self.files, self.skeletons)
+        self.nodes = Nodes(self, self.files, self.skeletons, self.preferences)
+        self.reports = Reports(self, self.pages, self.preferences)
+        self.standing = Standing(self, self.reports)
+        show = self.standing.show_findings
+        self.checks = Checks(self, self.files, self.skeletons, self.records, self.preferences, show)
+        self.lessons = Lessons(self, self.pages, self.files, self.preferences, self.standing)
         self.checklist = ChecklistController(self, self.records)
         self.interfaces = Interfaces(self, self.pages.restart_live)
         Predictions(self, self.records)
-        self.reports = Reports(self, self.pages, self.preferences)
-        Logs(self, log)
+        self.logs = Logs(self, log, self.nodes, self.pages)
         self.lesson_commands = LessonCommands(self, self.pages)
-        self.register(commands.NEXT, partial(self._step, 1))
-        self.register(commands.PREVIOUS, partial(self._step, -1))
         self.register(commands.THEME, self._switch_theme)
         self.register(commands.HELP, self._show_help)
         self.register(commands.QUIT, lambda: self.app.run_action("quit"))
         self._framed_panels: tuple[Widget, ...] = ()
         self._was_shown = False
-        self._phases: list[tuple[str, Phase]] = []
 
     def compose(self) -> ComposeResult:
         self.pages.choose_layout(*self.app.size)  # before the widgets are styled for the first time
@@ -135,51 +138,10 @@ class MainScreen(HostScreen):
     # --- lessons ---
 
     async def go_to(self, lesson: Lesson, page: str = "lesson") -> None:
-        """Go to a lesson, and show the given page of it."""
-        model, lessons = self.model, self.model.session.lessons
-        model.lesson = lesson
-        self.preferences.update(lesson=lesson.id)
-        self.query_one(StatusBar).show_lesson(lesson)
-        self.query_one(LessonList).show_lesson(lesson)
-        self.remove_class("-drawer")
-        self.files.show(0)
-        self.show_page(page)
-        if (live := self.pages.live) is not None:
-            live.set_lesson(lesson)
-        place = lessons.index(lesson) + 1
-        criteria = self.query_one(CriteriaPanel)
-        self._count_passed()
-        await criteria.show_lesson(model.findings[lesson.id], lessons[place] if place < len(lessons) else None)
-        criteria.show_attempts(lesson, model.progress.of(lesson.id))
-        await self.query_one(LessonView).show_lesson(lesson)
-        self.reports.findings_changed()
-        self.refresh_bindings()
-
-    def _count_passed(self) -> None:
-        model = self.model
-        lessons = model.session.lessons
-        passed = {lesson.id for lesson in lessons if model.progress.of(lesson.id).is_passed}
-        with_this = Counts.of(lessons, passed | {model.lesson.id})
-        # After the last pass the panel points to the checklist, if the course has one.
-        panel = self.query_one(CriteriaPanel)
-        panel.after_pass = None
-        if self.can(commands.CHECKLIST) and (with_this.all_done or (with_this.course_done and not model.lesson.beyond)):
-            panel.after_pass = with_this
-        self.query_one(StatusBar).show_progress(Counts.of(lessons, passed))
+        await self.lessons.go_to(lesson, page)
 
     async def go_to_line(self, lesson: Lesson, line: int) -> None:
-        """Go to a line (from 0) of a lesson's text."""
-        await self.go_to(lesson)
-        view = self.query_one(LessonView)
-        view.call_after_refresh(view.go_to_line, line)
-
-    async def _step(self, by: int) -> None:
-        lessons = self.model.session.lessons
-        place = lessons.index(self.model.lesson) + by
-        if 0 <= place < len(lessons):
-            await self.go_to(lessons[place])
-        else:
-            self.say("This is the last lesson." if by > 0 else "This is the first lesson.")
+        await self.lessons.go_to_line(lesson, line)
 
     @on(ListView.Selected, "#lessons")
     async def _lesson_chosen(self, event: ListView.Selected) -> None:
@@ -235,21 +197,13 @@ class MainScreen(HostScreen):
 
     @on(messages.ProgressRead)
     def _progress_read(self, message: messages.ProgressRead) -> None:
-        model = self.model
-        model.progress, model.versions = message.progress, message.versions
-        for lesson in model.session.lessons:
-            model.findings[lesson.id] = model.findings[lesson.id].with_last_check(message.progress.of(lesson.id))
-        self.query_one(CriteriaPanel).show_findings(model.findings[model.lesson.id])
-        self._count_passed()
-        self.query_one(LessonList).show_states(model.session.states(message.progress))
+        self.standing.progress_read(message)
         self.checklist.show()
-        self.query_one(CriteriaPanel).show_attempts(model.lesson, message.progress.of(model.lesson.id))
 
     @on(messages.LastChecksRead)
     def _last_checks_read(self, message: messages.LastChecksRead) -> None:
         self.checks.restore(message.last)
-        self.query_one(CriteriaPanel).show_findings(self.model.findings[self.model.lesson.id])
-        self.reports.findings_changed()
+        self.standing.show_findings_of_lesson()
 
     @on(messages.AttemptRecorded)
     def _attempt_recorded(self, message: messages.AttemptRecorded) -> None:
@@ -257,7 +211,7 @@ class MainScreen(HostScreen):
 
     @on(messages.Started)
     def _started(self, message: messages.Started) -> None:
-        self.files.started(message)
+        self.skeletons.started(message)
 
     @on(messages.RunCommand)
     def _run_command(self, message: messages.RunCommand) -> None:
@@ -278,7 +232,7 @@ class MainScreen(HostScreen):
 
     @on(messages.GoToLine)
     def _go_to_line(self, message: messages.GoToLine) -> None:
-        self.files.go_to(message)
+        self.editing.go_to(message)
 
     @on(TextArea.Changed, "CodeEditor")
     def _typed(self) -> None:
@@ -292,7 +246,7 @@ class MainScreen(HostScreen):
 
     @on(messages.EditWanted)
     def _edit_wanted(self, message: messages.EditWanted) -> None:
-        self.files.edit(message.text)
+        self.editing.edit(message.text)
 
     @on(CodeBody.GuardChanged)
     def _guard_changed(self) -> None:
@@ -307,22 +261,7 @@ class MainScreen(HostScreen):
 
     @on(messages.NodeChanged)
     def _node_changed(self, message: messages.NodeChanged) -> None:
-        # Do not take the focus from a learner who is typing.
-        if message.restarted and not isinstance(self.focused, CodeEditor):
-            self.show_page("log")
-        if message.path == self.nodes.shown:
-            key = self.nodes.stop_key(message.path)
-            self._log.show(message.state, self.model.session.domain, self.model.paths, key)
-        self.pages.arrange_side_by_side()
-        self._log.show_nodes({path: self.nodes.by_path[path].state for path in self.nodes.listed}, self.nodes.shown)
-        states = [node.state for node in self.nodes.by_path.values()]
-        self.query_one(StatusBar).show_nodes(states, self.model.session.domain)
-        if (live := self.pages.live) is not None:
-            live.set_own_nodes_running(bool(self.nodes.running))
-        if (phases := [(state.file, state.phase) for state in states]) != self._phases:
-            # Only on a new phase: refreshing recomposes the footer, which would flicker with each log line.
-            self._phases = phases
-            self.refresh_bindings()
+        self.logs.node_changed(message)
 
     @on(messages.NodeChosen)
     def _node_chosen(self, message: messages.NodeChosen) -> None:
@@ -331,13 +270,6 @@ class MainScreen(HostScreen):
     @on(messages.ErrorOccurred)
     def _error_occurred(self, message: messages.ErrorOccurred) -> None:
         self.say(message.text, warn=True)
-
-    def _show_findings(self, found: Findings) -> None:
-        if found.exercise == self.model.lesson.id:
-            self.query_one(CriteriaPanel).show_findings(found)
-            self.reports.findings_changed()
-        self.query_one(StatusBar).show_check(found)
-        self.query_one(Tabs).query_one("#tab-criteria").set_class(found.checking, "-busy")
 
     def preferences_changed(self) -> None:
         state = self.model.state
