@@ -6,13 +6,14 @@ from textual import events
 from textual.app import ComposeResult
 from textual.containers import VerticalScroll
 from textual.content import Content
-from textual.widgets import Label, Markdown, Static
-from textual.widgets.markdown import MarkdownBlock, MarkdownFence
+from textual.widgets import Markdown, Static
+from textual.widgets.markdown import MarkdownBlock
 
 from tutor.content import Lesson
 from tutor.judge.wording import counted
 from tutor.tui import commands, messages, wording
 from tutor.tui.lesson_commands import LANGUAGES, command_at
+from tutor.tui.widgets.lesson_fence import LessonFence, LessonMarkdown
 
 
 class LessonView(VerticalScroll):
@@ -26,11 +27,11 @@ class LessonView(VerticalScroll):
         & > #lesson-head { height: auto; }
         & > Markdown {
             background: transparent;
-            padding: 0 2 0 0;
+            padding: 0 1 0 0;
             max-width: 100;
             MarkdownH2 { color: $primary; text-style: bold; margin: 1 0 1 0; }
             MarkdownH3 { color: $secondary; text-style: bold; margin: 1 0 1 0; }
-            MarkdownFence { background: $background; margin: 0 0 1 0; padding: 0 1; }
+            LessonFence { background: $background; margin: 0 0 1 0; padding: 0; }
             MarkdownBlockQuote { background: $panel; border-left: outer $accent; margin: 0 0 1 0; padding: 0 1; }
             MarkdownBlock.-found { background: $block-cursor-background; }
             MarkdownBullet { color: $accent; }
@@ -40,7 +41,7 @@ class LessonView(VerticalScroll):
 
     def compose(self) -> ComposeResult:
         yield Static(id="lesson-head")
-        yield Markdown(id="lesson-body", open_links=False)
+        yield LessonMarkdown(id="lesson-body", open_links=False)
 
     def watch_has_focus(self, _has_focus: bool) -> None:
         """Restyle only this widget, not its hundreds of children: the focus does not change how the text looks."""
@@ -63,11 +64,11 @@ class LessonView(VerticalScroll):
     def on_click(self, event: events.Click) -> None:
         """Run a clicked command of an example in the terminal."""
         above = self.screen.get_widget_at(*event.screen_offset)[0].ancestors_with_self
-        fence = next((widget for widget in above if isinstance(widget, MarkdownFence)), None)
+        fence = next((widget for widget in above if isinstance(widget, LessonFence)), None)
         if fence is None or fence.lexer.partition(" ")[0] not in LANGUAGES:
             return
-        text = fence.query_one("#code-content", Label).content_region
-        if text.contains_point(event.screen_offset) and (command := command_at(fence.code, event.screen_y - text.y)):
+        line = fence.line_at(*event.screen_offset)
+        if line is not None and (command := command_at(fence.code, line)):
             event.stop()
             self.post_message(messages.RunCommand(command))
 

@@ -33,6 +33,12 @@ class WrappedText(Static):
         """The text before it is wrapped."""
         return self.content if isinstance(self.content, Content) else Content(str(self.content))
 
+    @property
+    def heights(self) -> list[int]:
+        """How many rows each line of the text has, at the widget's width."""
+        width = self.content_size.width
+        return [len(list(wrap(line, width, self._hang))) for line in self.text.split("\n", allow_blank=True)]
+
     def render(self) -> Content:
         """Return the text, wrapped to the widget's width."""
         return Content("\n").join(row for row, _ in self._rows(self.content_size.width))
