@@ -212,6 +212,24 @@ def test_run_passes_on_the_nodes_own_arguments(
     assert where == (home / FILE).parent
 
 
+def test_run_starts_the_partner_that_goes_with_a_file(
+    run: Run, home: Path, execve_calls: list[tuple[list[str], dict[str, str], Path]]
+) -> None:
+    for words in (["b1.1"], ["i1.3"], ["i1.3", "calculator_client"], ["i1.2"]):
+        with pytest.raises(ExecveCalled):
+            run("run", *words, "--partner", "--", "--ros-args", "-r", "a:=b")
+    assert [argv[1:][-4] for argv, _, _ in execve_calls][:3] == [
+        str(load_course().find("b1.1").folder / "partner" / "warehouse.py"),
+        str(load_course().find("i1.3").folder / "solution" / "calculator_client.py"),
+        str(load_course().find("i1.3").folder / "solution" / "calculator_server.py"),
+    ]
+    assert execve_calls[3][0][-6:-3] == ["run", "demo_nodes_py", "talker"]
+    assert execve_calls[0][1]["ROS_DOMAIN_ID"] == str(domain_of(Workspace(home / "ros_tutor_ws")))
+    refused = run("run", "i1.1", "--partner")
+    assert refused.code == 2
+    assert refused.err == "ros-tutor: i1.1 has no partner: no node of ours goes with temperature_publisher.py\n"
+
+
 def test_run_takes_any_file_of_the_exercise(
     run: Run, home: Path, execve_calls: list[tuple[list[str], dict[str, str], Path]]
 ) -> None:

@@ -31,6 +31,22 @@ def test_a_paragraph_becomes_one_line_without_markup() -> None:
     ]
 
 
+def test_each_row_of_a_table_is_spoken_with_the_names_of_its_columns() -> None:
+    text = (
+        "## A\n\nBefore:\n\n| policy | offered | fits? |\n|---|:--|---|\n| `depth` | a\\|b | **no** |\n| two |\nEnd.\n"
+    )
+    assert speech.sections(text) == [
+        Section(
+            "A",
+            (
+                *("Before:", "Table, 2 rows:"),
+                *("policy: depth; offered: a|b; fits? no", "policy: two"),
+                *("End of table.", "End."),
+            ),
+        )
+    ]
+
+
 def test_every_lesson_is_spoken_completely_and_without_markup() -> None:
     for lesson in load_course().lessons:
         found = speech.sections(lesson.body)
@@ -38,6 +54,7 @@ def test_every_lesson_is_spoken_completely_and_without_markup() -> None:
         spoken = " ".join(line for section in found for line in (section.title, *section.lines))
         assert not re.search(r"(?<!\w)\*\*|\*\*(?!\w)", spoken)  # 2**63 is not markup
         assert "```" not in spoken
+        assert "|---" not in spoken
         for word in set(re.findall(r"\w+", lesson.body)) - {"python", "bash", "console", "text", "xml", "yaml"}:
             assert word in spoken, (lesson.id, word)
 

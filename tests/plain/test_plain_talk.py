@@ -282,3 +282,34 @@ def test_a_silent_topic_is_reported(tmp_path: Path, env: dict[str, str]) -> None
         env={**env, "ROS_DOMAIN_ID": "90"},
     )
     assert "0 messages in 10 seconds on /nothing.\n" in result.stdout
+
+
+def test_the_given_system_runs_beside_the_talk(tmp_path: Path, env: dict[str, str]) -> None:
+    result = subprocess.run(
+        [sys.executable, "-c", PROGRAM, "--plain"],
+        input=as_input(
+            *("i1.1", "partner", "b1.1", "log partner", "stop partner", "read 5", "partner", "log partner", "partner"),
+            *("log", "stop partner", "help", "quit"),
+        ),
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+        env={**env, "ROS_DOMAIN_ID": "91"},
+    )
+    output = result.stdout
+    assert (result.returncode, result.stderr) == (0, "")
+    for line in (
+        "This lesson has no partner: no node of ours goes with temperature_publisher.py.",
+        "No partner has been run yet: say partner.",
+        "No partner is running.",
+        "Running in ROS domain 91: python3 warehouse.py",
+        "log partner reads what it writes, stop partner ends it.",
+        "The partner is already running: stop partner ends it.",
+        "No node has been run yet: say run.",
+        "Warehouse: stopped.",
+    ):
+        assert f"{line}\n" in output, line
+    assert re.search(r"\[warehouse\]: Published the map hall-\d", output)
+    assert re.search(r"Section 5 of \d+: In the app\.\nIts keys are the app's\. Here, run does what r does", output)
+    assert re.search(r"^partner \[NUMBER\]: run our node", output, re.MULTILINE)

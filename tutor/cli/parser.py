@@ -18,6 +18,7 @@ from tutor.cli import (
     grade,
     help_command,
     hint,
+    lesson,
     list_exercises,
     next_exercise,
     predict,
@@ -72,6 +73,7 @@ def build(*, mixing: bool = True) -> argparse.ArgumentParser:
         command.set_defaults(command=name, run=run)
 
     add("list", list_exercises.run, list_exercises.add_arguments, "show the exercises, with your progress")
+    add("lesson", lesson.run, lesson.add_arguments, "read an exercise: what to do, and how")
     add("start", start.run, start.add_arguments, "put the skeleton of an exercise into the workspace")
     add("next", next_exercise.run, next_exercise.add_arguments, "show the first exercise not passed, and what to do")
     add("check", check.run, check.add_arguments, "judge an exercise by what your node does")

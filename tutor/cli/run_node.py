@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from tutor.cli import context, terminal
 from tutor.cli.interfaces import build_interfaces
@@ -14,13 +14,19 @@ from tutor.invocation import command
 
 if TYPE_CHECKING:
     from tutor.content import Lesson, LessonFile
+    from tutor.session.node_command import NodeCommand
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add `EXERCISE [FILE] [-- ARGUMENT...]`."""
+    """Add `EXERCISE [FILE] [--partner] [-- ARGUMENT...]`."""
     parser.usage = "%(prog)s EXERCISE [FILE] [options] [-- ARGUMENT ...]"
     parser.add_argument("exercise", metavar="EXERCISE", help="for example i2.1; ends with Ctrl+C")
     parser.add_argument("file", metavar="FILE", nargs="?", help="which of its files (default: the first one)")
+    parser.add_argument(
+        "--partner",
+        action="store_true",
+        help="run our node that goes with yours instead: the given system, or what yours talks to",
+    )
     parser.epilog = (
         "Arguments after -- go to the node: -- --ros-args -p publish_rate:=2.0 (for a launch file: -- topic:=my_topic)"
     )
@@ -37,6 +43,16 @@ def run(arguments: argparse.Namespace) -> int:
     lesson = course.find(arguments.exercise)
     file = _choose_file(lesson, arguments.file)
     session = Session(course, context.require_workspace(arguments))
+    if arguments.partner:
+        partner = lesson.live.partner_of(file.name)
+        if partner is None:
+            raise UsageError(f"{lesson.id} has no partner: no node of ours goes with {file.name}")
+        try:
+            node = session.partner_command(partner)
+        except CommandError as error:
+            raise UsageError(str(error)) from error
+        terminal.say(f"{partner.name} in ROS domain {session.domain}: {partner.does}; Ctrl+C ends it")
+        _exec(node, arguments.rest)
     path = session.path(file)
     if not path.is_file():
         raise UsageError(f"{path} does not exist; `{command('start', lesson.id)}` puts the skeleton there")
@@ -46,9 +62,13 @@ def run(arguments: argparse.Namespace) -> int:
     except CommandError as error:
         raise UsageError(str(error)) from error
     terminal.say(f"{context.display_path(path)} in ROS domain {session.domain}; Ctrl+C ends it")
+    _exec(node, arguments.rest)
+
+
+def _exec(node: NodeCommand, rest: list[str]) -> NoReturn:
     sys.stdout.flush()
     os.chdir(node.cwd)
-    os.execve(node.argv[0], [*node.argv, *arguments.rest], node.env)
+    os.execve(node.argv[0], [*node.argv, *rest], node.env)
 
 
 def _choose_file(lesson: Lesson, name: str | None) -> LessonFile:

@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
         workspace.courses(terminal.say).add(courses)
         if started.created_workspace:
             terminal.out(f"Created your workspace: {workspace.root}\n")
-        check = command("check", lesson.id)
+        read, check = command("lesson", lesson.id), command("check", lesson.id)
     else:
         if course.knows(arguments.folder):
             raise UsageError(
@@ -55,9 +55,10 @@ def run(arguments: argparse.Namespace) -> int:
             )
         started = start_in(lesson, Path(arguments.folder), force=arguments.force)
         named = [word for given in getattr(arguments, "lessons", ()) for word in ("--lessons", given)]
-        check = command("check", lesson.id, arguments.folder, *named)
+        read, check = command("lesson", lesson.id, *named), command("check", lesson.id, arguments.folder, *named)
 
     lines = [f"{lesson.id} {lesson.title} ({lesson.difficulty.value}): {lesson.objective.strip()}"]
+    lines += [f"  to read        {read}"]
     lines += [f"  to edit        {context.display_path(path)}" for path in started.files.written]
     lines += [f"  already there  {context.display_path(path)}" for path in started.files.already_there]
     lines += [f"  kept           {context.display_path(path)}" for path in started.files.backups]

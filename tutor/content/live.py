@@ -29,6 +29,11 @@ class Partner:
     file: Path | None = None
     beside: str = ""
 
+    @property
+    def key(self) -> Path:
+        """What tells its runs from those of other partners and of learners' nodes, which are known by their file."""
+        return self.file or Path(*self.run)
+
 
 @dataclass(frozen=True, slots=True)
 class LiveView:

@@ -10,6 +10,12 @@ from tutor.plain import speech
 from tutor.plain.conversation import Conversation, DialogCommand
 from tutor.session.paths import short_path
 
+_ABOUT_THE_APP = "In the app"
+_HERE = (
+    "Its keys are the app's. Here, run does what r does there, partner b, and stop ends them; log and log partner read "
+    "the two logs; topic, echo, param and service are for Live."
+)
+
 
 class Lessons:
     """The lessons and their texts."""
@@ -84,6 +90,8 @@ class Lessons:
     def _read_section(self, number: int, sections: list[speech.Section]) -> None:
         section = sections[number - 1]
         self._conversation.say(f"Section {number} of {len(sections)}: {section.title}.")
+        if section.title == _ABOUT_THE_APP:
+            self._conversation.say(_HERE)
         for line in section.lines:
             self._conversation.say(line)
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from tutor.content.blocks import Code, Heading, Item, Paragraph, Table, blocks
 from tutor.content.plain_text import without_markup
 from tutor.invocation import with_program_name
 from tutor.judge.result import CriterionResult, ExerciseResult
@@ -25,9 +25,6 @@ _STATUS_WORDS = {
     Status.ERROR: "could not be judged; this is no fault of your code",
 }
 
-_HEADING = re.compile(r"#+\s+(.*)")
-_ITEM = re.compile(r"\s*(?:[-*+]|\d+\.)\s")
-
 
 @dataclass(frozen=True, slots=True)
 class Section:
@@ -38,39 +35,30 @@ class Section:
 
 
 def sections(markdown: str) -> list[Section]:
-    """Split a lesson at its headings. A paragraph becomes one line; code stays as it is, between two lines."""
+    """Split a lesson at its headings. A paragraph or a row of a table becomes one line; code stays as it is."""
     found: list[tuple[str, list[str]]] = []
-    for title, line in _spoken_lines(markdown):
-        if title:
-            found.append((line, []))
-        elif found:
-            found[-1][1].append(line)
-        else:
-            found.append(("Introduction", [line]))
+    for block in blocks(markdown):
+        if isinstance(block, Heading):
+            found.append((block.text, []))
+            continue
+        if not found:
+            found.append(("Introduction", []))
+        found[-1][1].extend(_spoken(block))
     return [Section(title, tuple(lines)) for title, lines in found]
 
 
-def _spoken_lines(markdown: str) -> Iterator[tuple[bool, str]]:
-    """Yield each spoken line, and whether it is a heading."""
-    paragraph: list[str] = []
-    fenced = False
-    for line in [*markdown.splitlines(), ""]:
-        fence = line.lstrip().startswith("```")
-        heading = None if fenced else _HEADING.fullmatch(line)
-        ends_paragraph = fence or fenced or heading is not None or not line.strip() or _ITEM.match(line) is not None
-        if ends_paragraph and paragraph:
-            yield False, without_markup(" ".join(paragraph))
-            paragraph = []
-        if fence:
-            fenced = not fenced
-            yield False, "Code:" if fenced else "End of code."
-        elif fenced:
-            if line.strip():
-                yield False, line
-        elif heading is not None:
-            yield True, without_markup(heading[1])
-        elif line.strip():
-            paragraph.append(line.strip())
+def _spoken(block: Paragraph | Item | Code | Table) -> Iterator[str]:
+    match block:
+        case Code(lines):
+            yield "Code:"
+            yield from (line for line in lines if line.strip())
+            yield "End of code."
+        case Table(_, rows):
+            yield f"Table, {counted(len(rows), 'row')}:"
+            yield from block.spoken_rows()
+            yield "End of table."
+        case _:
+            yield block.text
 
 
 def outcome(result: ExerciseResult) -> str:

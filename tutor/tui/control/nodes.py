@@ -26,7 +26,7 @@ class Nodes:
     def __init__(self, host: HostScreen, files: Files, skeletons: Skeletons, preferences: Preferences) -> None:
         self._host, self._files, self._skeletons, self._preferences = host, files, skeletons, preferences
         self.by_path: dict[Path, Node] = {}
-        """The latest node of each file, running or not; partner nodes by their `partner_key`."""
+        """The latest node of each file, running or not; partner nodes by their `Partner.key`."""
         self._chosen: tuple[Path, Path] | None = None
         """The node whose log the learner chose, and the file shown at that time."""
         self.latest: Path | None = None
@@ -81,7 +81,7 @@ class Nodes:
     def _paths_of(self, lesson: Lesson) -> set[Path]:
         """Return the keys in `by_path` of a lesson's nodes, its partners included."""
         files = {self._host.model.session.path(file) for file in lesson.files}
-        return files | {partner_key(partner) for partner in lesson.live.partners}
+        return files | {partner.key for partner in lesson.live.partners}
 
     @property
     def _partner(self) -> Partner | None:
@@ -137,7 +137,7 @@ class Nodes:
         model, partner = self._host.model, self._partner
         if partner is None:
             return
-        key = partner_key(partner)
+        key = partner.key
         if self._is_alive(key):
             self.by_path[key].stop()
             return
@@ -246,6 +246,3 @@ class Nodes:
             node.stop()
 
 
-def partner_key(partner: Partner) -> Path:
-    """Return the key of a partner node in `Nodes.by_path`, where learners' nodes are keyed by file."""
-    return partner.file or Path(*partner.run)
