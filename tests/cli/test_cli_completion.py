@@ -67,6 +67,9 @@ def test_exercises_and_criteria_are_completed(shell: str, home: Path) -> None:
     [
         ("che", {"check", "checklist"}),
         ("wat", {"watch"}),
+        ("les", {"lesson"}),
+        ("lesson i1.", {"i1.1", "i1.2", "i1.3"}),
+        ("run b1.1 --par", {"--partner"}),
         ("check a", {"all"}),
         ("start a", set()),
         ("check --criterion shut", {"shutdown", "shutdown-busy"}),
