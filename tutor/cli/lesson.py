@@ -13,7 +13,7 @@ from tutor.cli.errors import PASSED
 from tutor.invocation import with_program_name
 
 if TYPE_CHECKING:
-    from tutor.content.blocks import Block, Table
+    from tutor.content.markdown_blocks import Block, Table
 
 _GAP = "  "
 """What is between two columns of a table."""
@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the lesson without its markup, wrapped to the terminal."""
-    from tutor.content.blocks import Item, blocks
+    from tutor.content.markdown_blocks import Item, blocks
 
     lesson = context.load_course(arguments).find(arguments.exercise)
     columns = terminal.width(sys.stdout)
@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _render(block: Block, columns: int) -> Iterator[str]:
-    from tutor.content.blocks import Code, Heading, Item, Table
+    from tutor.content.markdown_blocks import Code, Heading, Item, Table
 
     match block:
         case Heading(text, level):

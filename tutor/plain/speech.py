@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from tutor.content.blocks import Code, Heading, Item, Paragraph, Table, blocks
+from tutor.content.markdown_blocks import Code, Heading, Item, Paragraph, Table, blocks
 from tutor.content.plain_text import without_markup
 from tutor.invocation import with_program_name
 from tutor.judge.result import CriterionResult, ExerciseResult

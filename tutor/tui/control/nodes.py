@@ -244,5 +244,3 @@ class Nodes:
             self._requests[path] += 1
         for node in self.by_path.values():
             node.stop()
-
-
