@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from tests.tui.conftest import open_app
 from tutor.content.cases import read_report
 from tutor.session import Session
+from tutor.session.findings import Findings
 from tutor.tui.dialogs.answer import AnswerScreen
 
 
@@ -35,11 +37,16 @@ async def test_the_answer_is_chosen_by_keys_and_written_into_the_report(session:
         await me.until(lambda: not isinstance(me.app.screen, AnswerScreen))
         assert read_report(report.read_text()) == found
 
+        await me.press("r")
+        await me.until(lambda: bool(me.main.nodes.running), "the system runs")
+        me.main.model.findings["b1.7"] = replace(me.main.model.findings["b1.7"], note="judged before")
         await me.press("N")
         await me.sees("Another fault for B1.7", "moved to a folder")
         await me.press("enter")
         await me.until(lambda: session.handed_over.drawn(lesson).current != first, "another one is drawn")
         await me.sees("Another fault is handed over")
+        assert not me.main.nodes.running
+        assert me.main.model.findings["b1.7"] == Findings.of(lesson)
         assert read_report(report.read_text()).what == ""
 
 

@@ -9,16 +9,19 @@ from tutor.content.cases import has_cases
 from tutor.errors import StorageError, UsageError, WorkspaceError
 from tutor.session.paths import short_path
 from tutor.tui import commands, messages, wording
+from tutor.tui.control.checks import Checks
 from tutor.tui.control.files import Files
 from tutor.tui.control.host import HostScreen
+from tutor.tui.control.nodes import Nodes
 from tutor.tui.control.skeletons import Skeletons
 
 
 class Answers:
     """Asks what is wrong with the system, and where; and hands over another one."""
 
-    def __init__(self, host: HostScreen, files: Files, skeletons: Skeletons) -> None:
+    def __init__(self, host: HostScreen, files: Files, skeletons: Skeletons, nodes: Nodes, checks: Checks) -> None:
         self._host, self._files, self._skeletons = host, files, skeletons
+        self._nodes, self._checks = nodes, checks
         host.register(commands.ANSWER, self.ask, self._is_asked)
         host.register(commands.ANOTHER, self.offer_another, self._is_asked)
 
@@ -67,11 +70,13 @@ class Answers:
         session = self._host.model.session
         paths = [session.path(file) for file in lesson.files]
         try:
+            await self._nodes.end_all_of(lesson)  # they are of the system that is replaced
             placed = await self._files.let_change(paths, session.start, lesson, another=True)
         except (WorkspaceError, StorageError) as error:
             self._host.show_error(str(error))
             return
         if placed is None:
             return
+        self._checks.forget(lesson)
         kept = f" Your files are kept in {short_path(placed.backups[0])}." if placed.backups else ""
         self._host.say(f"Another fault is handed over: r runs the system.{kept}")

@@ -111,6 +111,13 @@ class Checks:
                 self._judged[exercise] = check.result.digests
         self.compare_files()
 
+    def forget(self, lesson: Lesson) -> None:
+        """Show no verdicts of a lesson whose files were replaced by others, which none of them is about."""
+        if self.running is not None and self.running.exercise == lesson.id:
+            self._cancel_running("stopped: your files were replaced")
+        self._judged.pop(lesson.id, None)
+        self._update(Findings.of(lesson))
+
     def _differs(self, lesson: Lesson) -> bool | None:
         return has_changed(self._judged.get(lesson.id, {}), self._files.digests(lesson))
 

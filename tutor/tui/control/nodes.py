@@ -119,6 +119,15 @@ class Nodes:
         for node in self._nodes_to_stop:
             node.stop()
 
+    async def end_all_of(self, lesson: Lesson) -> None:
+        """Stop a lesson's nodes, our partner nodes included, and wait until they have ended."""
+        own = self._paths_of(lesson)
+        running = [node for path, node in self.by_path.items() if node.state.alive and path in own]
+        for node in running:
+            node.stop()
+        for node in running:
+            await node.over.wait()
+
     def other_file(self) -> None:
         """Run the lesson's other file beside the one shown, or stop it."""
         model = self._host.model

@@ -68,12 +68,12 @@ class MainScreen(HostScreen):
         self.skeletons = Skeletons(self, self.files, self.records)
         self.editing = Editing(self, code, self.files, self.skeletons)
         Views(self, code, self.files, self.records)
-        Answers(self, self.files, self.skeletons)
         self.nodes = Nodes(self, self.files, self.skeletons, self.preferences)
         self.reports = Reports(self, self.pages, self.preferences)
         self.standing = Standing(self, self.reports)
         show = self.standing.show_findings
         self.checks = Checks(self, self.files, self.skeletons, self.records, self.preferences, show)
+        Answers(self, self.files, self.skeletons, self.nodes, self.checks)
         self.lessons = Lessons(self, self.pages, self.files, self.preferences, self.standing)
         self.checklist = ChecklistController(self, self.records)
         self.interfaces = Interfaces(self, self.pages.restart_live)
