@@ -39,6 +39,6 @@ CHECK = check(
     ShowsEach("range", RANGE),
     ShowsEach("parcels", LORRY),
     EndsCleanly("shutdown", bonus=True),
-    expected_s=4.0,
-    expected_reason="0.6 s until the log is quiet after a burst of 200 messages",
+    expected_s=5.5,
+    expected_reason="2.1 s in which nothing is logged again after a burst of 200 messages",
 )

@@ -26,8 +26,11 @@ ALL_SHOWN_S = 20.0
 MATCH_GAP_S = 1.0
 """Time in which a subscription that is in the graph is matched, if its QoS allows that."""
 
-QUIET_S, QUIET_MAX_S = 0.6, 3.0
-"""How long nothing is logged once all has been said, and for how long that is waited for."""
+QUIET_S, QUIET_MAX_S = 2.1, 3.0
+"""How long nothing is logged once all has been said, and for how long that is waited for.
+
+A timer that logs a message again every second or two shows in this time.
+"""
 
 LOST_AT_FIRST = 1
 """As many messages of a best-effort publisher may be lost before the first that is logged.
