@@ -84,6 +84,7 @@ async def test_a_right_node_passes(scene: Scene) -> None:
     ("changes", "criterion", "mistake", "words"),
     [
         ({"group": "None", "service": "None"}, "asks", "deadlock-by-await", "/oven had replied at once"),
+        ({"limit_s": "0.7"}, "asks", "wrong-answer", "gives up before /oven has replied"),
         ({"timer": "None", "service": "None"}, "pace", "same-callback-group", "the longest pause 1."),
         ({"unknown": "False", "limit_s": "60.0"}, "missing", "asked-without-looking", "asks /oven"),
         ({"limit_s": "60.0"}, "silent", "no-limit-to-a-wait", "waits for a reply of /oven"),

@@ -67,6 +67,7 @@ def call(
     success: bool = True,
     message: str | None = None,
     took_s: float = 0.1,
+    held_s: float = 0.0,
 ) -> AskingCall:
     """A call. `exchanges`: with what we were asked, and our message (None: no reply); `message`: None if unanswered."""
     response = None if message is None else {"success": success, "message": message}
@@ -75,7 +76,7 @@ def call(
         Exchange({"data": asked}, START, None if text is None else {"success": True, "message": text})
         for asked, text in exchanges
     )
-    return AskingCall(answer, tuple(made))
+    return AskingCall(answer, tuple(made), held_s)
 
 
 RIGHT = call(True, (True, "oven 7"), message="the oven 7 is hot")
@@ -113,6 +114,15 @@ def test_a_busy_machine_may_be_to_blame_for_giving_up() -> None:
     assert isinstance(judge_of(CHECK, "at-once")(CalledAtOnce(trace(), slowed=True, calls=(RIGHT, late))), Undecided)
     still = UnrepliedRun(trace(), slowed=True, calls=(REFUSED,), later=late)
     assert isinstance(judge_of(CHECK, "missing")(still), Undecided)
+
+
+def test_giving_up_before_a_slow_reply_is_wrong_on_any_machine() -> None:
+    early = call(True, (True, "oven 7"), success=False, message="late", took_s=1.0, held_s=1.5)
+    verdict = judge_of(CHECK, "asks")(AskedInTurn(trace(), slowed=True, calls=(RIGHT, early)))
+    assert_failed(verdict, "wrong answer", "gives up before /oven has replied", check=CHECK)
+    late = call(True, (True, "oven 7"), success=False, message="late", took_s=3.0, held_s=1.5)
+    assert isinstance(judge_of(CHECK, "asks")(AskedInTurn(trace(), slowed=True, calls=(RIGHT, late))), Undecided)
+    assert_passed(judge_of(CHECK, "asks")(AskedInTurn(trace(), calls=(RIGHT, replace(RIGHT, held_s=1.5)))))
 
 
 def test_a_missing_service_is_told() -> None:

@@ -47,10 +47,14 @@ GIVE_UPS = 3
 
 @dataclass(frozen=True)
 class AskInTurn:
-    """Start without parameters beside our server, call the node several times, and press Ctrl+C."""
+    """Start without parameters beside our server, call the node several times, and press Ctrl+C.
+
+    We reply at once, but to the last call after `hold_s` seconds.
+    """
 
     program: Program
     asking: Asking
+    hold_s: float = 0.0
 
     async def __call__(self, bench: Bench) -> AskedInTurn:
         return await repeat_chance_failures(self._run)(bench)
@@ -58,7 +62,7 @@ class AskInTurn:
     async def _run(self, bench: Bench) -> AskedInTurn:
         asking, program = self.asking, self.program
         silent, stuck = DumpSilentNode(program), tuple[Frame, ...]()
-        async with bench.start(program.file, expected_s=1.5) as run, open_desk(run, asking) as desk:
+        async with bench.start(program.file, expected_s=1.5 + self.hold_s) as run, open_desk(run, asking) as desk:
             bench.report_progress(0.1, f"waiting for {asking.service.name}")
             offered, calls = await wait_for_both(run, program, asking), list[AskingCall]()
             graph, is_stuck, answers, watch = run.graph, False, True, BusyWatch(run)
@@ -71,6 +75,9 @@ class AskInTurn:
                 if not is_right(asking, calls[-1]):
                     break
                 calls.append(await desk.call(given))
+            if self.hold_s and len(calls) > len(asking.requests) and is_right(asking, calls[-1]):
+                bench.report_progress(0.6, f"holding back the reply on {asking.asks.name}")
+                calls.append(await desk.call_and_hold(asking.requests[0], self.hold_s))
             slowed = watch.is_to_blame(*calls)
             while slowed and gave_up(asking, calls[-1]) and len(calls) < GIVE_UPS:
                 calls.append(await desk.call(asking.requests[len(calls) % 2]))
@@ -91,16 +98,18 @@ class AskInTurn:
 class AnswersByAsking(Form):
     """A service of the node answers with what another service, which the check serves, has replied to it.
 
-    It is called several times, one call after the other; see `Asking`.
+    It is called several times, one call after the other; see `Asking`. `hold_s`: for how long the reply to the last
+    call is held back, in seconds; take a time after which nobody gives up yet.
     """
 
     asking: Asking
+    hold_s: float = 1.5
 
     def criterion(self, exercise: Exercise) -> Criterion:
         return self.judged(self.judge, self.ended_start(exercise))
 
     def ended_start(self, exercise: Exercise) -> AskInTurn:
-        return AskInTurn(exercise.program, self.asking)
+        return AskInTurn(exercise.program, self.asking, self.hold_s)
 
     def judge(self, seen: AskedInTurn) -> Verdict:
         """Judge all calls."""
@@ -115,7 +124,7 @@ class AnswersByAsking(Form):
                 observed = no_answer_in_words(asking, seen, call)
                 return failed(expected, observed, no_answer(asking, seen, call), (*lines[:-1], *tail))
             if not is_right(asking, call):
-                if seen.slowed and gave_up(asking, call):
+                if seen.slowed and gave_up(asking, call) and not call.ended_early:
                     return undecided(f"to wait for the answer of {asking.service.name}")
                 observed, why = what_is_wrong(asking, seen, call)
                 return failed(expected, observed, why, lines)
@@ -191,7 +200,7 @@ def what_is_wrong(
     assert answer.response is not None
     got, asked = dict(answer.response), [e for e in call.exchanges if agrees(e.asked, own)]
     refused = bool(asking.refusal) and answers_with(answer, asking.refusal)
-    given_up = gave_up(asking, call)
+    given_up = gave_up(asking, call) and not call.ended_early
     if not call.exchanges:
         observed = f"answered {got}, without asking {asking.asks.name}"
         says = f"{name} answers, and nobody has asked {asking.asks.name}"
@@ -206,6 +215,10 @@ def what_is_wrong(
         observed = f"{asking.asks.name} was asked with {_shown(call.exchanges[0].asked)}, not {own}"
         says = f"{name} got {_shown(answer.request)}, and asks {asking.asks.name} for something else"
         do = "Fill the fields of the request that you send from those of the request that you got."
+    elif refused and call.ended_early:
+        observed = f"answered {got} after {answer.took_s:.1f} s; {asking.asks.name} takes {call.held_s:g} s to reply"
+        says = f"{name} gives up before {asking.asks.name} has replied"
+        do = "Wait for as long as a reply may take."
     elif given_up:
         observed = f"answered {got} after {answer.took_s:.1f} s; {asking.asks.name} had replied at once"
         says = f"{name} gives up, though {asking.asks.name} has replied"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Any, Literal
 
@@ -93,10 +93,19 @@ class Exchange:
 
 @dataclass(frozen=True)
 class AskingCall:
-    """A call of the node's service, and what our server was asked meanwhile."""
+    """A call of the node's service, and what our server was asked meanwhile.
+
+    `held_s`: for how long our reply was held back, in seconds, unless the node answered without it.
+    """
 
     answer: CallAnswer
     exchanges: tuple[Exchange, ...] = ()
+    held_s: float = 0.0
+
+    @property
+    def ended_early(self) -> bool:
+        """Whether it was answered so early that, if that is a refusal, no reply that takes so long is waited for."""
+        return bool(self.held_s) and self.answer.took_s < self.held_s + GIVEN_UP_S
 
     @property
     def replies(self) -> tuple[Mapping[str, Any], ...]:
@@ -148,6 +157,19 @@ class Desk:
         service, began = self._asking.service, self._run.now()
         answer = await self._run.call(service.name, service.type, self._asking.request(given), limit_s=limit_s)
         return self.with_exchanges(answer, began)
+
+    async def call_and_hold(self, given: Values, hold_s: float) -> AskingCall:
+        """Call the node's service, and reply once its request has been there for `hold_s`, or the node has answered."""
+        service, before, began, self.replies_at_once = self._asking.service, len(self.requests), self._run.now(), False
+        async with Tasks() as tasks:
+            request, limit_s = self._asking.request(given), hold_s + ANSWER_S
+            calling = tasks.start(self._run.call(service.name, service.type, request, limit_s=limit_s))
+            await self._run.until(lambda: len(self.requests) > before or calling.done(), ANSWER_S)
+            until = self._run.now() + hold_s
+            await self._run.until(lambda: calling.done() or self._run.now() >= until, hold_s)
+            self.reply(*self.held)
+            self.replies_at_once = True
+            return replace(self.with_exchanges(await calling, began), held_s=hold_s)
 
     def with_exchanges(self, answer: CallAnswer, since: float) -> AskingCall:
         """A call with what was asked from then on, as far as it is known now."""
