@@ -83,6 +83,7 @@ def test_each_message_in_one_log_message_passes(part: Heard, seen: Trace) -> Non
         (heard(GATE, matched=False), NO_NODE, "no node", ""),
         (heard(SOUND, matched=False), run(SOUND, QoS()), "incompatible QoS", "offers reliability best_effort"),
         (heard(SOUND, ["la"]), run(SOUND, LOSSY), "not logged", "lu"),
+        (heard(SOUND, (), ["lu"]), run(SOUND, LOSSY), "messages lost", "1 of 2"),
         (heard(SOUND, ["la", "la"], ["lu", "lu"]), run(SOUND, LOSSY, LOSSY), "subscribed twice", "2 subscriptions"),
         (heard(SOUND, ["la", "la"], ["lu"]), run(SOUND, QoS(), LOSSY), "shown again", "1 message of 2"),
         (
@@ -120,3 +121,5 @@ def test_an_authors_mistake_is_said_in_one_sentence() -> None:
         replace(SOUND, sends="twice")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="/rings: what is sent before the node starts must be kept"):
         replace(RINGS, sends="before")
+    with pytest.raises(ValueError, match="/rings: only what is sent one by one may have a pace"):
+        replace(RINGS, every_s=0.2)

@@ -14,7 +14,12 @@ from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.peers import Offer
 from tutor.judge.trace import Ending
-from tutor.judge.waiting_for_nodes import RESENT_S, patience_s, wait_until_log_quiet, wait_until_seen
+from tutor.judge.waiting_for_nodes import (
+    RESENT_S,
+    patience_s,
+    wait_until_log_quiet,
+    wait_until_seen,
+)
 from tutor.ros_model import QoS, TopicEndpoint
 
 SHOWN_WITHIN_S = 5.0
@@ -41,6 +46,15 @@ The node may not have discovered the publisher yet when the publisher has alread
 RELIABLE = QoS()
 """What a publisher with a plain depth offers: reliable and volatile."""
 
+IN_A_ROW = 3
+"""So many messages are sent at the publisher's own pace, whether they are shown or not."""
+
+ROUNDS = 3
+"""How often that is done, until all messages of a round are shown: a best-effort message may get lost."""
+
+ROUND_S = 2.0
+"""Time within which a round is shown; after the last one, it is SHOWN_WITHIN_S."""
+
 Sends = Literal["before", "one by one", "at once"]
 
 
@@ -50,8 +64,10 @@ class GivenPublisher:
 
     `values`: returns those of the topic's field, one message each; draw them at random, so that nothing else would show
     them, all different, and none a part of another. `sends`: "before" the node starts, "one by one", each once the one
-    before is shown, or all "at once". `offers`: its QoS; it keeps as many messages as there are values.
-    Raises ValueError for another word, and if what is sent "before" is not kept (durability transient local).
+    before is shown, or all "at once". `every_s`: of those "one by one", the last nine are sent at this pace instead,
+    in seconds, three in a row; three that are all shown are enough. `offers`: its QoS; it keeps as many messages as
+    there are values. Raises ValueError for another word, if what is sent "before" is not kept (durability transient
+    local), and for a pace of anything else than "one by one".
 
         MAP = GivenPublisher(Topic("/map", STRING), names, sends="before", offers=QoS(durability="transient_local"))
     """
@@ -60,12 +76,15 @@ class GivenPublisher:
     values: Callable[[], Sequence[Any]]
     sends: Sends = "one by one"
     offers: QoS = RELIABLE
+    every_s: float = 0.0
 
     def __post_init__(self) -> None:
         if self.sends not in get_args(Sends):
             raise ValueError(f"{self.topic.name}: {self.sends!r} is no way to send: take {', '.join(get_args(Sends))}")
         if self.sends == "before" and self.offers.durability != "transient_local":
             raise ValueError(f"{self.topic.name}: what is sent before the node starts must be kept: transient_local")
+        if self.every_s and self.sends != "one by one":
+            raise ValueError(f"{self.topic.name}: only what is sent one by one may have a pace")
 
     def offer(self, values: Sequence[Any]) -> Offer:
         """The publisher as the bench makes it, with what it has published before the node starts."""
@@ -193,9 +212,10 @@ async def _wait_for_kept(run: Run, given: GivenPublisher, values: tuple[Any, ...
 
 
 async def _send_one_by_one(run: Run, given: GivenPublisher, values: tuple[Any, ...], ledger: _Shown) -> None:
-    """Send each value once the one before is shown, until one is not."""
+    """Send each value once the one before is shown, until one is not; then the rest, if there is a pace, at that."""
     publisher, lost = run.offered(given.topic.name), 0
-    for value in values:
+    alone = max(0, len(values) - ROUNDS * IN_A_ROW) if given.every_s else len(values)
+    for value in values[:alone]:
         ledger.send(value)
         publisher.publish(given.topic.message(value))
         if not publisher.subscribers:  # none that gets it
@@ -206,6 +226,33 @@ async def _send_one_by_one(run: Run, given: GivenPublisher, values: tuple[Any, .
         if ledger.count() or lost > LOST_AT_FIRST or given.offers.reliability != "best_effort":
             break
         ledger.sent.remove(value)
+    else:
+        await _send_in_rounds(run, given, values[alone:], ledger)
+
+
+async def _send_in_rounds(run: Run, given: GivenPublisher, values: tuple[Any, ...], ledger: _Shown) -> None:
+    """Send these values at the publisher's pace, some in a row, until all of a row are shown.
+
+    What is missing from a row does not count if there is another row, or if the machine may have kept the node from
+    taking a message before the next one came: a queue of one message is enough.
+    """
+    publisher = run.offered(given.topic.name)
+    for first in range(0, len(values), IN_A_ROW):
+        row, last = values[first : first + IN_A_ROW], first + IN_A_ROW >= len(values)
+        waited_s = run.node_cpu_wait_s()
+        for value in row:
+            ledger.send(value)
+            publisher.publish(given.topic.message(value))
+            next_at = run.now() + given.every_s
+            await run.until(lambda: run.now() >= next_at, given.every_s)  # noqa: B023
+        held_up = run.node_cpu_wait_s() - waited_s >= given.every_s / 2
+        within_s = SHOWN_WITHIN_S if last else ROUND_S
+        if await run.until(lambda: all(map(ledger.of, row)), within_s, idle_s=RESENT_S):  # noqa: B023
+            return
+        if held_up or not last:
+            for value in row:
+                if not ledger.of(value):
+                    ledger.sent.remove(value)
 
 
 async def _send_at_once(run: Run, given: GivenPublisher, values: tuple[Any, ...], ledger: _Shown) -> None:

@@ -80,6 +80,9 @@ class ShowsEach(Form):
             newest = bool(heard.shown[-1])
             counts = {"sent": len(heard.sent), "shown": shown, "newest": newest}
             return observed, found.symptom(Symptom.MESSAGES_LOST, **about, **counts)
+        if shown and heard.shown[-1]:
+            observed = f"{len(heard.sent)} messages sent, one after the other, and {shown} in the log"
+            return observed, found.symptom(Symptom.MESSAGES_LOST, **about, sent=len(heard.sent), shown=shown)
         if not self._may_have_reached(found, heard):
             return observed, found.symptom(Symptom.NOTHING_RECEIVED, **about, kept=self.publisher.sends == "before")
         unlogged = found.symptom(
