@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
@@ -21,7 +22,7 @@ from tutor.exercise import (
     Topic,
     check,
 )
-from tutor.exercise.answers_at_once import CalledAtOnce
+from tutor.exercise.answers_at_once import CallAtOnce, CalledAtOnce
 from tutor.exercise.answers_by_asking import AskedInTurn
 from tutor.exercise.answers_without_reply import UnrepliedRun
 from tutor.exercise.asking import AskingCall, Exchange
@@ -114,6 +115,24 @@ def test_a_busy_machine_may_be_to_blame_for_giving_up() -> None:
     assert isinstance(judge_of(CHECK, "at-once")(CalledAtOnce(trace(), slowed=True, calls=(RIGHT, late))), Undecided)
     still = UnrepliedRun(trace(), slowed=True, calls=(REFUSED,), later=late)
     assert isinstance(judge_of(CHECK, "missing")(still), Undecided)
+
+
+async def test_one_of_two_calls_that_is_given_up_each_time_is_so_on_any_machine(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    late = call(True, (True, "oven 7"), success=False, message="late", took_s=3.0)
+    rounds = [(late, OTHER), (late, OTHER), (late, OTHER), (RIGHT, OTHER), (late, OTHER), (RIGHT, OTHER)]
+
+    async def call_twice(*_: object) -> tuple[tuple[AskingCall, ...], bool]:
+        return rounds.pop(0), True
+
+    monkeypatch.setattr(CallAtOnce, "_call_twice", call_twice)
+    busy: Any = SimpleNamespace(is_to_blame=lambda *calls: any(made.answer.took_s >= 1.0 for made in calls))
+    twice, unused = CallAtOnce(Program("node.py"), COOK), cast(Any, None)
+    assert await twice.call_until_sure(unused, unused, busy) == ((late, OTHER), True, False)
+    assert await twice.call_until_sure(unused, unused, busy) == ((RIGHT, OTHER), True, False)
+    assert await twice.call_until_sure(unused, unused, busy) == ((RIGHT, OTHER), True, False)
+    assert not rounds
 
 
 def test_giving_up_before_a_slow_reply_is_wrong_on_any_machine() -> None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from tutor.exercise.answers_by_asking import describe_call, no_answer, no_answer_in_words, what_is_wrong
+from tutor.exercise.answers_by_asking import GIVE_UPS, describe_call, no_answer, no_answer_in_words, what_is_wrong
 from tutor.exercise.asking import (
     Asking,
     AskingCall,
@@ -57,12 +57,26 @@ class CallAtOnce:
             if first.answer.response is None or not first.exchanges:
                 return CalledAtOnce(run.trace(), slowed=watch.is_to_blame(first), calls=(first,))
             bench.report_progress(0.4, f"calling {asking.service.name} twice at once")
-            calls, overlapped = await self._call_twice(run, desk)
+            calls, overlapped, slowed = await self.call_until_sure(run, desk, watch)
             lost = any(call.answer.response is None for call in calls)
-            slowed = watch.is_to_blame(*calls)
             trace = run.trace()
         stuck = await bench.facts(DumpWhileAsking(self.program, asking, "holds")) if lost and not trace.exit else ()
         return CalledAtOnce(trace, True, stuck, slowed, calls=calls, overlapped=overlapped)
+
+    async def call_until_sure(
+        self, run: Run, desk: Desk, watch: BusyWatch
+    ) -> tuple[tuple[AskingCall, ...], bool, bool]:
+        """Call twice at once, and again while the machine may be to blame for giving up one of both.
+
+        Returns the last two calls, whether they overlapped, and whether the machine may be to blame for what they got:
+        not if one of both is given up each time.
+        """
+        for _ in range(GIVE_UPS):
+            calls, overlapped = await self._call_twice(run, desk)
+            slowed = watch.is_to_blame(*calls)
+            if not slowed or not any(gave_up(self.asking, call) for call in calls):
+                return calls, overlapped, slowed
+        return calls, overlapped, False
 
     async def _call_twice(self, run: Run, desk: Desk) -> tuple[tuple[AskingCall, ...], bool]:
         service, before, began, desk.replies_at_once = self.asking.service, len(desk.requests), run.now(), False
