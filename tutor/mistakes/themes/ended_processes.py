@@ -102,14 +102,16 @@ def no_main_call(case: Case) -> Iterator[Found]:
     explains=EVERY_SYMPTOM,
     evidence=Evidence.PROCESS,
     says="the program ended while one of its threads was still spinning, which aborts it with {ended}",
-    do="End that thread first: shut down rclpy or its executor, then join the thread, even if it is a daemon.",
+    do="Shut down rclpy or its executor, then join the thread, even if it is a daemon; an interrupted join() does not wait.",
     example=in_run(Symptom.ENDED, exit=Exit(None, 6, 1.0), output=["terminate called without an active exception"]),
 )
 def torn_thread(case: Case) -> Iterator[Found]:
     """The program ends while a thread is still inside rclpy.
 
     When the main thread is done, Python stops daemon threads wherever they are. One that is inside rclpy's C++ code
-    cannot be stopped there, and the whole process aborts.
+    cannot be stopped there, and the whole process aborts. The same happens to a thread that is no daemon if Ctrl+C
+    interrupts its join(): Python 3.12 then takes it for ended, and no later join() waits for it. So let the main thread
+    wait in something else, such as time.sleep().
 
     Bad:
 
