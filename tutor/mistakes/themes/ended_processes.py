@@ -102,7 +102,7 @@ def no_main_call(case: Case) -> Iterator[Found]:
     explains=EVERY_SYMPTOM,
     evidence=Evidence.PROCESS,
     says="the program ended while one of its threads was still spinning, which aborts it with {ended}",
-    do="Shut down rclpy or its executor, then join the thread, even if it is a daemon; an interrupted join() does not wait.",
+    do="Shut down rclpy or its executor, then join the thread, even a daemon; an interrupted join() does not wait.",
     example=in_run(Symptom.ENDED, exit=Exit(None, 6, 1.0), output=["terminate called without an active exception"]),
 )
 def torn_thread(case: Case) -> Iterator[Found]:
