@@ -28,7 +28,7 @@ STATUS = Topic("/courier/status", TEXT)
 LOW_BELOW = 0.25
 
 found = NamesFault("found", Faults.read(Path(__file__).resolve().parents[1] / "lessons" / "b1_7" / "cases.yaml"))
-drives = LeadsTo("drives", ORDERS, POSITION, (("lab", 2.0), ("kitchen", 1.0)), within_s=6.0)
+drives = LeadsTo("drives", ORDERS, POSITION, (("lab", 2.0), ("kitchen", 1.0)), within_s=6.0, stays_s=0.5)
 position = KeepsRate("position", POSITION, 10.0)
 battery = KeepsRate("battery", BATTERY, 2.0)
 status = KeepsRate("status", STATUS, 1.0)
@@ -61,10 +61,10 @@ CHECK = check(
             Endpoint("/courier/monitor", "/courier/status", TEXT, "reliable", "volatile"),
         ),
         subscriptions=(
-            Endpoint("/courier/planner", "/courier/orders", TEXT),
+            Endpoint("/courier/planner", "/courier/orders", TEXT, "reliable", "volatile"),
             Endpoint("/courier/driver", "/courier/goal", POINT, "reliable", "transient_local"),
-            Endpoint("/courier/monitor", "/courier/battery_state", READING),
-            Endpoint("/courier/monitor", "/courier/position", POINT),
+            Endpoint("/courier/monitor", "/courier/battery_state", READING, "best_effort", "volatile"),
+            Endpoint("/courier/monitor", "/courier/position", POINT, "reliable", "volatile"),
         ),
         after=(found, drives, position, battery, status, tells_position, tells_battery),
     ),

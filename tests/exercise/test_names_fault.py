@@ -40,6 +40,7 @@ def seen(verdict: Verdict) -> tuple[str, str, bool]:
         "case: a1b2\nwhat: qos\nwhere: pump.py\ntries: 1\n",
         "{case: a1b2, what: qos, where: pump.py}",
         "# mine\ncase: c3d4\nwhat: value\nwhere: tank.yaml\n",
+        "case: a1b2\nwhat: QoS\nwhere: my_package/pump.py\n",
         "case: c3d4\nwhat: rate  # it is a parameter\nwhere: 'tank.yaml'\ntries: many\n",
     ],
 )

@@ -115,6 +115,18 @@ def test_a_value_that_leads_to_nothing(values: Sequence[float], at: Sequence[flo
     assert "in time" in says
 
 
+def test_a_value_that_must_stay() -> None:
+    stays = replace(FILLS, pairs=(("open", 10.0),), stays_s=0.5)
+    cases = ([10.0] * 6, True), ([], True), ([10.5, 10.0, 9.5, 10.0, 9.5], True), ([11.0, 12.0, 13.0, 14.0], False)
+    for after, passes in cases:
+        filled = samples(LEVEL, [0.0, 5.0, 10.0, *after], 0.2)
+        verdict = stays.judge(system(filled, sent=orders(0.1)))
+        assert verdict.passed == passes
+        if not passes:
+            assert "goes on to another value" in why(verdict)[1]
+            assert "at the end, data: 14.0" in verdict.observed
+
+
 def test_a_starved_system_that_does_something_is_not_late() -> None:
     slow = samples(LEVEL, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0], 0.5)
     assert FILLS.judge(system(slow, sent=orders(0.1), cpu_wait_s=3.0)).status is Status.ERROR

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,7 +21,8 @@ class LeadsTo(SystemForm):
     """A value that we send on one topic of a system leads to a value on another, through whatever nodes.
 
     `to`: the topic where it shows. `pairs`: the values to send, one after the other, each with the one that it must
-    lead to. `within_s`: how long that may take, in seconds. The exercise's program must be a `LaunchFile`:
+    lead to. `within_s`: how long that may take, in seconds. `stays_s`: so many seconds later, the value must still be
+    there: where it changes steadily, it may otherwise just pass. The exercise's program must be a `LaunchFile`:
 
         LeadsTo("tracks", TARGET, ANGLE, (("left", -1.0), ("right", 1.0)), within_s=2.0)
     """
@@ -29,6 +31,7 @@ class LeadsTo(SystemForm):
     to: Topic
     pairs: tuple[tuple[Any, Any], ...]
     within_s: float = 3.0
+    stays_s: float = 0.0
 
     @property
     def watched(self) -> tuple[Topic, ...]:
@@ -45,8 +48,8 @@ class LeadsTo(SystemForm):
             for value, wanted in self.pairs:
                 message = publisher.publish(topic.message(value))
                 sent.append(Sent(topic.name, value, message.source_time))
-                limit_s = self.within_s if matched else MATCH_S
-                if not await run.until(lambda: self._find(run, sent[-1], wanted) is not None, limit_s):  # noqa: B023
+                limit_s = (self.within_s if matched else MATCH_S) + self.stays_s
+                if not await run.until(lambda: self._has_stayed(run, sent[-1], wanted), limit_s):  # noqa: B023
                     break
 
     def judge(self, seen: SystemRun) -> Verdict:
@@ -56,8 +59,10 @@ class LeadsTo(SystemForm):
         if last != first:
             expected += f", then {last[0]!r} to {last[1]}"
         shown: list[str] = []
-        for (value, wanted), sent in zip(self.pairs, [s for s in seen.sent if s.topic == topic.name], strict=False):
-            found = self._find(seen.trace, sent, wanted)
+        all_sent = [sent for sent in seen.sent if sent.topic == topic.name]
+        ends = [*(sent.at for sent in all_sent[1:]), math.inf]
+        for (value, wanted), sent, until in zip(self.pairs, all_sent, ends, strict=False):
+            found = self._find(seen.trace, sent, wanted, until)
             took_s = found.source_time - sent.at if found is not None else 0.0
             if found is None or took_s > self.within_s:
                 if seen.starved and not seen.broken and self._moves(seen, sent):
@@ -75,13 +80,27 @@ class LeadsTo(SystemForm):
         reached = f"at the end, {to.show(later[-1])} on {to.name}" if later else f"no message came on {to.name}"
         observed = f"{value!r} was sent; {reached}"
         says = f"{value!r} on {topic.name} does not lead to {wanted} on {to.name} in time"
+        in_time = (sample for sample in later if sample.source_time <= sent.at + self.within_s)
+        if any(fits(wanted, to.value(sample)) for sample in in_time):
+            says = f"{value!r} on {topic.name} leads to {wanted} on {to.name}, and then it goes on to another value"
         return failed(expected, observed, seen.not_as_it_should(says), [*shown, *output_tail(seen.trace)])
 
     def _moves(self, seen: SystemRun, sent: Sent) -> bool:
         """Whether anything changed after a value was sent."""
         return len({str(self.to.value(s)) for s in seen.trace.samples_on(self.to.name) if s.source_time >= sent.at}) > 1
 
-    def _find(self, seen: Any, sent: Sent, wanted: Any) -> Sample | None:
-        """The first message that shows the value after another was sent, if it has come by now."""
-        samples = (sample for sample in seen.samples_on(self.to.name) if sample.source_time >= sent.at)
-        return next((sample for sample in samples if fits(wanted, self.to.value(sample))), None)
+    def _has_stayed(self, run: Run, sent: Sent, wanted: Any) -> bool:
+        found = self._find(run, sent, wanted)
+        return found is not None and run.now() >= found.source_time + self.stays_s
+
+    def _find(self, seen: Any, sent: Sent, wanted: Any, until: float = math.inf) -> Sample | None:
+        """The first message that shows the value after another was sent, if it has come, and the value has stayed.
+
+        `until`: when the next value was sent. Whether messages keep coming is not asked.
+        """
+        after = [sample for sample in seen.samples_on(self.to.name) if sent.at <= sample.source_time < until]
+        shows = [sample for sample in after if fits(wanted, self.to.value(sample))]
+        if not shows:
+            return None
+        stays = shows[-1] is after[-1] or shows[-1].source_time >= shows[0].source_time + self.stays_s
+        return shows[0] if stays else None

@@ -33,9 +33,9 @@ class NamesFault(Form):
     """The learner's report names the fault of the case that was handed over: what it is, and in which file.
 
     The report is a file of the submission with the keys `case`, `what` and `where`, and as `tries` how many answers
-    were given; `ros-tutor answer` writes it. After a wrong one, the learner is told whether the file or the kind is
-    right, and how the fault that it names would show, so that the next one is no guess. `faults`: all cases, and the
-    choices.
+    were given; `ros-tutor answer` writes it. If it is written by hand, the kind may have capitals (`QoS`), and the file
+    its folder. After a wrong one, the learner is told whether the file or the kind is right, and how the fault that it
+    names would show, so that the next one is no guess. `faults`: all cases, and the choices.
 
         NamesFault("found", Faults.read(Path(__file__).parents[1] / "lessons/x1_4/cases.yaml"))
     """
@@ -68,6 +68,8 @@ class NamesFault(Form):
 
     def _judge_answer(self, fault: Fault, what: str, where: str, tries: object) -> Verdict:
         files, kinds = sorted({case.where for case in self.faults.cases.values()}), self.faults.kinds
+        what = next((kind for kind in kinds if kind.casefold() == what.casefold()), what)
+        where = next((file for file in files if file == where.rpartition("/")[2]), where)
         for key, value, choices in (("what", what, list(kinds)), ("where", where, files)):
             if value not in choices:
                 do = f"Choose one of {', '.join(choices)}."
