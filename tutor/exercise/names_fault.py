@@ -60,10 +60,12 @@ class NamesFault(Form):
                 "Put back its line `case:`, or start the exercise again.",
             )
             return self._failed(f"case: {case}", says, do)
+        do = "Watch the system until you know what it is, and where: then answer."
+        if not what and not where:
+            return self._failed("no answer yet", f"nothing is reported yet in {file}", do)
         if not what or not where:
-            says = f"nothing is reported yet in {file}"
-            do = "Watch the system until you know what it is, and where: then answer."
-            return self._failed("no answer yet", says, do)
+            says = f"`{'where' if what else 'what'}` is not reported yet in {file}"
+            return self._failed("half an answer", says, do)
         return self._judge_answer(fault, what, where, report.get("tries"))
 
     def _judge_answer(self, fault: Fault, what: str, where: str, tries: object) -> Verdict:
