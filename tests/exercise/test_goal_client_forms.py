@@ -47,6 +47,17 @@ def test_what_is_printed_counts_as_well() -> None:
     assert_passed(judge_of(CHECK, "client")(printed))
 
 
+@pytest.mark.parametrize("mark", ["...", "T-", "=", "0, "])
+def test_what_stands_before_a_number_does_not_matter(mark: str) -> None:
+    assert_passed(judge_of(CHECK, "client")(ran(f"{mark}11111", f"{mark}22222", f"{mark}33333")))
+
+
+@pytest.mark.parametrize("shown", ["0.33333", "333330", "133333", "33333.5"])
+def test_a_part_of_a_number_is_not_the_number(shown: str) -> None:
+    verdict = judge_of(CHECK, "client")(ran(*SAID[:3], shown))
+    assert_failed(verdict, "goal not followed", "the result 33333 is not shown", check=CHECK)
+
+
 SPINS = (Frame("/lib/rclpy/executors.py", 1, "spin", "", 1), Frame("/home/me/ws/node.py", 9, "main", "spin(node)", 1))
 
 

@@ -152,7 +152,7 @@ class HandlesRejection(Form):
 
 def is_shown(trace: Trace, value: Any) -> bool:
     """Whether the log or the output has a value; a number as a whole one."""
-    pattern = re.compile(rf"(?<![\d.]){re.escape(str(value))}(?!\.?\d)")
+    pattern = re.compile(rf"(?<!\d)(?<!\d\.){re.escape(str(value))}(?!\.?\d)")
     texts = [log.text for log in trace.logs] + [line.text for line in trace.output]
     return any(pattern.search(text) for text in texts)
 
