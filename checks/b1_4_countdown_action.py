@@ -48,8 +48,14 @@ def steps(goal: Mapping[str, Any]) -> Sequence[Mapping[str, Any]]:
 
 
 def replies() -> GoalReplies:
-    """Numbers that a client cannot know, so that it has to show what it gets; each message has others."""
-    *feedback, result = (random.sample(range(thousand, thousand + 1000), 3) for thousand in range(10_000, 15_000, 1000))
+    """Numbers that a client cannot know, so that it has to show what it gets.
+
+    Each message has others, and one more than the message before: a client may show only what is new at the end.
+    """
+    *feedback, result = (
+        random.sample(range(thousand, thousand + 1000), length)
+        for length, thousand in enumerate(range(10_000, 15_000, 1000), 1)
+    )
     return GoalReplies(True, tuple({"sequence": numbers} for numbers in feedback), {"sequence": result})
 
 

@@ -39,6 +39,6 @@ CHECK = check(
     FailsToConfigure("bad-rate", SENSOR, bad=(-1.0, 0.0), good=4.0, after=configures),
     ShutsDown("finalize", SENSOR, after=configures),
     EndsCleanly("shutdown", bonus=True),
-    expected_s=5.7,
+    expected_s=6.4,
     expected_reason="a whole life: the rate three times (1.1 s, 1.1 s and 1.8 s), and silence three times",
 )

@@ -38,7 +38,7 @@ from tutor.exercise import (
     Topic,
     check,
 )
-from tutor.exercise.lifecycle_walk import CHANGE_STATE, LifecycleRun, Move, Step, Walk
+from tutor.exercise.lifecycle_walk import CHANGE_STATE, LifecycleRun, Move, Step, Walk, rate_in_effect
 from tutor.judge.check import Check
 from tutor.judge.rates import Rate
 from tutor.judge.trace import CallAnswer
@@ -123,6 +123,22 @@ def test_a_criterion_alone_gets_to_its_part() -> None:
     (walk,) = walks_of(alone, "cleans")
     assert [move.transition for move in walk.moves][-3:] == ["cleanup", "configure", "activate"]
     assert_passed(judge("cleans", check=alone))
+
+
+def test_silence_is_waited_for_at_the_rate_that_the_node_had() -> None:
+    (whole,) = walks_of(CHECK, "cleans")
+    steps = [right_step(move) for move in whole.moves]
+    rates = {
+        (step.move.part, step.move.transition): rate_in_effect(CAMERA, step.move, steps[:number])
+        for number, step in enumerate(steps)
+        if step.move.watched in ("silence", "publisher")
+    }
+    assert rates == {
+        ("start", ""): 5.0,
+        ("configure", "configure"): 5.0,
+        ("deactivate", "deactivate"): 5.0,
+        ("shutdown", "shutdown"): 2.0,
+    }
 
 
 @pytest.mark.parametrize("criterion", [*_PARTS, "bad", "ends"])

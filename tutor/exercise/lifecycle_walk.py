@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -145,13 +146,23 @@ class Walk:
             offered = await _wait_for_services(run, lifecycle)
             for number, move in enumerate(self.moves if offered else ()):
                 bench.report_progress(0.1 + 0.8 * number / len(self.moves), move.transition or "asking for its state")
-                steps.append(await _make(run, lifecycle, move, steps[-1].state if steps else ""))
+                period_s = 1 / rate_in_effect(lifecycle, move, steps)
+                steps.append(await _make(run, lifecycle, move, steps[-1].state if steps else "", period_s))
                 if not steps[-1].is_right:
                     break
             does_nothing = not offered or (bool(steps) and not steps[-1].answered)
             return (await look(run, does_nothing=does_nothing)).having(
                 LifecycleRun, offered=offered, steps=tuple(steps)
             )
+
+
+def rate_in_effect(lifecycle: Lifecycle, move: Move, before: Sequence[Step]) -> float:
+    """The rate, in Hz, at which a node publishes that a move does not stop, or stops too late.
+
+    `before`: the steps before that move.
+    """
+    rates = [step.move.hz for step in before if step.move.watched == "rate"]
+    return move.hz or (rates[-1] if rates else lifecycle.default_hz)
 
 
 async def _wait_for_services(run: Run, lifecycle: Lifecycle) -> bool:
@@ -167,8 +178,8 @@ async def _wait_for_services(run: Run, lifecycle: Lifecycle) -> bool:
     )
 
 
-async def _make(run: Run, lifecycle: Lifecycle, move: Move, state: str) -> Step:
-    """Make a move, from a state, and look what the node does then."""
+async def _make(run: Run, lifecycle: Lifecycle, move: Move, state: str, period_s: float) -> Step:
+    """Make a move, from a state, and look what the node does then; see `_look_at_topic`."""
     answer: SetAnswer | None = None
     if move.set_to is not None:
         answer = await run.set_parameters(lifecycle.node, {lifecycle.rate.name: move.set_to}, limit_s=ANSWER_S)
@@ -189,7 +200,7 @@ async def _make(run: Run, lifecycle: Lifecycle, move: Move, state: str) -> Step:
     step = Step(move, answer, change, now_in, through, ended)
     if not step.state_is_right:
         return step
-    return await _look_at_topic(run, lifecycle, step, since, was_active=state == "active")
+    return await _look_at_topic(run, lifecycle, step, since, period_s, was_active=state == "active")
 
 
 async def _state(run: Run, lifecycle: Lifecycle) -> str:
@@ -202,10 +213,14 @@ def _states_reported(run: Run, lifecycle: Lifecycle, since: float) -> tuple[str,
     return tuple(str(event.message["goal_state"]["label"]) for event in events if event.source_time >= since)
 
 
-async def _look_at_topic(run: Run, lifecycle: Lifecycle, step: Step, since: float, *, was_active: bool) -> Step:
-    """Look at what the node publishes after a transition that it has made, from a time on."""
+async def _look_at_topic(
+    run: Run, lifecycle: Lifecycle, step: Step, since: float, period_s: float, *, was_active: bool
+) -> Step:
+    """Look at what the node publishes after a transition that it has made, from a time on.
+
+    `period_s`: between two messages, if it publishes.
+    """
     topic, move = lifecycle.topic, step.move
-    hz = move.hz or lifecycle.default_hz
 
     def publishes() -> bool:
         return any((found.topic, found.type) == (topic.name, topic.type) for found in run.graph.publishers)
@@ -215,9 +230,9 @@ async def _look_at_topic(run: Run, lifecycle: Lifecycle, step: Step, since: floa
 
     if move.watched in ("silence", "publisher"):
         # A callback that runs in another thread may be about to publish when the node is deactivated.
-        quiet_from = since + (1 / hz + IN_FLIGHT_S if was_active else 0.0)
+        quiet_from = since + (period_s + IN_FLIGHT_S if was_active else 0.0)
         # The limit is longer by what the node waits for a CPU: meanwhile it is silent, whatever it means to do.
-        quiet_until = quiet_from + QUIET_PERIODS / hz + IN_FLIGHT_S
+        quiet_until = quiet_from + QUIET_PERIODS * period_s + IN_FLIGHT_S
         await run.until(lambda: bool(sent(quiet_from)), quiet_until - run.now(), idle_s=IDLE_S)
         step = replace(step, sent=sent(quiet_from))
     if move.watched == "publisher":
@@ -228,8 +243,8 @@ async def _look_at_topic(run: Run, lifecycle: Lifecycle, step: Step, since: floa
         return replace(step, publishes=publishes())
     if move.watched == "rate":
         # Long enough for a rate that is taken for a period.
-        if not await run.until(lambda: bool(sent(since)), max(2 / hz, hz) + 2, idle_s=IDLE_S):
+        if not await run.until(lambda: bool(sent(since)), max(2 / move.hz, move.hz) + 2, idle_s=IDLE_S):
             return step
-        rate, messages = await measure_steady_rate(run, topic.name, hz, since=since)
+        rate, messages = await measure_steady_rate(run, topic.name, move.hz, since=since)
         return replace(step, rate=rate, messages=messages or len(sent(since)))
     return step
