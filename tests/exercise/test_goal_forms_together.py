@@ -114,7 +114,7 @@ def test_a_new_goal_replaces_the_old_one() -> None:
     ("found", "cause", "words"),
     [
         (TwoGoals(trace()), "action missing", "has no action server"),
-        (two(RUNNING, DONE), "wrong goal", "the first goal still runs after 6 s, instead of being aborted"),
+        (two(RUNNING, DONE), "wrong goal", "the first goal still runs after 3 s, instead of being aborted"),
         (two(DONE, DONE), "wrong goal", "the first goal is succeeded, instead of being aborted"),
         (two(RUNNING, GoalAnswer()), "wrong goal", "the second goal gets no answer while the first one runs"),
         (two(GoalAnswer(False), GoalAnswer()), "wrong goal", "the first goal is rejected, instead of being aborted"),

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.goal_run import (
+    CANCELED_S,
     Fields,
     Goal,
     OfGoal,
@@ -50,12 +52,15 @@ class TwoGoals(Seen):
 
 @dataclass(frozen=True)
 class SendTwoGoals:
-    """Start without parameters, send a goal, and a second one while the first runs."""
+    """Start without parameters, send a goal, and a second one while the first runs.
+
+    `within_s`: how long the first may take once the second is answered, and the second after that, in seconds.
+    """
 
     program: Program
     action: Action
     goals: tuple[Goal, Goal] = field(hash=False)
-    within_s: float
+    within_s: tuple[float, float]
 
     async def __call__(self, bench: Bench) -> TwoGoals:
         action, (first, second) = self.action, map(drawn, self.goals)
@@ -72,7 +77,9 @@ class SendTwoGoals:
                 await run.until(lambda: is_over(one), ALONE_S)
                 await send(run, other, second)
                 if other.seen.accepted is not None:
-                    await run.until(lambda: is_over(one) and is_over(other), self.within_s, idle_s=RESENT_S)
+                    for client, limit_s in zip((one, other), self.within_s, strict=True):
+                        if not await run.until(partial(is_over, client), limit_s, idle_s=RESENT_S):
+                            break
             answers = (one.seen, other.seen)
             unheard = any(answer.accepted is None for answer in answers)
             return (await look(run, does_nothing=unheard)).having(TwoGoals, of_goals=answers, goals=(first, second))
@@ -86,7 +93,8 @@ class HandlesTwoGoals(Form):
     that draws them at random. `ends`: how each must end; ("aborted", "succeeded") is a server where a new goal replaces
     the one that runs, ("succeeded", "succeeded") one that serves both, ("succeeded", "rejected") one that is busy.
     `result`: of each goal that must succeed, those of its fields that matter, or a function that makes them from the
-    goal. `within_s`: how long both may take from the second goal on, in seconds.
+    goal. `within_s`: how long each may take, in seconds: the first from the second one on, and the second from
+    the end of the first on. A first goal that must be aborted or canceled has 3 s at most.
 
         HandlesTwoGoals("newer", COUNT, ({"order": 50}, {"order": 3}), ("aborted", "succeeded"))
     """
@@ -98,7 +106,13 @@ class HandlesTwoGoals(Form):
     within_s: float = 6.0
 
     def criterion(self, exercise: Exercise) -> Criterion:
-        return self.judged(self.judge, SendTwoGoals(exercise.program, self.action, self.goals, self.within_s))
+        return self.judged(self.judge, SendTwoGoals(exercise.program, self.action, self.goals, self.limits_s))
+
+    @property
+    def limits_s(self) -> tuple[float, float]:
+        """How long the first goal and the second one may take, in seconds."""
+        soon = self.ends[0] in ("aborted", "canceled")
+        return min(CANCELED_S, self.within_s) if soon else self.within_s, self.within_s
 
     def judge(self, found: TwoGoals) -> Verdict:
         """Judge what became of both goals."""
@@ -108,8 +122,11 @@ class HandlesTwoGoals(Form):
         tail = output_tail(found.trace)
         if not found.of_goals:
             return failed(expected, f"{action.name} has no action server", action_missing(action, found), tail)
-        waited = f" after {self.within_s:g} s" if found.of_goals[1].accepted is not None else ""
-        ended = [_describe(answer, waited) for answer in found.of_goals]
+        answered = found.of_goals[1].accepted is not None
+        waited = [f" after {limit_s:g} s" if answered else "" for limit_s in self.limits_s]
+        if not outcome_of(found.of_goals[0]):
+            waited[1] = ""  # It was not waited for.
+        ended = [_describe(answer, after) for answer, after in zip(found.of_goals, waited, strict=True)]
         observed = f"the first {ended[0]}, the second {ended[1]}"
         # Of a goal that is not taken in, or waits for its turn, the other one is the reason.
         unheard = found.of_goals[0].accepted and found.of_goals[1].accepted is None
