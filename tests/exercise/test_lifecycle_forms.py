@@ -175,6 +175,7 @@ def test_a_node_that_does_everything_right_passes(criterion: str) -> None:
         ("cleans", "activate", {"rate": Rate(5.0, 6, 1.0)}, "parameter not read again", "rate was set while"),
         ("cleans", "activate", {"rate": Rate(7.0, 6, 0.7)}, "old timer kept", "2 Hz and the 5 Hz of an older"),
         ("ends", "shutdown", {"state": "active", "change": FAILED}, "wrong lifecycle state", "on_shutdown"),
+        ("ends", "shutdown", {"change": FAILED}, "wrong lifecycle state", "finalized, but says that its on_shutdown"),
     ],
 )
 def test_what_is_wrong_is_told(criterion: str, transition: str, seen: dict[str, Any], mistake: str, words: str) -> None:

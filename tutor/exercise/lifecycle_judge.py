@@ -141,6 +141,8 @@ def _wrong_state(seen: LifecycleRun, lifecycle: Lifecycle, step: Step) -> tuple[
         do = f"Let {move.transition} lead to the state {move.to}."
     else:
         says = f"{callback_of(move.transition)} does not succeed: the node is {step.state}, not {move.to}"
+        if step.state == move.to:
+            says = f"the node is {step.state}, but says that its {callback_of(move.transition)} did not succeed"
         do = f"Find out what {callback_of(move.transition)} returns, and let it return SUCCESS if all went well."
     return observed, seen.symptom(Symptom.WRONG_STATE, says=says, do=do, **about)
 
