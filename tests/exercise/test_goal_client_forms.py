@@ -10,7 +10,7 @@ import pytest
 from tests.checks.builders import CRASH, assert_failed, assert_passed, exited, judge_of, log, trace
 from tutor.exercise import Action, GoalReplies, HandlesRejection, Program, SendsGoal, check
 from tutor.exercise.goal_client_run import GoalClientRun
-from tutor.judge.trace import ServedGoal
+from tutor.judge.trace import Exit, ServedGoal
 from tutor.judge.tracebacks import Frame
 from tutor.ros_model import ServiceEndpoint
 
@@ -88,6 +88,15 @@ def test_a_client_of_another_action_is_told_so() -> None:
 @pytest.mark.parametrize("said", ["the goal was rejected", "abgelehnt", "Goal accepted: False"])
 def test_a_rejection_is_told_in_any_words(said: str) -> None:
     assert_passed(judge_of(CHECK, "rejected")(refused(SAID[0], said, code=1), ran(*SAID)))
+
+
+def test_a_client_that_aborts_has_no_traceback() -> None:
+    aborted = replace(refused(SAID[0], "the goal was rejected"), exit=Exit(None, 6, 1.5))
+    verdict = judge_of(CHECK, "rejected")(aborted, ran(*SAID))
+    assert verdict is not None
+    assert not verdict.passed
+    assert "signal 6" in verdict.observed
+    assert "traceback" not in verdict.observed
 
 
 @pytest.mark.parametrize(

@@ -137,9 +137,10 @@ class HandlesRejection(Form):
         how = f"ended after {seen.exit.after_s:.1f} s with {seen.exit}"
         if not seen.goals:
             return failed(expected, f"{how}, and sent no goal", no_goal(seen, self.of.action), evidence)
-        if tracebacks.find_tracebacks(seen.trace.output) or seen.exit.signal is not None:
+        crashed = bool(tracebacks.find_tracebacks(seen.trace.output))
+        if crashed or seen.exit.signal is not None:
             why = _seen(seen, Symptom.WRONG_EXIT_CODE, missing="", rejected=True)
-            return failed(expected, f"{how} and a traceback", why, evidence)
+            return failed(expected, f"{how} and a traceback" if crashed else how, why, evidence)
         new = said(seen.trace, seen.goals[0].at) - said(accepted.trace)
         if not new and not _warned(seen.trace, accepted.trace):
             says = "the client's goal is rejected, and it says nothing about that"

@@ -9,7 +9,8 @@ from rclpy.action import ActionClient
 rclpy.init()
 node = rclpy.create_node('client')
 client = ActionClient(node, Fibonacci, 'countdown')
-threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
+spinner = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
+spinner.start()
 log = node.get_logger()
 if not client.wait_for_server(timeout_sec=10.0):
     raise SystemExit('no server')
@@ -25,3 +26,4 @@ if handle.accepted:
 else:
     log.warn('nope')
 rclpy.shutdown()
+spinner.join()
