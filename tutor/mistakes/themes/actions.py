@@ -66,6 +66,55 @@ def goal_without_an_end(case: Case) -> Iterator[Found]:
 
 
 @mistake(
+    "goal-returns-no-result",
+    explains=(Symptom.WRONG_GOAL, Symptom.NO_ANSWER, Symptom.ENDED),
+    evidence=Evidence.PROCESS,
+    says="the callback that executes a goal returned something else than a result, or nothing: rclpy could not send it",
+    do="Let every way out of that callback return a result of the action's type.",
+    example=in_run(
+        Symptom.WRONG_GOAL,
+        output=[
+            "Traceback (most recent call last):",
+            '  File "/ws/node.py", line 4, in <module>',
+            "    rclpy.spin(node)",
+            '  File "/lib/rclpy/action/server.py", line 433, in _send_result_response',
+            "    self._handle.send_result_response(request_header, future.result())",
+            "AttributeError: 'NoneType' object has no attribute 'opened'",
+        ],
+        wanted="aborted",
+        found="",
+    ),
+)
+def goal_returns_no_result(case: Case) -> Iterator[Found]:
+    """The callback that executes a goal returns no result.
+
+    Whatever way a goal ends, the callback has to return a result, also when it was canceled or replaced: an empty one
+    will do. rclpy cannot send None, which a bare return gives as well, and the exception ends the node.
+
+    Bad:
+
+        def open_gate(self, goal_handle):
+            if goal_handle.is_cancel_requested:
+                goal_handle.canceled()
+                return None
+
+    Good:
+
+        def open_gate(self, goal_handle):
+            if goal_handle.is_cancel_requested:
+                goal_handle.canceled()
+                return Gate.Result()
+
+    See it: a traceback in the server's output that goes through _send_result_response().
+
+    Lesson: b1.4, on a goal's state.
+    """
+    frames = (frame for raised in case.exceptions for frame in raised.traceback.frames)
+    if any(frame.function == "_send_result_response" for frame in frames):
+        yield Found()
+
+
+@mistake(
     "cancel-not-accepted",
     explains=_GOAL,
     evidence=Evidence.RUN,
