@@ -10,8 +10,10 @@ import pytest
 
 from tests.checks.builders import (
     NO_NODE,
+    START,
     assert_failed,
     assert_passed,
+    assert_undecided,
     early_judge_of,
     ending,
     graph,
@@ -21,14 +23,14 @@ from tests.checks.builders import (
     samples,
     trace,
 )
-from tutor.exercise import AtLeast, EndsCleanly, FieldEquals, Form, LogsText, Program, Receives, Topic, check
+from tutor.exercise import AtLeast, EndsCleanly, FieldEquals, Form, LogsText, Program, Receives, Stamped, Topic, check
 from tutor.exercise.collected_values import find_out_of_range
 from tutor.exercise.nouns import agrees
 from tutor.exercise.receives import Reception, says
 from tutor.exercise.seen_run import Seen
 from tutor.exercise.watched_start import WatchedStart
 from tutor.judge.check import Check
-from tutor.judge.trace import Trace
+from tutor.judge.trace import Sample, Trace
 from tutor.judge.verdict import Verdict
 from tutor.ros_model import TopicEndpoint
 
@@ -128,6 +130,52 @@ def test_one_message_decides() -> None:
     assert_passed(judged(FieldEquals("any", BATTERY, 0.5), mixed)[0])
     verdict, made = judged(FieldEquals("every", BATTERY, 0.9, every=True), mixed)
     assert_failed(verdict, "wrong values", "0.5", check=made)
+
+
+SCAN = Topic("/scan", "sensor_msgs/msg/LaserScan", "header.stamp")
+
+
+def stamped(*stamps: float) -> Trace:
+    """Messages that are sent every half second, from START on, with these stamps."""
+    return trace(
+        *(
+            Sample(SCAN.name, {"header": {"stamp": {"sec": int(at), "nanosec": round(at % 1 * 1e9)}}}, sent, sent)
+            for at, sent in ((at, START + number / 2) for number, at in enumerate(stamps))
+        ),
+        graph=graph(publishers={SCAN.name: SCAN.type}),
+    )
+
+
+@pytest.mark.parametrize(
+    ("stamps", "words"),
+    [
+        ([START, START + 0.49, START + 0.8], ""),
+        ([START, START, START + 1.0], ""),
+        ([START, START, START], "header.stamp is not the time of now, but 1.0 s before the message is sent"),
+        ([START, START + 2.0], "but 1.5 s after the message is sent"),
+        ([START - 0.6], "but 0.6 s before the message is sent"),
+        ([0.0], "header.stamp is not the time of now"),
+    ],
+)
+def test_a_stamp_is_the_time_of_now_in_every_message(stamps: list[float], words: str) -> None:
+    verdict, made = judged(Stamped("stamped", SCAN), stamped(*stamps))
+    if words:
+        assert_failed(verdict, "wrong values", words, check=made)
+    else:
+        assert_passed(verdict)
+
+
+def test_a_busy_machine_may_be_to_blame_for_an_old_stamp() -> None:
+    old = stamped(START - 0.6)
+    assert_undecided(judged(Stamped("stamped", SCAN), Seen(old, cpu_wait_s=0.2))[0])
+    verdict, made = judged(Stamped("stamped", SCAN), Seen(old, cpu_wait_s=0.05))
+    assert_failed(verdict, "wrong values", "but 0.6 s before", check=made)
+    several = stamped(START, START, START - 0.1, START - 0.2)
+    verdict, made = judged(Stamped("stamped", SCAN), Seen(several, cpu_wait_s=2.0))
+    assert_failed(verdict, "wrong values", "but 1.7 s before", check=made)
+    early = stamped(START + 0.6)
+    verdict, made = judged(Stamped("stamped", SCAN), Seen(early, cpu_wait_s=2.0))
+    assert_failed(verdict, "wrong values", "but 0.6 s after", check=made)
 
 
 @pytest.mark.parametrize(

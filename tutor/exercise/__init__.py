@@ -80,6 +80,7 @@ from tutor.exercise.service_calls import Question
 from tutor.exercise.set_at_run_time import SetAtRunTime
 from tutor.exercise.set_at_start import SetAtStart
 from tutor.exercise.shows_each import ShowsEach
+from tutor.exercise.stamped import Stamped
 from tutor.exercise.starts_pair import StartsPair
 from tutor.exercise.survives_bad_call import SurvivesBadCall
 from tutor.exercise.tells import Tells
@@ -161,6 +162,7 @@ __all__ = [
     "ShownIn",
     "ShowsEach",
     "ShutsDown",
+    "Stamped",
     "StartsPair",
     "StaysQuiet",
     "SurvivesBadCall",
