@@ -51,6 +51,31 @@ def test_a_good_package_has_no_problems(tmp_path: Path) -> None:
     assert _reasons(tmp_path) == []
 
 
+@pytest.mark.parametrize(
+    "finds",
+    [
+        "foreach(name rosidl_default_generators std_msgs)\n  find_package(${name} REQUIRED)\nendforeach()",
+        "set(names std_msgs)\nforeach(name IN LISTS names ITEMS rosidl_default_generators)\n"
+        "  find_package(${name} REQUIRED)\nendforeach()",
+        "find_package(ament_cmake_auto REQUIRED)\nament_auto_find_build_dependencies()",
+    ],
+)
+def test_packages_may_be_found_in_a_loop_or_all_that_the_manifest_names(tmp_path: Path, finds: str) -> None:
+    folder = write_package(tmp_path, {"msg/A.msg": "int32 a\n"}, dependencies=["std_msgs"])
+    cmake, manifest = folder / "CMakeLists.txt", folder / "package.xml"
+    old = "find_package(rosidl_default_generators REQUIRED)\nfind_package(std_msgs REQUIRED)"
+    text = cmake.read_text()
+    assert old in text
+    cmake.write_text(text.replace(old, finds))
+    shares = {"std_msgs": tmp_path}
+    if "auto" in finds:
+        assert _reasons(tmp_path, shares) == [
+            "rosidl_generate_interfaces() needs find_package(std_msgs REQUIRED) before it"
+        ]
+        manifest.write_text(manifest.read_text().replace("<exec_depend>", "<depend>std_msgs</depend><exec_depend>", 1))
+    assert _reasons(tmp_path, shares) == []
+
+
 def test_a_file_that_is_not_listed_is_known_and_cannot_be_used(tmp_path: Path) -> None:
     write_package(tmp_path, {"msg/A.msg": "B b\n", "msg/B.msg": "int32 b\n"}, listed=["msg/A.msg"])
     assert _only(tmp_path).unlisted == ("msg/B.msg",)

@@ -28,7 +28,8 @@ class CMakeLists:
     """What is said about interfaces.
 
     `files`, as listed, relative to the package; None if they are not spelled out but, say, globbed. `line` is that of
-    `rosidl_generate_interfaces`, and None if it is not called.
+    `rosidl_generate_interfaces`, and None if it is not called. `finds_build_depends`: whether ament_cmake_auto finds
+    the packages that package.xml names as needed for the build, as well as those in `found`.
     """
 
     project: str
@@ -37,12 +38,14 @@ class CMakeLists:
     dependencies: tuple[str, ...]
     line: int | None
     ends_with_package: bool
+    finds_build_depends: bool = False
 
 
 def read_cmake_lists(text: str) -> CMakeLists:
     """Read the text of a CMakeLists.txt."""
     variables: dict[str, tuple[str, ...]] = {}
-    project, found, line, ends = "", [], None, False
+    loops: dict[str, tuple[str, ...]] = {}
+    project, found, line, ends, finds_all = "", [], None, False, False
     listed: list[str] = []
     dependencies: list[str] = []
     for command in _commands(text):
@@ -55,9 +58,13 @@ def read_cmake_lists(text: str) -> CMakeLists:
                 variables[arguments[0]] = arguments[1:]
             case "list" if len(arguments) > 1 and arguments[0] == "APPEND":
                 variables[arguments[1]] = (*variables.get(arguments[1], ()), *arguments[2:])
+            case "foreach" if arguments:
+                loops[f"${{{arguments[0]}}}"] = tuple(_items(arguments[1:], variables))
             case "find_package" if arguments:
-                found.append(arguments[0])
-            case "ament_package":
+                found += loops.get(arguments[0], arguments[:1])
+            case "ament_auto_find_build_dependencies":
+                finds_all = True
+            case "ament_package" | "ament_auto_package":
                 ends = True
             case "rosidl_generate_interfaces":
                 line = command.line
@@ -66,7 +73,7 @@ def read_cmake_lists(text: str) -> CMakeLists:
                 dependencies += packages
     unknown = any("$" in file or "*" in file for file in listed)
     spelled_out = None if unknown else tuple(dict.fromkeys(file.removeprefix("./") for file in listed))
-    return CMakeLists(project, tuple(found), spelled_out, tuple(dict.fromkeys(dependencies)), line, ends)
+    return CMakeLists(project, tuple(found), spelled_out, tuple(dict.fromkeys(dependencies)), line, ends, finds_all)
 
 
 def _commands(text: str) -> Iterator[Command]:
@@ -92,6 +99,18 @@ def _expanded(argument: str, variables: dict[str, tuple[str, ...]]) -> tuple[str
     text = argument.replace("${CMAKE_CURRENT_SOURCE_DIR}/", "")
     text = _VARIABLE.sub(lambda name: ";".join(variables.get(name[1], (name[0],))), text)
     return tuple(text.split(";")) if ";" in text else (text,)
+
+
+def _items(arguments: tuple[str, ...], variables: dict[str, tuple[str, ...]]) -> Iterator[str]:
+    """What a foreach() goes through, given its arguments after the variable."""
+    keyword = ""
+    for argument in arguments:
+        if argument in ("IN", "LISTS", "ITEMS", "RANGE"):
+            keyword = argument
+        elif keyword == "LISTS":
+            yield from variables.get(argument, ())
+        elif keyword != "RANGE":
+            yield argument
 
 
 def _split(arguments: tuple[str, ...]) -> tuple[list[str], list[str]]:

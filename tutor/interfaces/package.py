@@ -23,6 +23,7 @@ _NAME = re.compile(r"[a-z](?:_?[a-z0-9]){0,99}")
 _MAX_BYTES = 32_000
 _GROUP = "rosidl_interface_packages"
 _GENERATORS = "rosidl_default_generators"
+_BUILD_DEPENDS = ("depend", "build_depend", "buildtool_depend")
 IMPLIED = {
     "msg": (),
     "srv": ("service_msgs", "builtin_interfaces"),
@@ -37,6 +38,7 @@ class InterfacePackage:
 
     `name` is the one in package.xml (`declared`), or if that cannot be one, another by which it can be told of.
     `files` are those to build, relative to `folder`; `unlisted` those that its CMakeLists.txt does not name.
+    `build_depends` are the packages that its package.xml names as needed for the build.
     """
 
     name: str
@@ -47,6 +49,7 @@ class InterfacePackage:
     unlisted: tuple[str, ...]
     build_type: str
     is_member_of_group: bool
+    build_depends: tuple[str, ...] = ()
 
     @property
     def dependencies(self) -> tuple[str, ...]:
@@ -161,8 +164,9 @@ def _of_the_package(package: InterfacePackage) -> Iterator[Problem]:
     if package.cmake.project != package.name:
         wrong = package.cmake.project or "none"
         yield Problem(cmake, None, f"project() must name the package, {package.name}, and names {wrong}")
+    found = (*package.cmake.found, *(package.build_depends if package.cmake.finds_build_depends else ()))
     for name in dict.fromkeys((_GENERATORS, *package.dependencies)):
-        if name not in package.cmake.found:
+        if name not in found:
             yield Problem(cmake, line, f"{GENERATE}() needs find_package({name} REQUIRED) before it")
     if not package.is_member_of_group:
         yield Problem(manifest, None, f"an interface package needs <member_of_group>{_GROUP}</member_of_group>")
@@ -200,7 +204,8 @@ def _read(folder: Path) -> InterfacePackage | None:
     member = any((group.text or "").strip() == _GROUP for group in manifest.iter("member_of_group"))
     files = present if cmake.files is None else cmake.files
     unlisted = tuple(file for file in present if file not in files)
-    return InterfacePackage(name, declared, folder, cmake, files, unlisted, build_type, member)
+    depends = tuple((element.text or "").strip() for tag in _BUILD_DEPENDS for element in manifest.iter(tag))
+    return InterfacePackage(name, declared, folder, cmake, files, unlisted, build_type, member, depends)
 
 
 def _text_of(path: Path) -> str:
