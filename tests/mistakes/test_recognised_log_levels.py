@@ -21,8 +21,15 @@ HELPER = (
 DEBUG = (LogRecord(Level.DEBUG, "n", "door", 0.0, 0.0),)
 
 
-def event(value: float) -> Told:
-    return Told(Event("a weight", ({"data": value},), "error"), (0.0,), ())
+OWN_LOGGERS = (
+    "class N(Node):\n  def warn(self, logger, text):\n    logger.warning(text, throttle_duration_sec=2.0)\n"
+    "  def on_door(self, door):\n    self.warn(self.a, 'a')\n    self.warn(self.b, 'b')\n"
+)
+THROTTLED = f"PERIOD_S = 5.0\n{CALLBACK}    log.info('door open', throttle_duration_sec={{}})\n"
+
+
+def event(value: float, at: float = 0.0) -> Told:
+    return Told(Event("a weight", ({"data": value},), "error"), (at,), ())
 
 
 @pytest.mark.parametrize(
@@ -56,6 +63,28 @@ def event(value: float) -> Told:
             "line 3 logs for 2 callers",
         ),
         (HELPER.format("text"), {}, "wrong-level", ""),
+        (
+            HELPER.format("text, throttle_duration_sec=2.0"),
+            {"wanted": Level.WARN},
+            "throttle-shared-by-a-helper",
+            "2 callers",
+        ),
+        (HELPER.format("text, throttle_duration_sec=2.0"), {"wanted": Level.DEBUG}, "wrong-level", ""),
+        (OWN_LOGGERS, {"wanted": Level.WARN}, "wrong-level", ""),
+        (
+            THROTTLED.format("PERIOD_S"),
+            {"earlier": BEFORE, "event": event(7.0, at=4.0)},
+            "throttled-though-each-one-counts",
+            "line 5",
+        ),
+        (THROTTLED.format("PERIOD_S"), {"earlier": BEFORE, "event": event(7.0, at=6.0)}, "wrong-level", ""),
+        (THROTTLED.format("2"), {"earlier": BEFORE, "event": event(7.0, at=4.0)}, "wrong-level", ""),
+        (
+            THROTTLED.format("self.period"),
+            {"earlier": BEFORE, "event": event(7.0, at=6.0)},
+            "throttled-though-each-one-counts",
+            "line 5",
+        ),
         (HELPER.format("'low', throttle_duration_sec=2.0"), {}, "wrong-level", ""),
         ("x = 1\nself.get_logger().set_level(20)\n", {"wanted": Level.DEBUG}, "level-set-in-the-code", "line 2"),
         ("if charge < 0.0 or charge > 1.0:\n  pass\n", {"event": event(nan)}, "nan-passes-every-comparison", "NaN"),

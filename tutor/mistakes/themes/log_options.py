@@ -45,6 +45,23 @@ def _logged_earlier_by(case: Case, option: str) -> Iterator[tuple[NodeFile, ast.
                 yield file, call
 
 
+def _seconds(file: NodeFile, call: ast.Call, option: str) -> float | None:
+    """The value of an option that is a number, or the name of one in the file; None if it is not known."""
+    value = next((keyword.value for keyword in call.keywords if keyword.arg == option), None)
+    if isinstance(value, ast.Name | ast.Attribute):
+        value = next(iter(values_of(ast.unparse(value), file.tree)), None)
+    number = value.value if isinstance(value, ast.Constant) else None
+    return float(number) if isinstance(number, int | float) else None
+
+
+def _is_over(case: Case, throttle_s: float | None) -> bool:
+    """Whether a throttle that an earlier event began would have let a message of this one through."""
+    sent, earlier = getattr(case.about("event"), "sent", ()), case.about("earlier", ())
+    if throttle_s is None or not sent or not earlier:
+        return False
+    return bool(sent[-1] >= max(log.stamp for log in earlier) + throttle_s)
+
+
 def _may_have_made(file: NodeFile, call: ast.Call, log: LogRecord) -> bool:
     """Whether a log call is in the function that has logged a message, whose text has the call's fixed parts."""
     function = file.function_around(call)
@@ -154,6 +171,8 @@ def throttled_events(case: Case) -> Iterator[Found]:
     """
     if not case.about("too_few"):
         for file, call in _logged_earlier_by(case, "throttle_duration_sec"):
+            if _is_over(case, _seconds(file, call, "throttle_duration_sec")):
+                continue
             yield found(file, call, what=case.about("what", "it"), option="throttle_duration_sec")
 
 
@@ -196,13 +215,28 @@ def shared_throttle(case: Case) -> Iterator[Found]:
     for file in case.files:
         for call in _log_calls(file):
             function, options = file.function_around(call), _options(call)
-            if function is None or not options or not call.args:
+            if function is None or not options or not call.args or not _logs_at(call, case.about("wanted")):
                 continue
             arguments = {argument.arg for argument in (*function.args.args, *function.args.kwonlyargs)}
+            if _root(call.func) in arguments - {"self"}:
+                continue  # each caller has a logger of its own, and so a throttle of its own
             used = {node.id for node in ast.walk(call.args[0]) if isinstance(node, ast.Name)}
             callers = file.calls(function.name)
             if used & (arguments - {"self"}) and len(callers) > 1:
                 yield found(file, call, option=options[0], count=len(callers))
+
+
+def _logs_at(call: ast.Call, wanted: Level | None) -> bool:
+    """Whether a log call may log at this level, which None leaves open."""
+    name = (called_name(call) or "").upper().replace("WARNING", "WARN")
+    return wanted is None or name == "LOG" or name == wanted.name
+
+
+def _root(node: ast.expr) -> str:
+    """The variable with which an expression such as `loggers["low"].warning` begins."""
+    while isinstance(node, ast.Attribute | ast.Subscript):
+        node = node.value
+    return node.id if isinstance(node, ast.Name) else ""
 
 
 @mistake(
