@@ -18,6 +18,7 @@ LOW, HOT, OUTAGE, RECOVERY = "the battery is low", "the battery is hot", "an out
 
 PERIOD_S = 2.0
 FLOOD = 104  # of low readings: 5.2 s, more than twice the period
+HARDLY = 30  # of them are only just low: for 1.5 s
 
 Reading = dict[str, Any]
 
@@ -32,8 +33,28 @@ def reading(status: int, charge: float | None = None, celsius: float | None = No
 
 
 def low_charge() -> float:
-    """A charge well below 20 %."""
-    return random.randint(3, 16) / 100
+    """A charge below 20 %."""
+    return random.randint(3, 18) / 100
+
+
+def hardly_low() -> float:
+    """A charge that is only just below 20 %: whoever waits for less is late."""
+    return random.randint(17, 19) / 100
+
+
+def hardly_hot() -> float:
+    """A temperature that is only just above 45 °C."""
+    return random.randint(460, 480) / 10
+
+
+def ordinary(status: int) -> Event:
+    """Readings that are nothing to speak of, two of them only just."""
+    nearly = [
+        reading(status, charge=random.randint(21, 24) / 100),
+        reading(status, celsius=random.randint(420, 440) / 10),
+    ]
+    readings = [*nearly, *(reading(status) for _ in range(random.randint(1, 3)))]
+    return one_of(ORDINARY, *random.sample(readings, len(readings)))
 
 
 def one_of(kind: str, *messages: Reading, at: str = "") -> Event:
@@ -46,12 +67,15 @@ def shift() -> tuple[Event, ...]:
     begins, *changes, last = random.sample((CHARGING, DISCHARGING, NOT_CHARGING, FULL), 4)
     return (
         one_of(FIRST, reading(begins), at="info"),
-        one_of(ORDINARY, *(reading(begins) for _ in range(random.randint(3, 5)))),
+        ordinary(begins),
+        one_of(HOT, *(reading(begins, celsius=hardly_hot()) for _ in range(3)), at="warn"),
         *(one_of(CHANGE, reading(status), at="info") for status in (*changes, last)),
-        one_of(ORDINARY, *(reading(last) for _ in range(random.randint(3, 5)))),
+        ordinary(last),
         one_of(OUTAGE, *(reading(last, charge=nan) for _ in range(random.randint(3, 5))), at="error"),
         one_of(RECOVERY, reading(last)),
         one_of(OUTAGE, *(reading(last, charge=float(random.randint(5, 95))) for _ in range(4)), at="error"),
+        one_of(RECOVERY, reading(last)),
+        one_of(OUTAGE, *(reading(last, charge=-random.randint(1, 10) / 10) for _ in range(3)), at="error"),
         one_of(RECOVERY, reading(last)),
         one_of(LOW, *(reading(last, charge=low_charge()) for _ in range(3)), at="warn"),
         one_of(HOT, *(reading(last, low_charge(), random.uniform(52, 70)) for _ in range(10)), at="warn"),
@@ -65,12 +89,17 @@ def shows_charge(text: str, message: Mapping[str, Any]) -> bool:
     return any(abs(number - charge) < 0.0101 or abs(number - 100 * charge) < 1.01 for number in numbers)
 
 
+def discharging() -> list[float]:
+    """The charges of the flood: only just low for longer than the first warning may take, then whatever is low."""
+    return [hardly_low() if number < HARDLY else low_charge() for number in range(FLOOD)]
+
+
 SHIFT = Feed(BATTERY, shift())
 FLOODED = Feed(
     BATTERY,
     (
         one_of(ORDINARY, reading(DISCHARGING)),
-        one_of(LOW, *(reading(DISCHARGING, charge=low_charge()) for _ in range(FLOOD)), at="warn"),
+        one_of(LOW, *(reading(DISCHARGING, charge=charge) for charge in discharging()), at="warn"),
     ),
 )
 DEBUGGED = Feed(
@@ -88,7 +117,7 @@ CHECK = check(
     "b1.6",
     Program("battery_monitor.py"),
     LogsAt("first", SHIFT, FIRST, at_most=2),  # perhaps also its status, which is new as well
-    StaysQuiet("quiet", SHIFT, ORDINARY),
+    StaysQuiet("quiet", SHIFT, ORDINARY, calm=RECOVERY),
     LogsAt("changes", SHIFT, CHANGE),
     LogsAt("readings", DEBUGGED, READING, at_most=0, shows=shows_charge),
     low,

@@ -112,6 +112,13 @@ def test_an_event_may_leave_no_trace() -> None:
     assert_failed(verdict, "printed, not logged", check=made)
 
 
+def test_what_may_be_logged_may_still_not_be_a_warning() -> None:
+    form = StaysQuiet("quiet", FEED, STAYS.kind, calm=OPENS.kind)
+    assert_passed(judged(form, ran(logged(1.01, 20), logged(3.0, 30)))[0])
+    verdict, made = judged(form, ran(logged(1.01, 20), logged(2.01, 30, "open again")))
+    assert_failed(verdict, "logged too often", "the door opens is no reason for a warning", "open again", check=made)
+
+
 @pytest.mark.parametrize(
     ("at", "cause", "words"),
     [
@@ -158,3 +165,5 @@ def test_an_unknown_level_or_event_is_the_authors_mistake() -> None:
         Event("the door opens", (), at="warning")
     with pytest.raises(ValueError, match="opens: the feed has no event 'the door falls off'"):
         LogsAt("opens", FEED, "the door falls off")
+    with pytest.raises(ValueError, match="quiet: the feed has no event 'the door falls off'"):
+        StaysQuiet("quiet", FEED, STAYS.kind, calm="the door falls off")

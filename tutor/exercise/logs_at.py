@@ -34,8 +34,12 @@ class FeedForm(Form, ABC):
     kind: str
 
     def __post_init__(self) -> None:
-        if not any(event.kind == self.kind for event in self.feed.events):
-            raise ValueError(f"{self.id}: the feed has no event {self.kind!r}")
+        self.require(self.kind)
+
+    def require(self, kind: str) -> None:
+        """Raise ValueError unless the feed has an event of this kind."""
+        if not any(event.kind == kind for event in self.feed.events):
+            raise ValueError(f"{self.id}: the feed has no event {kind!r}")
 
     def criterion(self, exercise: Exercise) -> Criterion:
         return self.judged(self.judge, LetHappen(exercise.program, self.feed))
@@ -153,11 +157,19 @@ class LogsAt(FeedForm):
 class StaysQuiet(FeedForm):
     """Nothing at all is logged for events of a kind, and the program prints nothing in the whole run.
 
-    `feed`: what happens, event by event, while the node runs. `kind`: that of the events that are judged.
+    `feed`: what happens, event by event, while the node runs. `kind`: that of the events that are judged. `calm`: a
+    kind of events that may be logged, but not as a warning or worse.
 
         STAYS = Event("the door stays closed", ({"data": False},) * 4)
         StaysQuiet("quiet", Feed(DOOR, (STAYS,)), "the door stays closed")
     """
+
+    calm: str = ""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.calm:
+            self.require(self.calm)
 
     @property
     def expected(self) -> str:
@@ -171,6 +183,11 @@ class StaysQuiet(FeedForm):
             says = f"{self.kind} is logged at {level}, which is shown by default"
             do = "Ask who must read this at night; what nobody must is for a lower level."
             return self.too_much(found, logs, observed, says=says, do=do)
+        for told in found.of(self.calm):
+            if loud := [log for log in told.logs if log.level >= Level.WARN]:
+                says = f"{self.calm} is no reason for a warning, and this is logged: {loud[0]}"
+                do = "If you want to say that all is well, say it at INFO."
+                return self.too_much(found, loud, f"{loud[0]}, after {_sent(told)}", says=says, do=do)
         if printed := [line.text for line in found.printed]:
             symptom = found.symptom(
                 Symptom.NOT_LOGGED,
