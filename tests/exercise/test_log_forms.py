@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import asyncio
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, cast
 
 import pytest
 
@@ -19,9 +22,10 @@ from tests.checks.builders import (
     trace,
 )
 from tutor.exercise import EndsCleanly, Event, Feed, Form, LogsAt, Program, StaysQuiet, Throttles, Topic, check
-from tutor.exercise.told_events import FeedRun, tell
+from tutor.exercise.told_events import FeedRun, let_happen, tell
+from tutor.judge.bench import Publisher, Run
 from tutor.judge.check import Check
-from tutor.judge.trace import LogRecord
+from tutor.judge.trace import LogRecord, Sample
 from tutor.judge.verdict import Verdict
 
 LIFT = Program("lift.py")
@@ -66,6 +70,42 @@ def test_what_is_logged_belongs_to_the_event_that_was_sent_last() -> None:
     first, second, third, _ = tell(list(SENT), (logged(0.5, 10), logged(1.0, 20), logged(2.9, 30)))
     assert [[log.level for log in told.logs] for told in (first, second, third)] == [[10], [20], [30]]
     assert tell([], (logged(0.5, 10),)) == ()
+
+
+@dataclass
+class Clockwork:
+    """A run, and our publisher in it, whose time passes only while we wait."""
+
+    due: tuple[LogRecord, ...]
+    time: float = START
+    exit: None = None
+
+    @property
+    def logs(self) -> tuple[LogRecord, ...]:
+        return tuple(log for log in self.due if log.received_at <= self.time)
+
+    def now(self) -> float:
+        return self.time
+
+    async def until(self, seen: Callable[[], bool], limit_s: float, *, idle_s: float | None = None) -> bool:
+        end = self.time + limit_s
+        while not seen() and self.time < end:
+            self.time += 0.01
+        return seen()
+
+    def publish(self, message: Mapping[str, Any]) -> Sample:
+        return Sample(DOOR.name, message, self.time, self.time)
+
+
+def test_what_a_node_says_in_two_lines_is_of_one_event() -> None:
+    run = Clockwork((logged(0.06, 20), logged(0.1, 20)))
+    events = (OPENS, STAYS)
+
+    async def happen() -> list[tuple[Event, tuple[float, ...]]]:
+        return [(event, await let_happen(cast(Run, run), cast(Publisher, run), event)) for event in events]
+
+    opens, stays = tell(asyncio.run(happen()), run.due)
+    assert (len(opens.logs), stays.logs) == (2, ())
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.peers import Publisher
 from tutor.judge.trace import Ending, Level, LogRecord, OutputLine
-from tutor.judge.waiting_for_nodes import HARDLY_WAITED_SHARE, RESENT_S
+from tutor.judge.waiting_for_nodes import HARDLY_WAITED_SHARE, IN_FLIGHT_S, RESENT_S
 from tutor.ros_model import TopicEndpoint
 
 SHOWN_S = 3.0
@@ -134,7 +134,10 @@ class LetHappen:
 
 
 async def let_happen(run: Run, publisher: Publisher, event: Event) -> tuple[float, ...]:
-    """Send the messages of an event, and wait until it is logged; return when each of them was sent."""
+    """Send the messages of an event, and wait until it is logged; return when each of them was sent.
+
+    What else the node says of it comes soon after the first line, or when the machine lets it go on.
+    """
     sent: list[float] = []
     for message in event.messages:
         sent.append(publisher.publish(message).source_time)
@@ -147,6 +150,7 @@ async def let_happen(run: Run, publisher: Publisher, event: Event) -> tuple[floa
         await run.until(
             lambda: any(log.level >= level and log.stamp >= sent[0] for log in run.logs), SHOWN_S, idle_s=RESENT_S
         )
+        await run.until(lambda: run.exit is not None, IN_FLIGHT_S)
     return tuple(sent)
 
 
