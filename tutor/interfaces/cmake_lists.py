@@ -45,7 +45,8 @@ def read_cmake_lists(text: str) -> CMakeLists:
     """Read the text of a CMakeLists.txt."""
     variables: dict[str, tuple[str, ...]] = {}
     loops: dict[str, tuple[str, ...]] = {}
-    project, found, line, ends, finds_all = "", [], None, False, False
+    found: list[str] = []
+    project, line, ends, finds_all = "", None, False, False
     listed: list[str] = []
     dependencies: list[str] = []
     for command in _commands(text):
