@@ -23,8 +23,9 @@ from tests.checks.builders import (
 )
 from tutor.exercise import EndsCleanly, Event, Feed, Form, LogsAt, Program, StaysQuiet, Throttles, Topic, check
 from tutor.exercise.told_events import FeedRun, let_happen, tell
-from tutor.judge.bench import Publisher, Run
+from tutor.judge.bench import Run
 from tutor.judge.check import Check
+from tutor.judge.peers import Publisher
 from tutor.judge.trace import LogRecord, Sample
 from tutor.judge.verdict import Verdict
 
