@@ -52,7 +52,7 @@ def stand_in(what: str) -> type:
 
 # --- the part of a traceback in the learner's own files, and the lines on which their actions are created
 
-_OURS = os.path.abspath(os.path.join(__file__, *[os.pardir] * 3))  # with the code that runs us and finds packages
+_OURS = os.path.abspath(os.path.join(__file__, *[os.pardir] * 4))  # with what runs us and finds packages
 _FOREIGN = tuple(
     folder + os.sep for folder in (_OURS, *(sysconfig.get_path(key) for key in ("stdlib", "purelib", "platlib")))
 )
