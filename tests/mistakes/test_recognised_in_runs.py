@@ -59,6 +59,7 @@ TypeError"""
         (trace(exit=exited(signal=9)), "killed", "SIGKILL"),
         (trace(exit=exited(signal=77)), "killed", "signal 77"),
         (trace(err=TORN, exit=exited(signal=6)), "thread-still-running", "one of its threads"),
+        (trace(err=f"{CRASH}\n{TORN}", exit=exited(signal=6)), "unhandled-exception", "AttributeError"),
         (trace(err="free(): invalid pointer", exit=exited(signal=6)), "killed", "SIGABRT"),
         (NO_NODE, "no-node", "made no ROS node"),
         (trace(graph=EMPTY_GRAPH, dropped_lines=5), "no-node", "prints endlessly"),

@@ -128,6 +128,8 @@ def torn_thread(case: Case) -> Iterator[Found]:
     See it: "terminate called without an active exception" in the output.
     """
     ending = case.about("ending")
+    if ending is None and case.exceptions:
+        return  # it ended by that exception
     ended = ending.exit if ending is not None else case.trace.exit
     output = ending.output if ending is not None else case.trace.output
     torn = any(message in line.text for line in output for message in _TORN_THREAD)
