@@ -14,12 +14,7 @@ from tutor.judge.bench import Bench, Run
 from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.peers import Offer
 from tutor.judge.trace import Ending
-from tutor.judge.waiting_for_nodes import (
-    RESENT_S,
-    patience_s,
-    wait_until_log_quiet,
-    wait_until_seen,
-)
+from tutor.judge.waiting_for_nodes import RESENT_S, patience_s, wait_until_log_quiet, wait_until_seen
 from tutor.ros_model import QoS, TopicEndpoint
 
 SHOWN_WITHIN_S = 5.0

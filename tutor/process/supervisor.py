@@ -244,7 +244,7 @@ class Supervisor:
         Each process of a chain that forks the next and exits has ended before a scan of /proc gets to it, and the
         busier the machine, the longer a scan takes. The list of our children is read in some microseconds.
         """
-        own, pid = os.getpgrp(), os.getpid()
+        pid = os.getpid()
         for _ in range(100):
             try:
                 with open(f"/proc/{pid}/task/{pid}/children", "rb", buffering=0) as file:
@@ -253,29 +253,31 @@ class Supervisor:
                 return
             for child in map(int, reversed(children)):  # the newest first
                 with contextlib.suppress(ProcessLookupError, PermissionError):
-                    group = os.getpgid(child)
-                    if group not in (0, 1, own):
-                        os.killpg(group, signal.SIGKILL)
+                    _kill_group(os.getpgid(child))
                     os.kill(child, signal.SIGKILL)
             if not self._reap():
                 return
 
     def _end(self) -> None:
         """Kill until no child is left. As the kernel makes every orphan our child, nothing at all is left then."""
-        own = os.getpgrp()
         pause = 0.005
         while self._reap():
             self._kill_children()
             found = descendants(os.getpid())
             # A group is killed in one step, which no fork can outrun; single pids cover those outside any known group.
             for group in dict.fromkeys(p.group for p in found):
-                if group not in (0, 1, own):
-                    with contextlib.suppress(ProcessLookupError, PermissionError):
-                        os.killpg(group, signal.SIGKILL)
+                _kill_group(group)
             kill(found)
             # The exit of a child wakes us; that of a grandchild does not, hence the timeout.
             select.select([self._wake], [], [], pause)
             pause = min(pause * 1.2, 0.2)  # a process stuck in the kernel is not worth a busy loop
+
+
+def _kill_group(group: int) -> None:
+    """Send SIGKILL to a process group, unless it is our own or one that kill() takes for another."""
+    if group not in (0, 1, os.getpgrp()):
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(group, signal.SIGKILL)
 
 
 if __name__ == "__main__":
