@@ -219,6 +219,17 @@ async def test_ctrl_c_ends_a_forked_program_by_its_signal_or_is_handled(programs
         assert _without_frames(forked) == _without_frames(started)
 
 
+async def test_on_ctrl_c_the_main_thread_preempts_no_other(programs: Programs) -> None:
+    """The thread of rclpy that wakes the main thread then shuts the context down first."""
+    forever = FOREVER.replace("\n", "\n    ")
+    source = f"import os, time\ntry:\n    print('ready', flush=True)\n    {forever}\n"
+    source += "except KeyboardInterrupt:\n    print(os.sched_getscheduler(0) == os.SCHED_BATCH)"
+    for fork in (True, False):
+        result = await programs.run(source, fork=fork, interrupt=True)
+        assert result.forked == fork
+        assert result.output[-1] == ("stdout", "True")
+
+
 def _without_frames(result: Result) -> list[tuple[str, str]]:
     return sorted((stream, text) for stream, text in result.output if not text.startswith("  "))
 
