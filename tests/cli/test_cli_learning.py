@@ -233,7 +233,10 @@ def test_a_system_is_handed_over_answered_and_exchanged(run: Run, home: Path, en
     assert "say where, too" in run("answer", "b1.7", "qos").err
     assert "none of the choices" in run("answer", "b1.7", "magic", "courier_driver.py").err
 
+    number = next(line.split()[0] for line in choices.out.splitlines() if line.endswith("courier_driver.py"))
+    by_number = run("answer", "b1.7", "1", number)
     answered = run("answer", "b1.7", "qos", "courier_driver.py")
+    assert by_number.out == answered.out
     assert "the QoS of the two ends of a topic does not match, in courier_driver.py" in answered.out
     assert "where: courier_driver.py" in report.read_text()
     assert "+what: qos" in run("diff", "b1.7").out

@@ -8,11 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.checks.builders import trace
 from tests.failures import failure
 from tutor.judge.check import Check, Criterion
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report, overall, tell_roots_once
 from tutor.judge.verdict import Status, Verdict, fault, passed, skipped
-from tutor.judge.wording import shape
+from tutor.judge.trace import Exit
+from tutor.judge.wording import describe_no_answer, shape
 
 P, F, S, E = Status.PASSED, Status.FAILED, Status.SKIPPED, Status.ERROR
 
@@ -131,3 +133,15 @@ def test_a_root_is_told_once(first: CriterionResult, second: CriterionResult, sa
 def test_a_required_criterion_tells_the_root() -> None:
     told = tell_roots_once((_failure("a", "late: x", bonus=True), _failure("b", "late: x")))
     assert [each.verdict.same_as for each in told] == ["b", ""]
+
+
+@pytest.mark.parametrize(
+    ("exit", "waited_s", "said"),
+    [
+        (None, 4.99, "no answer in 5 s"),
+        (None, 2.12, "no answer in 2.1 s, and none to come: all of its threads are blocked"),
+        (Exit(1, None, 0.8), 0.3, "no answer: the process ended by itself, 0.8 s after its start, with exit code 1"),
+    ],
+)
+def test_why_there_was_no_longer_wait_for_an_answer_is_said(exit: Exit | None, waited_s: float, said: str) -> None:
+    assert describe_no_answer(trace(exit=exit), waited_s, 5.0) == said

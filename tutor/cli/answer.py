@@ -38,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
             return PASSED
         what = what or _choose("What is wrong?", kinds)
         where = where or _choose("In which file?", places)
-    report = answer(lesson, workspace, what, where)
+    report = answer(lesson, workspace, _named(what, kinds), _named(where, places))
     lines = [f"{kinds[report.what]}, in {report.where}", f"  reported in {context.display_path(question.path)}"]
     terminal.out("\n".join([*lines, f"Then: {command('check', lesson.id)}"]) + "\n")
     return PASSED
@@ -59,8 +59,13 @@ def _choose(title: str, choices: Mapping[str, str]) -> str:
         line = sys.stdin.readline()
         if not line:
             raise UsageError("nothing was chosen, and nothing is reported")
-        word = line.strip()
-        if word in choices:
-            return word
-        if word.isdecimal() and 1 <= int(word) <= len(choices):
-            return list(choices)[int(word) - 1]
+        chosen = _named(line.strip(), choices)
+        if chosen in choices:
+            return chosen
+
+
+def _named(word: str, choices: Mapping[str, str]) -> str:
+    """The choice with this number in the list, if the word is one, else the word itself."""
+    if word not in choices and word.isdecimal() and 1 <= int(word) <= len(choices):
+        return list(choices)[int(word) - 1]
+    return word

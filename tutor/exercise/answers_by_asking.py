@@ -157,7 +157,7 @@ def not_offered(asking: Asking, seen: AskingRun, *, alone: bool = False) -> Obse
 
 def no_answer_in_words(asking: Asking, seen: AskingRun, call: AskingCall) -> str:
     """What was observed of a call without an answer: how far it got."""
-    got = describe_no_answer(seen.trace, call.answer.took_s)
+    got = describe_no_answer(seen.trace, call.answer.took_s, ANSWER_S)
     if call.replies:
         return f"{asking.asks.name} was asked, and has replied; {asking.service.name}: {got}"
     if call.exchanges:

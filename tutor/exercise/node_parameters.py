@@ -140,7 +140,7 @@ def fail_not_set(expected: str, answer: SetAnswer, trace: Trace, stuck: Sequence
     what, name = _describe_values(answer), next(iter(answer.values))
     if not answer.answered:
         silent = Symptom.NO_ANSWER.seen(trace, stuck=tuple(stuck), parameter=name)
-        observed = f"setting {what}: {describe_no_answer(trace, answer.took_s)}"
+        observed = f"setting {what}: {describe_no_answer(trace, answer.took_s, ANSWER_S)}"
         return failed(expected, observed, silent, output_tail(trace))
     refused = Symptom.REFUSED.seen(trace, parameter=name, value=answer.values[name], answer=answer)
     return failed(expected, f'setting {what}: rejected, "{answer.reason}"', refused)

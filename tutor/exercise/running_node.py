@@ -274,7 +274,7 @@ class Node:
         trace = run.trace()
         stuck = await run.dump_stacks() if trace.exit is None else ()
         silent = Symptom.NO_ANSWER.seen(trace, stuck=stuck, answers=answers, **about)
-        self._fail(f"{asked}: {describe_no_answer(trace, took_s)}", silent)
+        self._fail(f"{asked}: {describe_no_answer(trace, took_s, ANSWER_S)}", silent)
 
     def _watched(self, topic: Topic) -> Topic:
         if topic not in self._watch:

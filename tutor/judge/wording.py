@@ -22,8 +22,13 @@ def output_tail(trace: Trace, max_lines: int = 6) -> tuple[str, ...]:
     return tuple(line.text for line in trace.output if line.text.strip())[-max_lines:]
 
 
-def describe_no_answer(trace: Trace, waited_s: float) -> str:
-    """Say that a request got no answer within this time, or because the process had already ended."""
+def describe_no_answer(trace: Trace, waited_s: float, limit_s: float = 0.0) -> str:
+    """Say that a request got no answer within this time, or because the process had already ended.
+
+    `limit_s`: how long the wait would have been at least, had the process not been idle: with all threads blocked, none
+    of them for a time, it never answers.
+    """
     if trace.exit is None:
-        return f"no answer in {waited_s:.2g} s"
+        ever = ", and none to come: all of its threads are blocked" if waited_s < 0.9 * limit_s else ""
+        return f"no answer in {waited_s:.2g} s{ever}"
     return f"no answer: the process ended by itself, {trace.exit.after_s:.1f} s after its start, with {trace.exit}"
