@@ -102,6 +102,7 @@ def test_list_as_json(run: Run, engine: FakeEngine, home: Path) -> None:
     assert set(first) == set(second)
     assert (first["id"], first["title"], first["difficulty"]) == ("i1.1", "Sensor Publisher", "easy")
     assert (first["standing"], second["standing"]) == ("not_passed", "started")
+    assert [exercise["id"] for exercise in document["exercises"] if exercise["beyond"]][:2] == ["b1.1", "b1.2"]
     assert first["files"] == [str(home / FILE)]
     assert {"id": "shutdown", "bonus": True} in first["criteria"]
     assert (first["attempts"], first["hints_shown"]) == (1, 0)

@@ -252,6 +252,15 @@ def test_the_whole_exercise_is_evidence_for_an_item_that_no_criterion_covers() -
     assert evidence(progress(i2_2=exercise(failed("defaults"))), "launch") == ()
 
 
+def test_what_was_reached_with_the_least_help_comes_first() -> None:
+    alone, copied = failed("defaults"), failed("defaults", at=LATER, help=Help.SOLUTION)
+    done = progress(i2_1=exercise(copied), i2_2=exercise(alone))
+    assert [(each.exercise, each.help) for each in evidence(done, "declare")] == [
+        ("i2.2", None),
+        ("i2.1", Help.SOLUTION),
+    ]
+
+
 def test_what_holds_now_comes_first_and_an_old_pass_is_remembered() -> None:
     done = progress(
         i2_1=exercise(failed("defaults")),
@@ -351,6 +360,7 @@ def test_json_has_a_schema_and_all_items() -> None:
         "id": "i2.1",
         "title": "Parameters <b>",
         "difficulty": "easy",
+        "beyond": False,
         "standing": "passed",
         "passed": True,
         "passed_at": LATER,

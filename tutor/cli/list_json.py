@@ -45,6 +45,7 @@ def _exercise(
         "course": lesson.course,
         "title": lesson.title,
         "difficulty": lesson.difficulty.value,
+        "beyond": lesson.beyond,
         "standing": exercise_state.state.value,
         "files": [str(workspace.path_of(file.name)) for file in lesson.files],
         "criteria": [{"id": criterion.id, "bonus": criterion.bonus} for criterion in lesson.criteria],

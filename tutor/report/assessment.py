@@ -41,7 +41,10 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class AssessedItem:
-    """One checklist item. `ticked_at` is None if it is not ticked; `evidence` is sorted by time, latest first."""
+    """One checklist item. `ticked_at` is None if it is not ticked.
+
+    `evidence` begins with what holds now, of this with what was reached with the least help, of this with the latest.
+    """
 
     id: str
     text: str
@@ -178,8 +181,13 @@ def _assess_item(item: ChecklistItem, course: Course, progress: Progress, versio
             sources.append(Source(lesson.id, left_open))
         found += [_evidence_of_criterion(item, lesson, criterion, own, version) for criterion in criteria]
     evidence = [piece for piece in found if piece is not None]
-    evidence.sort(key=lambda piece: (piece.holds, piece.at), reverse=True)  # stable: otherwise in the lesson's order
+    evidence.sort(key=_strength, reverse=True)  # stable: otherwise in the lesson's order
     return AssessedItem(item.id, item.text, progress.ticks.get(item.id), tuple(evidence), tuple(sources))
+
+
+def _strength(evidence: Evidence) -> tuple[bool, int, str]:
+    """What evidence is worth: whether it holds, with how little help it was reached, and when."""
+    return evidence.holds, -list(Help).index(evidence.help or Help.NONE), evidence.at
 
 
 def _evidence_of_exercise(lesson: Lesson, progress: ExerciseProgress, version: str) -> Evidence | None:

@@ -59,6 +59,7 @@ def _exercise(exercise: AssessedExercise) -> dict[str, Any]:
         "id": exercise.id,
         "title": exercise.title,
         "difficulty": exercise.difficulty,
+        "beyond": exercise.beyond,
         "standing": exercise.status,
         "passed": exercise.passed,
         "passed_at": exercise.passed_at,
