@@ -50,6 +50,18 @@ async def test_the_answer_is_chosen_by_keys_and_written_into_the_report(session:
         assert read_report(report.read_text()).what == ""
 
 
+async def test_the_code_of_a_system_that_is_handed_over_stays_closed(session: Session) -> None:
+    session.start(session.course.find("i1.1"))
+    async with open_app(session, (120, 36)) as me:
+        await go_to_lesson(me, "i1.2")
+        await me.press("s")
+        await me.until(lambda: me.main.page == "code", "the code is shown")
+        await go_to_lesson(me, "b1.7")
+        await me.press("1", "s")
+        await me.sees("4 to watch")
+        assert me.main.page == "lesson"
+
+
 async def test_other_exercises_have_nothing_to_answer(session: Session) -> None:
     session.start(session.course.find("i1.1"))
     async with open_app(session, (80, 24)) as me:

@@ -47,13 +47,16 @@ class Skeletons:
         self._records.read()
 
     def started(self, message: messages.Started) -> None:
-        """Show the code, now that the skeletons are in the workspace."""
-        if message.exercise != self._host.model.lesson.id:
+        """Show the code, now that the skeletons are in the workspace, unless it is to be run before it is read."""
+        lesson = self._host.model.lesson
+        if message.exercise != lesson.id:
             return
         self._files.watch()
-        self._host.show_page("code")
+        if not lesson.live.has_hidden_fault:
+            self._host.show_page("code")
         if message.written:
-            self._host.say(f"{_listed(message.written)} in your workspace: e to edit, F9 to check.")
+            then = "r to run it, 4 to watch it" if lesson.live.has_hidden_fault else "e to edit, F9 to check"
+            self._host.say(f"{_listed(message.written)} in your workspace: {then}.")
         else:
             self._host.say("Your files are there already; nothing was changed.")
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from tutor.live.updates import PublishStatus, TopicUpdate
-from tutor.ros_model import Parameter
+from tutor.ros_model import Parameter, Timing
+
+BURST_S = 0.01
+"""Messages that all came within this time say nothing of a rate."""
 
 
 def short_type(name: str) -> str:
@@ -12,11 +15,19 @@ def short_type(name: str) -> str:
     return f"{parts[0]}/{parts[-1]}" if len(parts) == 3 else name
 
 
-def rate(hz: float) -> str:
-    """Return a rate with three or four digits."""
+def rate(timing: Timing) -> str:
+    """Return a rate with three or four digits, or that there was a single burst."""
+    if is_burst(timing):
+        return "a burst"
+    hz = timing.rate_hz
     if hz >= 1000:
         return f"{hz:,.0f} Hz"
     return f"{hz:.1f} Hz" if hz >= 10 else f"{hz:.2f} Hz"
+
+
+def is_burst(timing: Timing) -> bool:
+    """Return whether all messages so far came at once."""
+    return timing.periods * timing.mean_s < BURST_S
 
 
 def period(seconds: float) -> str:
@@ -47,8 +58,8 @@ def numbers(update: TopicUpdate, since_update_s: float = 0.0) -> str:
     if timing and is_silent(update, since_update_s):
         parts.append(f"silent for {period((update.silent_s or 0.0) + since_update_s)}")
     elif timing:
-        parts.append(rate(timing.rate_hz))
-        if timing.periods > 1:
+        parts.append(rate(timing))
+        if timing.periods > 1 and not is_burst(timing):
             parts.append(f"jitter {period(timing.deviation_s)} ({periods(timing.shortest_s, timing.longest_s)})")
     if update.lost:
         parts.append(f"! {update.lost:,} lost")

@@ -72,7 +72,7 @@ def cells(state: LiveState, topic: Topic) -> tuple[Text, ...]:
     return (
         Text("●" if view else " "),
         Text(topic.name, style="bold" if state.is_lesson_topic(topic.name) else ""),
-        Text(formatting.rate(timing.rate_hz) if timing else "silent" if silent else "", justify="right"),
+        Text(formatting.rate(timing) if timing else "silent" if silent else "", justify="right"),
         Text(f"{update.count:,}" if update else "", justify="right"),
         Text(str(pub), justify="right"),
         Text(str(sub), justify="right"),
