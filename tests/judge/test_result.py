@@ -12,8 +12,8 @@ from tests.checks.builders import trace
 from tests.failures import failure
 from tutor.judge.check import Check, Criterion
 from tutor.judge.result import CriterionResult, Environment, ExerciseResult, Report, overall, tell_roots_once
-from tutor.judge.verdict import Status, Verdict, fault, passed, skipped
 from tutor.judge.trace import Exit
+from tutor.judge.verdict import Status, Verdict, fault, passed, skipped
 from tutor.judge.wording import describe_no_answer, shape
 
 P, F, S, E = Status.PASSED, Status.FAILED, Status.SKIPPED, Status.ERROR

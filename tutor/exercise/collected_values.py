@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 
-from tutor.exercise.nouns import Program, Topic, is_int_in_float
+from tutor.exercise.nouns import Program, Topic
 from tutor.exercise.publishing_start import PublishingStart, cancel
 from tutor.exercise.rate_probes import ProbeRates
 from tutor.judge import randomness
 from tutor.judge.bench import Bench, MachineTooBusy, Run
+from tutor.judge.series import is_int_in_float
 from tutor.judge.trace import Trace
 from tutor.judge.waiting_for_nodes import IDLE_S, MESSAGE_GAP_S, wait_for_message
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -236,11 +235,3 @@ def agrees(value: Any, wanted: Any) -> bool:
 def show(value: object) -> str:
     """A parameter's value as it is written on the command line."""
     return str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, str) else str(value)
-
-
-def is_int_in_float(value: object) -> bool:
-    """Whether a float is what arrives of an int that was put into a float field: rclpy sends its bits as a float's.
-
-    These are the subnormal numbers, closer to 0 than anything that a node measures or computes.
-    """
-    return isinstance(value, float) and 0.0 < abs(value) < sys.float_info.min

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tutor.exercise.form import Exercise, Form
-from tutor.exercise.nouns import Topic, is_int_in_float
+from tutor.exercise.nouns import Topic
 from tutor.exercise.publishing_start import NOT_STARTED, PublishingRun, PublishingStart
 from tutor.exercise.seen_run import Seen, fits
 from tutor.exercise.watched_start import Watching
 from tutor.judge.bench import Run
 from tutor.judge.check import Criterion
+from tutor.judge.series import is_int_in_float
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Sample, Trace
 from tutor.judge.verdict import Verdict, failed, passed

@@ -1,8 +1,9 @@
-"""Arithmetic on series of values, for the patterns in `tutor.judge.randomness`. Pure."""
+"""Arithmetic on values and their series, as the forms and the patterns in `tutor.judge.randomness` need it. Pure."""
 
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -66,3 +67,11 @@ def unexplained(values: Sequence[float], order: int) -> float:
         return 1.0
     solution = np.linalg.lstsq(basis, target, rcond=None)[0]
     return float(np.sum((target - basis @ solution) ** 2) / variation)
+
+
+def is_int_in_float(value: object) -> bool:
+    """Whether a float is what arrives of an int that was put into a float field: rclpy sends its bits as a float's.
+
+    These are the subnormal numbers, closer to 0 than anything that a node measures or computes.
+    """
+    return isinstance(value, float) and 0.0 < abs(value) < sys.float_info.min

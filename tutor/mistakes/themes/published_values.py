@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import ast
-import math
 from collections.abc import Iterator
 
 from tutor.judge.randomness import Pattern
+from tutor.judge.series import is_int_in_float
 from tutor.judge.symptom import Symptom
 from tutor.mistakes.entry import Case, Evidence, Found, found, mistake
 from tutor.mistakes.examples import in_run
@@ -42,8 +42,7 @@ def int_in_float(case: Case) -> Iterator[Found]:
     See it: `ros2 topic echo TOPIC` shows something like 1.2e-322.
     """
     wrong = case.about("wrong") or case.about("drawn", ())
-    tiny = all(math.isfinite(value) and 0 < abs(value) < 1e-300 for value in wrong)
-    if not wrong or not tiny or any(narrow_float(case)):  # the last says what else it is
+    if not wrong or not all(map(is_int_in_float, wrong)) or any(narrow_float(case)):  # the last says what else it is
         return
     for file in case.files:
         for value, given in field_values(file):
