@@ -37,7 +37,11 @@ class Lamp(Node):
         self.asking, self.got = False, []
         self.blinked = threading.Event()
         own = MutuallyExclusiveCallbackGroup()
-        self.client = self.create_client(Trigger, "position", callback_group=own)
+        self.client = self.create_client(
+            Trigger,
+            "position",
+            callback_group=own,
+        )
         self.timer = self.create_timer(0.1, self.ask)
         self.create_timer(0.1, self.blink)
 
