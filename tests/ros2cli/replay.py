@@ -194,9 +194,16 @@ def _deliberate(command: str, recorded: Sequence[str], printed: Sequence[str]) -
     """Return the reason that deliberate.toml gives for the difference, or "" if there is none."""
     known = tomllib.loads((Path(__file__).parent / "deliberate.toml").read_text(encoding="utf-8"))["deliberate"]
     for each in known:
-        lacks = [f"stdout: {line}" for line in each.get("lacks", ())]
-        if re.fullmatch(each["command"], command):
-            return each["reason"] if not lacks or [line for line in recorded if line not in lacks] == printed else ""
+        if not re.fullmatch(each["command"], command):
+            continue
+        if "lacks" in each:
+            lacks = [f"stdout: {line}" for line in each["lacks"]]
+            return each["reason"] if [line for line in recorded if line not in lacks] == list(printed) else ""
+        if "adds" in each:
+            more = re.compile(rf"stdout: +{each['adds']}")
+            kept = [line for line in printed if line in recorded or not more.fullmatch(line)]
+            return each["reason"] if kept == list(recorded) else ""
+        return each["reason"]
     return ""
 
 

@@ -98,6 +98,12 @@ def test_a_deliberate_difference_may_be_limited_to_certain_lines() -> None:
     assert classify("ros2 pkg list", recorded, out("std_msgs\n")) == DELIBERATE
     assert classify("ros2 pkg list", recorded, out("")) == DIFFERS
 
+    recorded = out("my_package calculator_client\nmy_package message_stats\n")
+    more = "my_package calculator_client\nmy_package courier_driver\nmy_package message_stats\n"
+    assert classify("ros2 pkg executables my_package", recorded, out(more)) == DELIBERATE
+    assert classify("ros2 pkg executables my_package", recorded, out(more + "another talker\n")) == DIFFERS
+    assert classify("ros2 pkg executables my_package", recorded, out("my_package courier_driver\n")) == DIFFERS
+
 
 def test_ours_may_get_further_until_ctrl_c_but_not_less_far() -> None:
     waits, answers = out("waiting\n", code=2), out("waiting\nrequest\n", code=2)
