@@ -78,6 +78,11 @@ def test_a_timer_of_one_message_a_second() -> None:
     assert_told(judge_timer(idle_run(tick_logs(hz=7), pace_slowed=True), single_calls()), "undecided")
 
 
+def test_a_number_that_hardly_changes_is_not_the_number_of_the_tick() -> None:
+    logs = [tick_logs(lambda n: f"tick, battery at {100 - n // 12} %", every=1, until_s=s) for s in (3.6, 4.7)]
+    assert_passed(judge_timer(idle_run(logs[0]), single_calls(logs[1])))
+
+
 def test_every_second_tick_is_skipped_during_a_call() -> None:
     assert_failed(judge_timer(idle_run(TICKS), single_calls(WITHOUT_EVERY_SECOND)), "slowed timer")
 

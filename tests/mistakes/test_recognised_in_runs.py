@@ -326,3 +326,20 @@ def test_the_line_that_printed(code: str, out: str, words: str) -> None:
 def test_pythons_logging_is_blamed_for_silence_only_if_the_node_logs_nothing() -> None:
     both = PRINTS.format("log.debug('x'); self.get_logger().info(name)")
     assert_told(told(Symptom.NOT_LOGGED, both, what="the name", value="kx7"), "not-logged")
+
+
+QOS_IN_A_VARIABLE = "qos = QoSProfile(depth={})\nnode.create_subscription(Bool, '/parcels', on_parcel, qos)\n"
+
+
+@pytest.mark.parametrize(
+    ("source", "words"),
+    [
+        ("node.create_subscription(Bool, '/parcels', on_parcel, 7)", "holds only 7 (line 1)"),
+        (QOS_IN_A_VARIABLE.format(8), "holds only 8 (line 2)"),
+        ("qos = 5\nqos = 6\nnode.create_subscription(Bool, '/parcels', on_parcel, qos)", "holds fewer"),
+    ],
+)
+def test_the_depth_of_a_queue_that_is_too_short(source: str, words: str) -> None:
+    ours = TopicEndpoint("/parcels", "std_msgs/msg/Bool", "/warehouse")
+    found = told(Symptom.MESSAGES_LOST, source, ours=ours, sent=60, shown=12, newest=True)
+    assert_told(found, "queue-shorter-than-a-burst", words)

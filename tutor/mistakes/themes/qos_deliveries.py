@@ -123,7 +123,7 @@ def best_effort(case: Case) -> Iterator[Found]:
     explains=[Symptom.MESSAGES_LOST],
     evidence=Evidence.RUN,
     says="{sent} messages came on {topic} at once, and {shown} were handled: those that waited for the callback were "
-    "pushed out by newer ones, since the queue of the subscription holds only {depth}{where}",
+    "pushed out by newer ones, since the queue of the subscription holds {depth}{where}",
     do="Let the queue hold as many messages as a burst has, or all.",
     example=in_run(Symptom.MESSAGES_LOST, ours=_offering(QoS()), sent=60, shown=12, newest=True),
 )
@@ -156,7 +156,9 @@ def short_queue(case: Case) -> Iterator[Found]:
             if name in ast.unparse(call) and depth is not None:
                 if depth < sent:
                     where = f" ({case.place(file.name, call.lineno)})"
-                    yield found(file, call, topic=ours.topic, sent=sent, shown=shown, depth=depth, where=where)
+                    yield found(
+                        file, call, topic=ours.topic, sent=sent, shown=shown, depth=f"only {depth}", where=where
+                    )
                 return
     yield Found({"topic": ours.topic, "sent": sent, "shown": shown, "depth": "fewer", "where": ""})
 
