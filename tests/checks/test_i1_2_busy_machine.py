@@ -82,6 +82,15 @@ def test_a_first_message_delayed_by_the_machine_excuses_a_higher_rate() -> None:
     assert_passed(replace(trials, steady=replace(trials.steady, sent=sent, cpu_wait_s=0.5)).judge("rate"))
 
 
+def test_a_higher_rate_of_the_last_five_is_undecided_if_the_machine_delayed_one_of_them() -> None:
+    """The sixth message came 0.4 s late, so the node saw the last five of ten in less time."""
+    trials = slowly(node(rating=lambda node: 4 / (4 / 4.95 - 0.4 * (node.count == 10))))
+    assert_failed(trials.judge("rate"), "wrong rate")
+    owed = [*[0.0] * 6, 0.2, *[0.4] * 13]
+    sent = tuple(replace(sent, cpu_wait_s=late_s) for sent, late_s in zip(trials.steady.sent, owed, strict=True))
+    assert_undecided(replace(trials, steady=replace(trials.steady, sent=sent, cpu_wait_s=0.4)).judge("rate"))
+
+
 def test_a_pace_at_which_truncated_seconds_look_right_is_undecided() -> None:
     cut = node(
         rating=lambda node: node.count / max(1, int(node.elapsed_s)), summary="{count} | {rate} | {first} | {last}"

@@ -152,6 +152,7 @@ def test_a_node_that_does_everything_right_passes(criterion: str) -> None:
         ("begins", "", {"state": "inactive"}, "wrong lifecycle state", "inactive before anybody has asked"),
         ("begins", "", {"sent": (sample("/images", "x", START),)}, "publishes while inactive", "it is unconfigured"),
         ("begins", "activate", {"state": "active", "change": DONE}, "wrong lifecycle state", "can be activated"),
+        ("begins", "activate", {"state": "active", "change": DONE}, "wrong lifecycle state", "activate: active"),
         (
             "configures",
             "configure",
@@ -167,6 +168,7 @@ def test_a_node_that_does_everything_right_passes(criterion: str) -> None:
             "on_configure raised",
         ),
         ("configures", "configure", {"change": UNANSWERED, "state": ""}, "no answer", "our request to configure"),
+        ("configures", "configure", {"change": UNANSWERED, "state": ""}, "no answer", "configure: no answer in 5 s"),
         ("configures", "configure", {"publishes": False}, "no messages", "no publisher of std_msgs/msg/String"),
         ("activates", "activate", {"rate": None, "messages": 0}, "no messages", "publishes nothing on /images"),
         ("activates", "activate", {"rate": Rate(1.0, 6, 5.0)}, "wrong rate", "1.00 Hz"),
