@@ -217,6 +217,14 @@ def test_a_ramp_of_two_or_three_alternating_steps_is_found() -> None:
             assert find_pattern(values) is not None, steps
 
 
+def test_a_zigzag_is_found_though_each_value_comes_twice() -> None:
+    zigzag = [20.0 + abs(number % 20 - 10) for number in range(30)]
+    for values in (zigzag, [value for value in zigzag for _ in range(2)][:50]):
+        found = find_pattern(values)
+        assert found is not None
+        assert (found.name, found.significant) == ("ramp", False)
+
+
 def test_a_ramp_computed_from_the_clock_is_found() -> None:
     for _ in range(200):
         speed = rng.uniform(0.3, 3)
