@@ -3,15 +3,19 @@
     uv run python -m tests.mutations [--mutants 100] [--seed 1] [--jobs 2]
 
 Each mutant is a copy of the code in which one comparison, `and`, `not`, sum or number is another. It is killed if the
-replay of the recordings (see `tests.recordings.replay`) prints something else, or if one of the tests that start no
-process fails. Prints each survivor with its line, to be looked at: it is equivalent, or a test is missing. Not for CI.
+replay of the recordings (see `tests.recordings.replay`) prints something else, if one of the tests that start no
+process fails, or, as scenarios run only then, if real runs of up to three exercises that use it do: of their part of
+the sample in tests/test_soundness.py, and of their skeletons and solutions. Prints each survivor with its line, to be
+looked at: it is equivalent, or a test is missing. Not for CI.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
+import importlib
 import os
+import pkgutil
 import random
 import subprocess
 import sys
@@ -19,7 +23,10 @@ import tempfile
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
+
+import checks
 
 ROOT = Path(__file__).parents[1]
 COPIED = ("tutor", "checks", "lessons", "tests", "docs", "pyproject.toml", "README.md", "CONTRIBUTING.md")
@@ -48,6 +55,8 @@ SWAPPED: dict[type[ast.AST], tuple[str, str]] = {
     ast.Div: ("/", "*"),
 }
 LIMIT_S = 300.0
+EXERCISES = 3
+"""How many exercises are run for a mutant."""
 
 
 @dataclass(frozen=True)
@@ -127,8 +136,48 @@ def run(tree: Path, *words: str) -> subprocess.CompletedProcess[str]:
         return subprocess.CompletedProcess(command, 1, "too slow", "")
 
 
+@cache
+def imported_by(module: str) -> frozenset[str]:
+    """The modules of judges, forms and checks that a module imports, directly or indirectly, and itself."""
+    found, left = set[str](), [module]
+    while left:
+        name = left.pop()
+        path = ROOT / name.replace(".", "/")
+        file = path.with_suffix(".py") if path.with_suffix(".py").is_file() else path / "__init__.py"
+        if name in found or not name.startswith(("tutor.exercise", "tutor.judge", "checks.")) or not file.is_file():
+            continue
+        found.add(name)
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.ImportFrom) and node.module and node.module != "tutor.exercise":
+                left += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
+    return frozenset(found)
+
+
+def exercises_that_use(file: str) -> list[str]:
+    """The ids of the exercises whose judges and scenarios use a module, itself given as a path."""
+    module = file.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
+    found = []
+    for info in pkgutil.iter_modules(checks.__path__, "checks."):
+        check = importlib.import_module(info.name).CHECK
+        parts = [part for criterion in check.criteria for part in (criterion.judge, *criterion.facts)]
+        own = {getattr(part, "__module__", "") for part in parts} | {info.name}
+        if any(module in imported_by(name) for name in own):
+            found.append(check.exercise)
+    return found
+
+
+def fails_in_real_runs(mutant: Mutant, tree: Path) -> bool:
+    """Whether real runs notice the mutant."""
+    used = [] if mutant.file.startswith("tutor/mistakes") else exercises_that_use(mutant.file)[:EXERCISES]
+    if not used:
+        return False
+    named = " or ".join(f"[{exercise}/" for exercise in used)
+    sampled = run(tree, "pytest", "-x", "-q", "-p", "no:cacheprovider", "tests/test_soundness.py", "-k", named)
+    return sampled.returncode not in (0, 5) or bool(run(tree, "tutor", "author", "check", *used).returncode)
+
+
 def killed_by(mutant: Mutant, tree: Path, replayed: str) -> str:
-    """What notices the mutant: "replay", "tests", or "" if nothing does."""
+    """What notices the mutant: "replay", "tests", "runs", or "" if nothing does."""
     file = tree / mutant.file
     text = file.read_text()
     file.unlink()  # a hard link to ours
@@ -138,9 +187,9 @@ def killed_by(mutant: Mutant, tree: Path, replayed: str) -> str:
         if (replay.stdout, replay.stderr) != (replayed, ""):
             return "replay"
         chosen = next(tests for folder, tests in TESTS_OF.items() if mutant.file.startswith(folder))
-        return (
-            "tests" if run(tree, "pytest", "-x", "-q", "-p", "no:cacheprovider", "--quick", *chosen).returncode else ""
-        )
+        if run(tree, "pytest", "-x", "-q", "-p", "no:cacheprovider", "--quick", *chosen).returncode:
+            return "tests"
+        return "runs" if fails_in_real_runs(mutant, tree) else ""
     finally:
         file.write_text(text)
 
@@ -174,7 +223,8 @@ def main() -> None:
             print(mutant.shown())
     by = [kill for kill in kills.values() if kill]
     print(
-        f"{len(by)} of {len(chosen)} mutants killed: {by.count('replay')} by the replay, {by.count('tests')} by tests"
+        f"{len(by)} of {len(chosen)} mutants killed: {by.count('replay')} by the replay, {by.count('tests')} by tests, "
+        f"{by.count('runs')} by real runs"
     )
 
 
