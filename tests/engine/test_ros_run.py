@@ -614,3 +614,30 @@ async def test_a_run_waits_for_a_node_only_as_long_as_it_may_wake_up_before_the_
         came, until_deadline_s = await wait(10.0)
         assert not came, run.trace()
         assert 7.0 <= until_deadline_s < 60.0
+
+
+DEAF = """
+def wait(request, response):
+    threading.Event().wait()
+
+node.create_service(AddTwoInts, "deaf", wait)
+"""
+
+
+async def test_a_call_ends_once_the_node_is_idle_but_not_while_it_waits_for_us(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tutor.engine.waits.count_dropped_datagrams", lambda: 5)  # nothing was lost
+    async with scene.bench(node(DEAF)).start(FILE) as run:
+        await wait_for_service(run, "/deaf")
+        for waits_for_us_s in (0.0, 4.0):
+            until = time.monotonic() + waits_for_us_s
+            answer = await run.call(
+                "/deaf",
+                ADD,
+                {"a": 1},
+                limit_s=LONG_S,
+                all_sent=lambda: time.monotonic() >= until,  # noqa: B023
+            )
+            assert answer.response is None
+            assert waits_for_us_s <= answer.took_s < LONG_S

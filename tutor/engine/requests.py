@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import math
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from typing import Any
 
@@ -58,7 +57,14 @@ class Requests:
         return answer or SetAnswer(values, False, False, "", asked, time.time())
 
     async def call(
-        self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float, resend_s: float = math.inf
+        self,
+        service: str,
+        type: str,
+        request: Mapping[str, Any],
+        *,
+        limit_s: float,
+        resend_s: float,
+        all_sent: Callable[[], bool],
     ) -> CallAnswer:
         """Call a service with a new client, once it is matched with the server."""
         # A new client needs a moment to discover the server, which is no part of the service's response time.
@@ -75,6 +81,7 @@ class Requests:
                     limit_s,
                     None,
                     resend_s=resend_s,
+                    all_sent=all_sent,
                 )
         return CallAnswer(
             service=service,

@@ -173,9 +173,16 @@ class RosRun:
         return await self._requests.set_parameters(node, values, atomic=atomic, limit_s=limit_s)
 
     async def call(
-        self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float, resend_s: float = math.inf
+        self,
+        service: str,
+        type: str,
+        request: Mapping[str, Any],
+        *,
+        limit_s: float,
+        resend_s: float = math.inf,
+        all_sent: Callable[[], bool] = lambda: True,
     ) -> CallAnswer:
-        return await self._requests.call(service, type, request, limit_s=limit_s, resend_s=resend_s)
+        return await self._requests.call(service, type, request, limit_s=limit_s, resend_s=resend_s, all_sent=all_sent)
 
     @asynccontextmanager
     async def publisher(self, topic: str, type: str) -> AsyncIterator[Talker]:

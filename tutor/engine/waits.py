@@ -130,11 +130,12 @@ class Waits:
         default: T,
         *,
         resend_s: float = math.inf,
+        all_sent: Callable[[], bool] = lambda: True,
     ) -> T:
         """Send a request, and await its response.
 
         Return `default` if none comes within the limit, or before the process exits or is idle. `resend_s`: the request
-        is sent again after this many seconds without a response.
+        is sent again after this many seconds without a response. `all_sent`: see `tutor.judge.bench.Run.call`.
         """
         task = asyncio.ensure_future(request())
         task.add_done_callback(lambda _: self._changed.set())
@@ -142,7 +143,7 @@ class Waits:
         try:
             # A process that is idle for longer than a lost request takes to be resent is not going to respond.
             idle = self._idle_detector(RESENT_S, LOSSLESS_S if resend_s == math.inf else resend_s + IDLE_S)
-            await self._until(task.done, limit_s, self._cpu_waits_s, idle)
+            await self._until(task.done, limit_s, self._cpu_waits_s, idle, all_sent)
             return task.result() if task.done() else default
         finally:
             self._pending_requests -= 1

@@ -79,13 +79,10 @@ class CallAtOnce:
         return calls, overlapped, False
 
     async def _call_twice(self, run: Run, desk: Desk) -> tuple[tuple[AskingCall, ...], bool]:
-        service, before, began, desk.replies_at_once = self.asking.service, len(desk.requests), run.now(), False
+        before, began = len(desk.requests), run.now()
         async with Tasks() as tasks:
             calls = [
-                tasks.start(
-                    run.call(service.name, service.type, self.asking.request(given), limit_s=2 * ANSWER_S + SECOND_S)
-                )
-                for given in self.asking.requests[:2]
+                tasks.start(desk.call_unreplied(given, 2 * ANSWER_S + SECOND_S)) for given in self.asking.requests[:2]
             ]
             await run.until(lambda: len(desk.requests) > before or tasks.count_done() > 0, ANSWER_S)
             await run.until(lambda: len(desk.requests) > before + 1 or tasks.count_done() > 0, SECOND_S)

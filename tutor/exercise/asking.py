@@ -160,16 +160,26 @@ class Desk:
 
     async def call_and_hold(self, given: Values, hold_s: float) -> AskingCall:
         """Call the node's service, and reply once its request has been there for `hold_s`, or the node has answered."""
-        service, before, began, self.replies_at_once = self._asking.service, len(self.requests), self._run.now(), False
+        before, began = len(self.requests), self._run.now()
         async with Tasks() as tasks:
-            request, limit_s = self._asking.request(given), hold_s + ANSWER_S
-            calling = tasks.start(self._run.call(service.name, service.type, request, limit_s=limit_s))
+            calling = tasks.start(self.call_unreplied(given, hold_s + ANSWER_S))
             await self._run.until(lambda: len(self.requests) > before or calling.done(), ANSWER_S)
             until = self._run.now() + hold_s
             await self._run.until(lambda: calling.done() or self._run.now() >= until, hold_s)
             self.reply(*self.held)
             self.replies_at_once = True
             return replace(self.with_exchanges(await calling, began), held_s=hold_s)
+
+    async def call_unreplied(self, given: Values, limit_s: float) -> CallAnswer:
+        """Call the node's service, and let requests wait until `replies_at_once` is set again.
+
+        While one waits, the node has a reason to do nothing, so that its being idle does not end the call.
+        """
+        service, self.replies_at_once = self._asking.service, False
+        request = self._asking.request(given)
+        return await self._run.call(
+            service.name, service.type, request, limit_s=limit_s, all_sent=lambda: self.replies_at_once or not self.held
+        )
 
     def with_exchanges(self, answer: CallAnswer, since: float) -> AskingCall:
         """A call with what was asked from then on, as far as it is known now."""

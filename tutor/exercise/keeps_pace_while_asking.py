@@ -115,13 +115,9 @@ class HoldReply:
 
     async def _hold(self, run: Run, desk: Desk, given: tuple[object, ...]) -> tuple[AskingCall, Pace | None]:
         """Call the node, hold back the reply, and watch the topic meanwhile; None if the node did not ask."""
-        before, began, desk.replies_at_once = len(desk.requests), run.now(), False
-        service = self.asking.service
+        before, began = len(desk.requests), run.now()
         async with Tasks() as tasks:
-            # The limit is that of an answer after the reply; a node that does nothing else is idle until then.
-            calling = tasks.start(
-                run.call(service.name, service.type, self.asking.request(given), limit_s=self.hold_s + ANSWER_S)
-            )
+            calling = tasks.start(desk.call_unreplied(given, self.hold_s + ANSWER_S))
             await run.until(lambda: len(desk.requests) > before or calling.done(), ANSWER_S)
             pace = None
             if len(desk.requests) > before:

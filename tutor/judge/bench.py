@@ -115,12 +115,20 @@ class Run(Protocol):
         """Set parameters as `ros2 param set` does; with `atomic`, all in one atomic request."""
 
     async def call(
-        self, service: str, type: str, request: Mapping[str, Any], *, limit_s: float, resend_s: float = math.inf
+        self,
+        service: str,
+        type: str,
+        request: Mapping[str, Any],
+        *,
+        limit_s: float,
+        resend_s: float = math.inf,
+        all_sent: Callable[[], bool] = lambda: True,
     ) -> CallAnswer:
         """Call a service as `ros2 service call` does: with a new client, once it is matched with the server.
 
         `resend_s`: send the request again whenever this many seconds pass without a response. A busy machine may lose
-        one, so this is for requests without side effects.
+        one, so this is for requests without side effects. `all_sent`: whether the node has got all that it waits for;
+        only then does it end the wait that the node is idle.
         """
 
     def publisher(self, topic: str, type: str) -> AbstractAsyncContextManager[Publisher]:
