@@ -222,7 +222,7 @@ async def test_ctrl_c_ends_a_forked_program_by_its_signal_or_is_handled(programs
 async def test_on_ctrl_c_the_main_thread_preempts_no_other(programs: Programs) -> None:
     """The thread of rclpy that wakes the main thread then shuts the context down first."""
     forever = FOREVER.replace("\n", "\n    ")
-    source = f"import os, time\ntry:\n    print('ready', flush=True)\n    {forever}\n"
+    source = f"import os, time\ntry:\n    os.write(1, b'ready\\n')\n    {forever}\n"
     source += "except KeyboardInterrupt:\n    print(os.sched_getscheduler(0) == os.SCHED_BATCH)"
     for fork in (True, False):
         result = await programs.run(source, fork=fork, interrupt=True)

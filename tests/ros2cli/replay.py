@@ -196,14 +196,15 @@ def _deliberate(command: str, recorded: Sequence[str], printed: Sequence[str]) -
     for each in known:
         if not re.fullmatch(each["command"], command):
             continue
+        reason: str = each["reason"]
         if "lacks" in each:
             lacks = [f"stdout: {line}" for line in each["lacks"]]
-            return each["reason"] if [line for line in recorded if line not in lacks] == list(printed) else ""
+            return reason if [line for line in recorded if line not in lacks] == list(printed) else ""
         if "adds" in each:
             more = re.compile(rf"stdout: +{each['adds']}")
             kept = [line for line in printed if line in recorded or not more.fullmatch(line)]
-            return each["reason"] if kept == list(recorded) else ""
-        return each["reason"]
+            return reason if kept == list(recorded) else ""
+        return reason
     return ""
 
 
