@@ -70,8 +70,6 @@ class ServiceForm(VerticalScroll, can_focus=False):
             await self.mount(Static("The request has no fields.", classes="quiet"))
         else:
             await self.mount(*(FieldRow(field) for field in form.fields))
-            width = max(len(f"{field.path} {field.type} ") for field in form.fields)
-            self.query("FieldRow .label").set_styles(f"width: {width};")
 
     async def clear(self) -> None:
         """Show no form."""
