@@ -14,7 +14,8 @@ BATTERY = Topic("/battery", "sensor_msgs/msg/BatteryState", "percentage")
 CHARGING, DISCHARGING, NOT_CHARGING, FULL = 1, 2, 3, 4
 
 FIRST, READING, ORDINARY, CHANGE = "the first reading", "a reading", "an ordinary reading", "a change of status"
-LOW, HOT, OUTAGE, RECOVERY = "the battery is low", "the battery is hot", "an outage", "a good reading after an outage"
+LOW, HOT, LOW_TOO = "the battery is low", "the battery is hot", "the battery is hot, and now low as well"
+OUTAGE, RECOVERY = "an outage", "a reading that is good again"
 
 PERIOD_S = 2.0
 FLOOD = 104  # of low readings: 5.2 s, more than twice the period
@@ -67,8 +68,10 @@ def shift() -> tuple[Event, ...]:
     begins, *changes, last = random.sample((CHARGING, DISCHARGING, NOT_CHARGING, FULL), 4)
     return (
         one_of(FIRST, reading(begins), at="info"),
-        ordinary(begins),
         one_of(HOT, *(reading(begins, celsius=hardly_hot()) for _ in range(3)), at="warn"),
+        one_of(LOW_TOO, *(reading(begins, low_charge(), hardly_hot()) for _ in range(3)), at="warn"),
+        one_of(RECOVERY, reading(begins)),
+        ordinary(begins),
         *(one_of(CHANGE, reading(status), at="info") for status in (*changes, last)),
         ordinary(last),
         one_of(OUTAGE, *(reading(last, charge=-random.randint(1, 10) / 10) for _ in range(3)), at="error"),
@@ -121,7 +124,7 @@ CHECK = check(
     LogsAt("changes", SHIFT, CHANGE),
     LogsAt("readings", DEBUGGED, READING, at_most=0, shows=shows_charge),
     low,
-    LogsAt("hot", SHIFT, HOT, after=low),
+    LogsAt("hot", SHIFT, HOT, also=LOW_TOO, after=low),
     LogsAt("broken", SHIFT, OUTAGE),
     EndsCleanly("shutdown", bonus=True),
     expected_s=8.0,

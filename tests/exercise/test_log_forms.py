@@ -73,6 +73,15 @@ def test_what_is_logged_belongs_to_the_event_that_was_sent_last() -> None:
     assert tell([], (logged(0.5, 10),)) == ()
 
 
+def test_events_of_another_kind_are_judged_as_well_and_named() -> None:
+    form = LogsAt("opens", FEED, OPENS.kind, also=BLOCKED.kind)
+    verdict, made = judged(form, ran(logged(1.0, 20), logged(2.0, 20)))
+    assert_failed(verdict, "wrong level", f"{BLOCKED.kind} happens, and nothing is logged", check=made)
+    verdict, made = judged(form, ran(logged(1.0, 20), logged(2.0, 20), logged(3.0, 20), logged(3.1, 20)))
+    assert_failed(verdict, "logged too often", f"{BLOCKED.kind} is logged 2 times", check=made)
+    assert_passed(judged(form, ran(logged(1.0, 20), logged(2.0, 20), logged(3.0, 20)))[0])
+
+
 @dataclass
 class Clockwork:
     """A run, and our publisher in it, whose time passes only while we wait."""

@@ -34,7 +34,13 @@ class FeedForm(Form, ABC):
     kind: str
 
     def __post_init__(self) -> None:
-        self.require(self.kind)
+        for kind in self.kinds:
+            self.require(kind)
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The kinds of events that are judged."""
+        return (self.kind,)
 
     def require(self, kind: str) -> None:
         """Raise ValueError unless the feed has an event of this kind."""
@@ -54,8 +60,8 @@ class FeedForm(Form, ABC):
             about = {"topic": topic.name, "type": topic.type, "ours": found.ours}
             unheard = found.symptom(Symptom.NOTHING_RECEIVED, **about)
             return failed(self.expected, f"no subscription on {topic.name}", unheard, output_tail(found.trace))
-        events = found.of(self.kind)
-        happened = sum(event.kind == self.kind for event in self.feed.events)
+        events = [told for told in found.told if told.event.kind in self.kinds]
+        happened = sum(event.kind in self.kinds for event in self.feed.events)
         if len(events) < happened and found.trace.exit is not None:
             ended = found.symptom(Symptom.ENDED)
             observed = f"it ended by itself ({found.trace.exit}) while messages came on {topic.name}"
@@ -69,7 +75,7 @@ class FeedForm(Form, ABC):
 
     @abstractmethod
     def judge_events(self, found: FeedRun, events: list[Told]) -> Verdict:
-        """Judge the events of the kind, all of which happened."""
+        """Judge the events, all of which happened."""
 
     @property
     def level(self) -> Level:
@@ -83,20 +89,22 @@ class FeedForm(Form, ABC):
             Symptom.WRONG_LEVEL,
             says=says,
             do=do,
-            what=self.kind,
+            what=told.event.kind,
             recognise=(lambda text: True) if prints_only else None,
             event=told,
             wanted=self.level,
             lowest_level=min((log.level for log in found.trace.logs), default=Level.FATAL),
-            earlier=[log for one in found.of(self.kind) if one.sent < told.sent for log in one.at(self.level)],
+            earlier=[log for one in found.of(told.event.kind) if one.sent < told.sent for log in one.at(self.level)],
             **about,
         )
         printed = [line.text for line in found.printed[:_EVIDENCE]] if prints_only else []
         return failed(self.expected, observed, missing, _shown(told.logs) or printed)
 
-    def too_much(self, found: FeedRun, logs: list[LogRecord], observed: str, *, says: str, do: str) -> Verdict:
-        """The failure of a node that logs more than it should."""
-        flooded = found.symptom(Symptom.LOGGED_TOO_OFTEN, says=says, do=do, what=self.kind, logged=tuple(logs))
+    def too_much(
+        self, found: FeedRun, logs: list[LogRecord], observed: str, *, says: str, do: str, what: str = ""
+    ) -> Verdict:
+        """The failure of a node that logs more than it should. `what`: the kind of event, if it is not `kind`."""
+        flooded = found.symptom(Symptom.LOGGED_TOO_OFTEN, says=says, do=do, what=what or self.kind, logged=tuple(logs))
         return failed(self.expected, observed, flooded, _shown(logs))
 
 
@@ -107,7 +115,7 @@ class LogsAt(FeedForm):
     `feed`: what happens, event by event, while the node runs. `kind`: that of the events that are judged. `at_most`:
     how many messages at that level each of them may have, if more than one is right; 0 for any number. `shows`: whether
     a log message shows what was sent, given its text and the fields of the event's first message; without it, any text
-    will do.
+    will do. `also`: another kind that is judged in the same way, and named where it is not logged.
 
         OPENS = Event("the door opens", ({"data": True},), at="info")
         LogsAt("opens", Feed(DOOR, (OPENS,)), "the door opens")
@@ -115,6 +123,11 @@ class LogsAt(FeedForm):
 
     at_most: int = 1
     shows: Callable[[str, Mapping[str, Any]], bool] | None = None
+    also: str = ""
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        return (self.kind, self.also) if self.also else (self.kind,)
 
     @property
     def expected(self) -> str:
@@ -129,9 +142,9 @@ class LogsAt(FeedForm):
                 return self._missing(found, told)
             if 0 < self.at_most < len(logs):
                 observed = f"{counted(len(logs), 'message')} at {self.level.name} for one event, {_sent(told)}"
-                says = f"{self.kind} is logged {len(logs)} times, so that what matters drowns in repetition"
+                says = f"{told.event.kind} is logged {len(logs)} times, so that what matters drowns in repetition"
                 do = "Log it when it begins: remember in the node what the last message said, and compare."
-                return self.too_much(found, logs, observed, says=says, do=do)
+                return self.too_much(found, logs, observed, says=says, do=do, what=told.event.kind)
             shown += logs
         return passed(self.expected, f"{counted(len(events), 'event')}, each at {self.level.name}", _shown(shown))
 
@@ -145,9 +158,9 @@ class LogsAt(FeedForm):
             do = "Put the values of the message into the text."
             return self.wrong(found, told, str(told.at(self.level)[0]), says=says, do=do)
         if others:
-            says = f"{self.kind} is logged at {Level(others[0].level).name} instead of {level}"
+            says = f"{told.event.kind} is logged at {Level(others[0].level).name} instead of {level}"
             return self.wrong(found, told, str(others[0]), says=says, do=f"Use the logger's method for {level}.")
-        says = f"{self.kind} happens, and nothing is logged at {level}"
+        says = f"{told.event.kind} happens, and nothing is logged at {level}"
         do = f"Find the place in the callback where it is noticed, and log it there at {level}."
         observed = f"nothing at {level} after {_sent(told)}"
         return self.wrong(found, told, observed, says=says, do=do)
