@@ -69,7 +69,7 @@ CHECK = check(
     SendsFeedback("feedback", goal, steps, may_miss=2, over_s=0.3, after=goal),
     HandlesGoal("cancel", COUNTDOWN, LONG, "canceled", result=counted, partial=True, cancel_after_s=1.0, after=goal),
     HandlesTwoGoals("replace", COUNTDOWN, (LONG, short), ("aborted", "succeeded"), result=counted, after=goal),
-    HandlesGoal("reject", COUNTDOWN, bad, "rejected", after=goal),
+    HandlesGoal("reject", COUNTDOWN, bad, "rejected", accepts={"order": 0}, after=goal),
     client,
     HandlesRejection("client-rejected", client, after=client),
     EndsCleanly("shutdown", bonus=True),

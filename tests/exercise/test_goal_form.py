@@ -56,6 +56,31 @@ def test_a_goal_ends_as_it_should(ends: Outcome, answer: GoalAnswer, cause: str,
         assert_passed(verdict)
 
 
+@pytest.mark.parametrize(
+    ("next_answer", "cause", "words"),
+    [
+        (DONE, "", ""),
+        (RUNNING, "", ""),
+        (REFUSED, "wrong goal", "/count order=0 is rejected as well"),
+        (GoalAnswer(), "no answer", "does not answer a goal"),
+    ],
+)
+def test_a_goal_at_the_limit_must_not_be_rejected(next_answer: GoalAnswer, cause: str, words: str) -> None:
+    made = check(
+        "t1", Program("node.py"), HandlesGoal("refuses", COUNT, {"order": -1}, "rejected", accepts={"order": 0})
+    )
+    verdict = judge_of(made, "refuses")(GoalRun(SERVED, answer=REFUSED, next_answer=next_answer))
+    if cause:
+        assert_failed(verdict, cause, words, check=made)
+    else:
+        assert_passed(verdict)
+
+
+def test_only_a_goal_that_must_be_rejected_has_one_that_must_not_be() -> None:
+    with pytest.raises(ValueError, match="refuses: accepts is for a goal that must be rejected"):
+        HandlesGoal("refuses", COUNT, {"order": 2}, accepts={"order": 0})
+
+
 def test_a_missing_server_is_told_with_those_that_are_there() -> None:
     made = check("t1", Program("node.py"), HandlesGoal("counts", COUNT, {"order": 2}))
     judge = judge_of(made, "counts")

@@ -47,10 +47,14 @@ STEPS: Mapping[str, str] = {
 
 @dataclass(frozen=True)
 class GoalRun(Seen):
-    """What became of a goal that we sent. `answer`: None if there was no action server."""
+    """What became of a goal that we sent, and of one that was sent after it.
+
+    `answer`: None if there was no action server. `next_answer`: None if no other goal was sent.
+    """
 
     answer: GoalAnswer | None = None
     goal: Fields = field(default_factory=dict)
+    next_answer: GoalAnswer | None = None
 
 
 def drawn(goal: Goal) -> Fields:
@@ -135,7 +139,7 @@ class SendGoal:
     """Start without parameters, and send a goal; see `pursue`.
 
     `feedback`: how many messages of it are waited for. `all_feedback`: wait also for those that the result may have
-    overtaken.
+    overtaken. `next_goal`: another goal, which is sent if this one is rejected.
     """
 
     program: Program
@@ -146,6 +150,7 @@ class SendGoal:
     within_s: float
     cancel_after_s: float = 0.0
     all_feedback: bool = False
+    next_goal: Goal | None = field(default=None, hash=False)
 
     async def __call__(self, bench: Bench) -> GoalRun:
         action, goal = self.action, drawn(self.goal)
@@ -164,7 +169,18 @@ class SendGoal:
             await run.until(lambda: not self.all_feedback and len(client.seen.feedback) >= self.feedback, OVERTAKEN_S)
             answer = client.seen
             unheard = not answer.accepted or (self.cancel and answer.cancel_accepted is None and not answer.outcome)
-            return (await look(run, does_nothing=unheard)).having(GoalRun, answer=answer, goal=goal)
+            next_answer = await self._send_next(run) if answer.accepted is False else None
+            seen = await look(run, does_nothing=unheard)
+            return seen.having(GoalRun, answer=answer, goal=goal, next_answer=next_answer)
+
+    async def _send_next(self, run: Run) -> GoalAnswer | None:
+        """Send the next goal, if there is one, and wait for how it ends."""
+        if self.next_goal is None:
+            return None
+        async with run.goal_client(self.action.name, self.action.type) as client:
+            if await wait_for_server(run, self.action, client):
+                await pursue(run, client, drawn(self.next_goal), None, CANCELED_S)
+            return client.seen
 
 
 def action_missing(action: Action, seen: Seen) -> Observation:

@@ -43,9 +43,11 @@ class HandlesGoal(Form):
     `cancel_after_s`. `feedback`: how many messages of it must come at least. `result`: those of its fields that matter,
     with their values, or a function that makes them from the goal. `partial`: of a list in the result, the beginning
     must be there, and not all. `within_s`: how long the goal may take, in seconds; once canceled, it is 3 s at most.
+    `accepts`: where the goal must be rejected, another one that must not be, such as one at the limit.
 
         HandlesGoal("counts", FIBONACCI, {"order": 5}, feedback=1, result={"sequence": [0, 1, 1, 2, 3, 5]})
         HandlesGoal("stops", FIBONACCI, {"order": 50}, ends="canceled", feedback=2)
+        HandlesGoal("refuses", FIBONACCI, {"order": -1}, ends="rejected", accepts={"order": 0})
     """
 
     action: Action
@@ -56,8 +58,11 @@ class HandlesGoal(Form):
     within_s: float = 10.0
     cancel_after_s: float = 0.0
     partial: bool = False
+    accepts: Fields | None = field(default=None, hash=False)
 
     def __post_init__(self) -> None:
+        if self.accepts is not None and self.ends != "rejected":
+            raise ValueError(f"{self.id}: accepts is for a goal that must be rejected")
         if self.ends not in STEPS:
             raise ValueError(f"{self.id}: {self.ends!r} is no end of a goal: take one of {', '.join(STEPS)}")
 
@@ -69,7 +74,9 @@ class HandlesGoal(Form):
         judged = exercise.first(SendsFeedback, lambda form: form.of.id == self.id) is not None
         canceled, within_s = self.ends == "canceled", 0.0 if self.ends == "rejected" else self.within_s
         program, after_s = exercise.program, self.cancel_after_s
-        return SendGoal(program, self.action, self.goal, self.feedback, canceled, within_s, after_s, judged)
+        return SendGoal(
+            program, self.action, self.goal, self.feedback, canceled, within_s, after_s, judged, self.accepts
+        )
 
     def judge(self, found: GoalRun) -> Verdict:
         """Judge what became of the goal."""
@@ -78,12 +85,16 @@ class HandlesGoal(Form):
         parts = [f"{describe_goal(action, goal)} is {self.ends}"]
         parts += [f"after {counted(self.feedback, 'feedback message')}"] if self.feedback else []
         parts += [f"with {'the beginning of ' if self.partial else ''}{_short(result)}"] if result else []
+        parts += [f"and {describe_goal(action, self.accepts)} is not"] if self.accepts else []
         expected = " ".join(parts)
         tail = output_tail(found.trace)
         if answer is None:
             return failed(expected, f"{action.name} has no action server", action_missing(action, found), tail)
         trail = [str(dict(feedback.message)) for feedback in answer.feedback[:3]]
         observed, why = self._what_is_wrong(found, answer, result)
+        if why is None:
+            also, why = self._accepts(found)
+            observed = also or observed
         if why is not None:
             return failed(expected, observed, why, [*trail, *tail])
         return passed(expected, observed, trail)
@@ -118,6 +129,17 @@ class HandlesGoal(Form):
         if result is not None and not (begins(got, result) if self.partial else agrees(got, result)):
             return wrong(f"{self.ends} with {_short(got)}, not {_short(result)}", _IN_RESULT)
         return f"{self.ends}, {counted(len(answer.feedback), 'feedback message')}, {_short(got)}", None
+
+    def _accepts(self, found: GoalRun) -> tuple[str, Observation | None]:
+        """What was observed of the goal that must be accepted, and the failure, if it is one."""
+        answer = found.next_answer or GoalAnswer()
+        if self.accepts is None or answer.accepted:
+            return "", None
+        if answer.accepted is None:
+            return unanswered(self.action, found, answer, self.within_s)
+        says = f"{describe_goal(self.action, self.accepts)} is rejected as well"
+        do = "Look at the goals at the limit: let the goal_callback return GoalResponse.ACCEPT for this one."
+        return says, wrong_goal(self.action, found, answer, says, do, "accepted")
 
 
 _LET_IN = "Let the node take in requests while the goal runs: see what runs its execute callback meanwhile."
@@ -175,7 +197,7 @@ class SendsFeedback(Form):
 
 
 def wrong_goal(action: Action, seen: Seen, answer: GoalAnswer | None, says: str, do: str, wanted: str) -> Observation:
-    """A goal that does not go as it should. `wanted`: how it should have ended, or "feedback"."""
+    """A goal that does not go as it should. `wanted`: how it should have ended, "accepted", or "feedback"."""
     about: Mapping[str, Any] = {"action": action.name, "wanted": wanted, "answer": answer}
     found = outcome_of(answer) if answer is not None else ""
     return seen.symptom(Symptom.WRONG_GOAL, says=says, do=do, found=found, **about)
