@@ -218,14 +218,17 @@ class Supervisor:
 
         On SIGINT, a thread of rclpy wakes the main thread and only then shuts the context down. On a busy machine, the
         main thread overtook it in 2 of 100 runs, and a bare `rclpy.shutdown()` after the spin raised nothing. In the
-        class SCHED_BATCH, the main thread has as much of the processor as before, but does not preempt its waker.
+        class SCHED_BATCH, the main thread has as much of the processor as before, but does not preempt its waker. The
+        same goes for nodes that a launch file has started.
         """
+        group = [p.pid for p in descendants(os.getpid()) if p.group == self._main_pid]
         if not self._exited:  # before it is sent: the program's exit must be reported after it
             self._report("interrupted")
-            with contextlib.suppress(OSError):
-                os.sched_setscheduler(self._main_pid, os.SCHED_BATCH, os.sched_param(0))
+            for pid in group:
+                with contextlib.suppress(OSError):
+                    os.sched_setscheduler(pid, os.SCHED_BATCH, os.sched_param(0))
         # Once the leader is reaped, its group id is only safe to use while a descendant is still in that group.
-        if not self._exited or any(p.group == self._main_pid for p in descendants(os.getpid())):
+        if not self._exited or group:
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.killpg(self._main_pid, signal.SIGINT)
 
