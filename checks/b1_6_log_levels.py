@@ -15,7 +15,7 @@ CHARGING, DISCHARGING, NOT_CHARGING, FULL = 1, 2, 3, 4
 
 FIRST, READING, ORDINARY, CHANGE = "the first reading", "a reading", "an ordinary reading", "a change of status"
 LOW, HOT, LOW_TOO = "the battery is low", "the battery is hot", "the battery is hot, and now low as well"
-OUTAGE, RECOVERY = "an outage", "a reading that is good again"
+OUTAGE, RECOVERY = "an outage", "readings that are good again"
 
 PERIOD_S = 2.0
 FLOOD = 104  # of low readings: 5.2 s, more than twice the period
@@ -38,6 +38,11 @@ def low_charge() -> float:
     return random.randint(3, 18) / 100
 
 
+def percent() -> float:
+    """A charge in percent instead of a fraction."""
+    return float(random.randint(5, 95))
+
+
 def hardly_low() -> float:
     """A charge that is only just below 20 %: whoever waits for less is late."""
     return random.randint(17, 19) / 100
@@ -45,16 +50,17 @@ def hardly_low() -> float:
 
 def hardly_hot() -> float:
     """A temperature that is only just above 45 °C."""
-    return random.randint(460, 480) / 10
+    return random.randint(452, 459) / 10
 
 
 def ordinary(status: int) -> Event:
-    """Readings that are nothing to speak of, two of them only just."""
+    """Readings that are nothing to speak of, some of them only just."""
     nearly = [
         reading(status, charge=random.randint(21, 24) / 100),
-        reading(status, celsius=random.randint(420, 440) / 10),
+        reading(status, charge=1.0),
+        reading(status, celsius=45.0),
     ]
-    readings = [*nearly, *(reading(status) for _ in range(random.randint(1, 3)))]
+    readings = [*nearly, *(reading(status) for _ in range(random.randint(1, 2)))]
     return one_of(ORDINARY, *random.sample(readings, len(readings)))
 
 
@@ -63,23 +69,28 @@ def one_of(kind: str, *messages: Reading, at: str = "") -> Event:
     return Event(kind, messages, at)
 
 
+def good(status: int) -> Event:
+    """Readings that are good again: someone may wait for the third before saying so."""
+    return one_of(RECOVERY, *(reading(status) for _ in range(3)))
+
+
 def shift() -> tuple[Event, ...]:
     """What happens while someone is on call: one thing after another."""
-    begins, *changes, last = random.sample((CHARGING, DISCHARGING, NOT_CHARGING, FULL), 4)
+    begins, other, last = random.sample((CHARGING, DISCHARGING, NOT_CHARGING, FULL), 3)
     return (
         one_of(FIRST, reading(begins), at="info"),
         one_of(HOT, *(reading(begins, celsius=hardly_hot()) for _ in range(3)), at="warn"),
         one_of(LOW_TOO, *(reading(begins, low_charge(), hardly_hot()) for _ in range(3)), at="warn"),
-        one_of(RECOVERY, reading(begins)),
+        good(begins),
         ordinary(begins),
-        *(one_of(CHANGE, reading(status), at="info") for status in (*changes, last)),
+        *(one_of(CHANGE, reading(status), at="info") for status in (other, begins, last)),
         ordinary(last),
         one_of(OUTAGE, *(reading(last, charge=-random.randint(1, 10) / 10) for _ in range(3)), at="error"),
-        one_of(RECOVERY, reading(last)),
+        good(last),
         one_of(OUTAGE, *(reading(last, charge=nan) for _ in range(random.randint(3, 5))), at="error"),
-        one_of(RECOVERY, reading(last)),
-        one_of(OUTAGE, *(reading(last, charge=float(random.randint(5, 95))) for _ in range(4)), at="error"),
-        one_of(RECOVERY, reading(last)),
+        good(last),
+        one_of(OUTAGE, *(reading(last, charge=charge) for charge in (percent(), percent(), nan, 1.5)), at="error"),
+        good(last),
         one_of(LOW, *(reading(last, charge=low_charge()) for _ in range(3)), at="warn"),
         one_of(HOT, *(reading(last, low_charge(), random.uniform(52, 70)) for _ in range(10)), at="warn"),
     )
@@ -87,7 +98,7 @@ def shift() -> tuple[Event, ...]:
 
 def shows_charge(text: str, message: Mapping[str, Any]) -> bool:
     """Whether a text has the charge, as a fraction or in percent; it may be rounded to a whole percent."""
-    numbers = [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", text)]
+    numbers = [float(number) for number in re.findall(r"(?:(?<!\w)-)?\d+(?:\.\d+)?", text)]
     charge = message["percentage"]
     return any(abs(number - charge) < 0.0101 or abs(number - 100 * charge) < 1.01 for number in numbers)
 
@@ -105,14 +116,18 @@ FLOODED = Feed(
         one_of(LOW, *(reading(DISCHARGING, charge=charge) for charge in discharging()), at="warn"),
     ),
 )
-DEBUGGED = Feed(
-    BATTERY,
-    tuple(
-        one_of(READING, reading(status, charge), at="debug")
-        for status, charge in ((CHARGING, None), (CHARGING, None), (FULL, None), (FULL, low_charge()), (FULL, None))
-    ),
-    log_level="debug",
-)
+
+
+def good_readings() -> tuple[Event, ...]:
+    """Good readings, the last two of them the same."""
+    first, *others = (
+        reading(status, charge)
+        for status, charge in ((CHARGING, None), (CHARGING, None), (FULL, low_charge()), (FULL, None))
+    )
+    return tuple(one_of(READING, each, at="debug") for each in (first, *others, others[-1]))
+
+
+DEBUGGED = Feed(BATTERY, good_readings(), log_level="debug")
 
 low = Throttles("low", FLOODED, LOW, period_s=PERIOD_S)
 
@@ -120,7 +135,7 @@ CHECK = check(
     "b1.6",
     Program("battery_monitor.py"),
     LogsAt("first", SHIFT, FIRST, at_most=2),  # perhaps also its status, which is new as well
-    StaysQuiet("quiet", SHIFT, ORDINARY, calm=RECOVERY),
+    StaysQuiet("quiet", SHIFT, ORDINARY, calm=(RECOVERY, FIRST, CHANGE)),
     LogsAt("changes", SHIFT, CHANGE),
     LogsAt("readings", DEBUGGED, READING, at_most=0, shows=shows_charge),
     low,

@@ -163,10 +163,17 @@ def test_an_event_may_leave_no_trace() -> None:
 
 
 def test_what_may_be_logged_may_still_not_be_a_warning() -> None:
-    form = StaysQuiet("quiet", FEED, STAYS.kind, calm=OPENS.kind)
-    assert_passed(judged(form, ran(logged(1.01, 20), logged(3.0, 30)))[0])
-    verdict, made = judged(form, ran(logged(1.01, 20), logged(2.01, 30, "open again")))
-    assert_failed(verdict, "logged too often", "the door opens is no reason for a warning", "open again", check=made)
+    form = StaysQuiet("quiet", FEED, STAYS.kind, calm=(OPENS.kind,))
+    assert_passed(judged(form, ran(logged(-0.5, 20), logged(1.01, 20), logged(3.0, 30)))[0])
+    verdict, made = judged(form, ran(logged(1.01, 20), logged(2.01, 20), logged(2.02, 30, "open again")))
+    assert_failed(verdict, "logged too often", "no reason for a warning (the door opens)", "open again", check=made)
+    verdict, made = judged(form, ran(logged(-0.5, 30, "no door yet"), logged(1.01, 20), logged(2.01, 20)))
+    assert_failed(verdict, "logged too often", "before anything has happened", "no door yet", check=made)
+
+
+def test_an_event_at_the_wrong_level_is_for_the_criterion_on_it() -> None:
+    form = StaysQuiet("quiet", FEED, STAYS.kind, calm=(OPENS.kind,))
+    assert_passed(judged(form, ran(logged(1.01, 20), logged(2.01, 30)))[0])
 
 
 @pytest.mark.parametrize(
@@ -216,4 +223,4 @@ def test_an_unknown_level_or_event_is_the_authors_mistake() -> None:
     with pytest.raises(ValueError, match="opens: the feed has no event 'the door falls off'"):
         LogsAt("opens", FEED, "the door falls off")
     with pytest.raises(ValueError, match="quiet: the feed has no event 'the door falls off'"):
-        StaysQuiet("quiet", FEED, STAYS.kind, calm="the door falls off")
+        StaysQuiet("quiet", FEED, STAYS.kind, calm=("the door falls off",))

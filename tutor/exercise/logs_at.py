@@ -100,11 +100,10 @@ class FeedForm(Form, ABC):
         printed = [line.text for line in found.printed[:_EVIDENCE]] if prints_only else []
         return failed(self.expected, observed, missing, _shown(told.logs) or printed)
 
-    def too_much(
-        self, found: FeedRun, logs: list[LogRecord], observed: str, *, says: str, do: str, what: str = ""
-    ) -> Verdict:
-        """The failure of a node that logs more than it should. `what`: the kind of event, if it is not `kind`."""
-        flooded = found.symptom(Symptom.LOGGED_TOO_OFTEN, says=says, do=do, what=what or self.kind, logged=tuple(logs))
+    def too_much(self, found: FeedRun, logs: list[LogRecord], observed: str, **words: str) -> Verdict:
+        """The failure of a node that logs more than it should: `says`, `do`, and `what`, if it is not `kind`."""
+        about = {"what": self.kind, **words, "logged": tuple(logs)}
+        flooded = found.symptom(Symptom.LOGGED_TOO_OFTEN, **about)
         return failed(self.expected, observed, flooded, _shown(logs))
 
 
@@ -144,6 +143,8 @@ class LogsAt(FeedForm):
                 observed = f"{counted(len(logs), 'message')} at {self.level.name} for one event, {_sent(told)}"
                 says = f"{told.event.kind} is logged {len(logs)} times, so that what matters drowns in repetition"
                 do = "Log it when it begins: remember in the node what the last message said, and compare."
+                if len({log.text for log in logs}) == len(logs) == 2:
+                    do = "Say in one message all that is to be said of it."
                 return self.too_much(found, logs, observed, says=says, do=do, what=told.event.kind)
             shown += logs
         return passed(self.expected, f"{counted(len(events), 'event')}, each at {self.level.name}", _shown(shown))
@@ -170,19 +171,19 @@ class LogsAt(FeedForm):
 class StaysQuiet(FeedForm):
     """Nothing at all is logged for events of a kind, and the program prints nothing in the whole run.
 
-    `feed`: what happens, event by event, while the node runs. `kind`: that of the events that are judged. `calm`: a
-    kind of events that may be logged, but not as a warning or worse.
+    `feed`: what happens, event by event, while the node runs. `kind`: that of the events that are judged. `calm`: the
+    kinds of events that may be logged, but not as a warning or worse; nor may there be a warning before all events.
 
         STAYS = Event("the door stays closed", ({"data": False},) * 4)
         StaysQuiet("quiet", Feed(DOOR, (STAYS,)), "the door stays closed")
     """
 
-    calm: str = ""
+    calm: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.calm:
-            self.require(self.calm)
+        for kind in self.calm:
+            self.require(kind)
 
     @property
     def expected(self) -> str:
@@ -196,11 +197,17 @@ class StaysQuiet(FeedForm):
             says = f"{self.kind} is logged at {level}, which is shown by default"
             do = "Ask who must read this at night; what nobody must is for a lower level."
             return self.too_much(found, logs, observed, says=says, do=do)
-        for told in found.of(self.calm):
+        # An event that is logged at another level than it should be is for the criterion on it.
+        at_level = [told for told in found.told if told.event.level is None or told.at(told.event.level)]
+        for told in (told for told in at_level if told.event.kind in self.calm):
             if loud := [log for log in told.logs if log.level >= Level.WARN]:
-                says = f"{self.calm} is no reason for a warning, and this is logged: {loud[0]}"
-                do = "If you want to say that all is well, say it at INFO."
+                says = f"there is no reason for a warning ({told.event.kind}), and this comes: {loud[0]}"
+                do = "Warn only as long as there is something to warn of; that all is well is for INFO."
                 return self.too_much(found, loud, f"{loud[0]}, after {_sent(told)}", says=says, do=do)
+        began = found.told[0].sent[0]
+        if self.calm and (loud := [log for log in found.trace.logs if log.level >= Level.WARN and log.stamp < began]):
+            says = f"there is a warning before anything has happened: {loud[0]}"
+            return self.too_much(found, loud, f"{loud[0]}, at the start", says=says, do="Say how it begins at INFO.")
         if printed := [line.text for line in found.printed]:
             symptom = found.symptom(
                 Symptom.NOT_LOGGED,
