@@ -20,9 +20,12 @@ LEVEL = Topic("/tank/level", "std_msgs/msg/Float64")
 STATE = Topic("/tank/state", "std_msgs/msg/String")
 VALVE = Topic("/tank/valve", "std_msgs/msg/String")
 
-FULL = Tells("tells", STATE, LEVEL, lambda level: "full" if level > 9 else "filling", ("filling", "full"))
+FULL = Tells(
+    "tells", STATE, LEVEL, lambda text, level: ("full" if level > 9 else "filling") in text, ("filling", "full")
+)
 FILLS = LeadsTo("fills", VALVE, LEVEL, (("open", 10.0), ("shut", 0.0)), within_s=2.0)
 STAYS = replace(FILLS, pairs=(("open", 10.0),), stays_s=0.5)
+STEADY = replace(STAYS, within_s=6.0, per_s=5.0)
 
 
 def samples(topic: Topic, values: Sequence[object], every_s: float = 0.1, first_s: float = 0.0) -> tuple[Sample, ...]:
@@ -62,6 +65,7 @@ def test_a_rate_that_is_kept_to_the_end() -> None:
             "pause of 2.1 s",
             "stop for a while",
         ),
+        (system(samples(LEVEL, [1.0] * 15, first_s=3.5)), "none in the first 3.5 s", "begin late"),
     ],
 )
 def test_a_rate_that_is_not_kept(seen: SystemRun, observed: str, says: str) -> None:
@@ -127,6 +131,39 @@ def test_a_value_that_only_passes() -> None:
     assert "at the end, data: 13.0" in verdict.observed
 
 
+def test_a_value_that_is_left_again_later() -> None:
+    verdict = STAYS.judge(system(samples(LEVEL, [0.0, 5.0, *[10.0] * 10, 9.0, 8.0, 7.0, 6.0], 0.2), sent=orders(0.1)))
+    assert "goes on to another value" in why(verdict)[1]
+
+
+@pytest.mark.parametrize(
+    ("values", "says"),
+    [
+        ([0.0] * 4 + [0.5 * step for step in range(1, 21)] + [10.0] * 6, ""),
+        ([0.0] * 4 + [0.4 * step for step in range(1, 26)] + [10.0] * 6, ""),
+        ([0.0] * 4 + [0.6 * step for step in range(1, 17)] + [10.0] * 10, ""),
+        ([0.0] * 4 + [0.5 * step for step in range(1, 18)] + [9.0, 9.4, 9.7, 9.9, *[10.0] * 6], ""),
+        ([0.0] * 4 + [10.0] * 10, "changes by 1e+02 in a second, and not by 5"),
+        ([0.0] * 4 + [1.0 * step for step in range(1, 11)] + [10.0] * 6, "changes by 10 in a second, and not by 5"),
+        ([0.0] * 4 + [0.25 * step for step in range(1, 41)] + [10.0] * 6, "changes by 2.5 in a second, and not by 5"),
+    ],
+    ids=["right", "slower", "faster", "brakes at the end", "at once", "twice as fast", "half as fast"],
+)
+def test_a_value_that_must_change_steadily(values: Sequence[float], says: str) -> None:
+    verdict = STEADY.judge(system(samples(LEVEL, values), sent=orders(0.35), lasts_s=0.1 * len(values)))
+    if says:
+        assert says in why(verdict)[1]
+    else:
+        assert verdict.passed
+
+
+def test_a_starved_system_is_not_slow_but_may_be_too_fast() -> None:
+    slow = samples(LEVEL, [0.0] * 4 + [0.25 * step for step in range(1, 41)] + [10.0] * 6)
+    assert STEADY.judge(system(slow, sent=orders(0.35), cpu_wait_s=3.0)).status is Status.ERROR
+    at_once = samples(LEVEL, [0.0] * 4 + [10.0] * 10)
+    assert STEADY.judge(system(at_once, sent=orders(0.35), cpu_wait_s=3.0)).status is Status.FAILED
+
+
 def test_a_starved_system_that_does_something_is_not_late() -> None:
     slow = samples(LEVEL, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0], 0.5)
     assert FILLS.judge(system(slow, sent=orders(0.1), cpu_wait_s=3.0)).status is Status.ERROR
@@ -176,7 +213,7 @@ AGREED = Endpoint("/tank/pump", "/tank/level", LEVEL.type, "best_effort", "volat
     ("change", "difference"),
     [
         (lambda pump: pump, ""),
-        (lambda pump: replace(pump, node="/pump"), "is not there"),
+        (lambda pump: replace(pump, node="/pump"), "is not there; /pump has one"),
         (lambda pump: replace(pump, topic="/level"), "is not there"),
         (lambda pump: replace(pump, type="std_msgs/msg/Int32"), "has the type std_msgs/msg/Int32"),
         (lambda pump: replace(pump, qos=QoS("reliable")), "is reliable"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from tutor.exercise.system_run import SystemForm, SystemRun
@@ -26,11 +26,15 @@ class Endpoint:
     reliability: str = ""
     durability: str = ""
 
-    def difference(self, found: tuple[TopicEndpoint, ...]) -> str:
-        """What differs in the nearest of these endpoints; "" if one of them is as it must be."""
+    def difference(self, found: tuple[TopicEndpoint, ...], nodes: Collection[str] = ()) -> str:
+        """What differs in the nearest of these endpoints; "" if one of them is as it must be.
+
+        `nodes`: which others have one there by right.
+        """
         own = [endpoint for endpoint in found if (endpoint.node, endpoint.topic) == (self.node, self.topic)]
         if not own:
-            return "is not there"
+            others = sorted({endpoint.node for endpoint in found if endpoint.topic == self.topic} - set(nodes))
+            return "is not there" + (f"; {' and '.join(others)} has one" if others else "")
         differences = [self._difference(endpoint) for endpoint in own]
         return "" if "" in differences else differences[0]
 
@@ -78,5 +82,6 @@ class HasEndpoints(SystemForm):
             ("subscription", self.subscriptions, graph.subscriptions),
         ):
             for endpoint in wanted:
-                if difference := endpoint.difference(found):
+                by_right = [other.node for other in wanted if other.topic == endpoint.topic]
+                if difference := endpoint.difference(found, by_right):
                     yield f"the {what} of {endpoint.node} on {endpoint.topic} {difference}"

@@ -22,7 +22,7 @@ GAP_S = 0.8
 
 @dataclass(frozen=True)
 class KeepsRate(SystemForm):
-    """Messages keep coming on a topic of a system, at this rate and without a pause, as long as it is looked at.
+    """Messages keep coming on a topic of a system, at this rate and without a pause, from its start to the last look.
 
     That is as long as other criteria of the exercise make it work. `hz`: the rate. The exercise's program must be a
     `LaunchFile`:
@@ -49,6 +49,8 @@ class KeepsRate(SystemForm):
         samples = [sample for sample in seen.trace.samples_on(topic.name) if sample.source_time >= seen.seen_from]
         shown = [topic.show(sample) for sample in samples[-1:]]
         times = [*sorted(sample.source_time for sample in samples), seen.seen_until]
+        late_s = times[0] - (seen.seen_from + GAP_S)  # a node needs a moment until it is heard
+        times = [seen.seen_from + GAP_S, *times] if late_s > 0 else times
         gap_s, until_end_s = max((b - a for a, b in pairwise(times)), default=0.0), times[-1] - times[-2:][0]
         rate = measure(samples)
         usual_s = rate.median_s if rate is not None and rate.median_s is not None else 0.0
@@ -57,9 +59,15 @@ class KeepsRate(SystemForm):
         if not samples:
             says = f"no message of its type comes on {topic.name}"
         elif excess_s > 0:
-            ends = gap_s == until_end_s
-            observed += f", and none in the last {gap_s:.1f} s" if ends else f", with a pause of {gap_s:.1f} s"
-            says = f"the messages on {topic.name} stop" + (" coming" if ends else " for a while")
+            if gap_s == until_end_s:
+                observed += f", and none in the last {gap_s:.1f} s"
+                says = f"the messages on {topic.name} stop coming"
+            elif gap_s == late_s:
+                observed += f", and none in the first {gap_s + GAP_S:.1f} s"
+                says = f"the messages on {topic.name} begin late"
+            else:
+                observed += f", with a pause of {gap_s:.1f} s"
+                says = f"the messages on {topic.name} stop for a while"
         elif rate is not None and rate.agrees_with(hz):
             return passed(expected, observed, shown)
         too_often = rate is not None and rate.hz > FAR_ABOVE * hz  # the machine is never to blame for that

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any
 
 from tutor.exercise.nouns import Topic
@@ -15,14 +16,21 @@ from tutor.judge.verdict import Verdict, failed, passed, undecided
 from tutor.judge.waiting_for_nodes import SETTLE_S
 from tutor.judge.wording import output_tail
 
+PACE_SHARE = 1 / 3
+"""By how much of it a steady change may differ."""
+
+PACE_S = 0.8
+"""Time over which the pace of a change is measured."""
+
 
 @dataclass(frozen=True)
 class LeadsTo(SystemForm):
     """A value that we send on one topic of a system leads to a value on another, through whatever nodes.
 
     `to`: the topic where it shows. `pairs`: the values to send, one after the other, each with the one that it must
-    lead to. `within_s`: how long that may take, in seconds. `stays_s`: so many seconds later, the value must still be
-    there: where it changes steadily, it may otherwise just pass. The exercise's program must be a `LaunchFile`:
+    lead to. `within_s`: how long that may take, in seconds. `stays_s`: so many seconds later, and at the end, the value
+    must still be there: where it changes steadily, it may otherwise just pass. `per_s`: where it must change steadily,
+    by how much in a second; a third more or less is right. The exercise's program must be a `LaunchFile`:
 
         LeadsTo("tracks", TARGET, ANGLE, (("left", -1.0), ("right", 1.0)), within_s=2.0)
     """
@@ -32,6 +40,7 @@ class LeadsTo(SystemForm):
     pairs: tuple[tuple[Any, Any], ...]
     within_s: float = 3.0
     stays_s: float = 0.0
+    per_s: float = 0.0
 
     @property
     def watched(self) -> tuple[Topic, ...]:
@@ -68,6 +77,8 @@ class LeadsTo(SystemForm):
                 if seen.starved and not seen.broken and self._moves(seen, sent):
                     return undecided("to time what its nodes do")
                 return self._failed(seen, expected, value, wanted, sent, shown)
+            if self.per_s and (verdict := self._wrong_pace(seen, expected, sent, found)) is not None:
+                return verdict
             shown.append(f"{value!r}: {to.show(found)} after {took_s:.1f} s")
         if len(shown) < len(self.pairs):  # the launch has ended before
             says = f"nothing takes what is sent on {topic.name}"
@@ -84,6 +95,27 @@ class LeadsTo(SystemForm):
         if any(fits(wanted, to.value(sample)) for sample in in_time):
             says = f"{value!r} on {topic.name} leads to {wanted} on {to.name}, and then it goes on to another value"
         return failed(expected, observed, seen.not_as_it_should(says), [*shown, *output_tail(seen.trace)])
+
+    def _wrong_pace(self, seen: SystemRun, expected: str, sent: Sent, found: Sample) -> Verdict | None:
+        """The failure of a value that is there too early, or that changes slowly all the way; None if it is right."""
+        on_way = [s for s in seen.trace.samples_on(self.to.name) if s.source_time <= found.source_time]
+        start = self.to.value(next((s for s in reversed(on_way) if s.source_time < sent.at), on_way[0]))
+        left = max((n for n, s in enumerate(on_way) if fits(start, self.to.value(s))), default=0)
+        points = [(s.source_time, float(self.to.value(s))) for s in on_way[left:]]
+        (began, first), (ended, last) = points[0], points[-1]
+        if first == last:
+            return None
+        pace = abs(last - first) / max(ended - began, 1e-6)
+        if pace <= (1 + PACE_SHARE) * self.per_s:
+            long = [(b, a) for a, b in combinations(points, 2) if b[0] - a[0] >= min(PACE_S, ended - began)]
+            pace = max(abs(y - x) / (b - a) for (b, y), (a, x) in long)
+            if pace >= (1 - PACE_SHARE) * self.per_s:
+                return None
+            if seen.starved and not seen.broken:
+                return undecided("to time what its nodes do")
+        says = f"{self.to.name} changes by {pace:.2g} in a second, and not by {self.per_s:g}"
+        observed = f"from {first:.3g} to {last:.3g} in {ended - began:.1f} s"
+        return failed(expected, observed, seen.not_as_it_should(says), output_tail(seen.trace))
 
     def _moves(self, seen: SystemRun, sent: Sent) -> bool:
         """Whether anything changed after a value was sent."""
@@ -103,4 +135,5 @@ class LeadsTo(SystemForm):
         if not shows:
             return None
         stays = shows[-1] is after[-1] or shows[-1].source_time >= shows[0].source_time + self.stays_s
-        return shows[0] if stays else None
+        leaves = self.stays_s and shows[-1].source_time < after[-1].source_time - self.stays_s
+        return shows[0] if stays and not leaves else None

@@ -20,20 +20,21 @@ from tutor.judge.wording import output_tail
 class Tells(SystemForm):
     """In a system, each text on one topic has in it what another topic says at that time.
 
-    `topic`: the topic with the texts. `of`: the topic that it tells of. `words`: returns what must be in the text, for
-    a value of that topic. `all_of`: what must have been told at the end: what shows that changes are told, too.
-    `lag_s`: by how much a text may be behind; `within_s`: how long it may take until all has been told, in seconds. The
-    exercise's program must be a `LaunchFile`:
+    `topic`: the topic with the texts. `of`: the topic that it tells of. `agrees`: whether a text agrees with a value of
+    that topic. `all_of`: what must have been told at the end: what shows that changes are told, too. `lag_s`: by how
+    much a text may be behind; `within_s`: how long it may take until all has been told; `goes_on_s`: how much longer it
+    is looked at, so that what is told only once shows; all in seconds. The exercise's program must be a `LaunchFile`:
 
-        Tells("warns", STATE, LEVEL, lambda level: "full" if level > 9 else "filling", ("filling", "full"))
+        Tells("warns", STATE, LEVEL, lambda text, level: ("full" in text) == (level > 9), ("filling", "full"))
     """
 
     topic: Topic
     of: Topic
-    words: Callable[[Any], str] = field(hash=False)
+    agrees: Callable[[str, Any], bool] = field(hash=False)
     all_of: tuple[str, ...] = ()
     lag_s: float = 1.0
     within_s: float = 10.0
+    goes_on_s: float = 0.0
 
     @property
     def watched(self) -> tuple[Topic, ...]:
@@ -43,6 +44,8 @@ class Tells(SystemForm):
         both = (self.topic.name, self.of.name)
         if await run.until(lambda: all(run.samples_on(name) for name in both), SETTLE_S):
             await run.until(lambda: self._told_all(run) or self._silence(run) is not None, self.within_s)
+            until = run.now() + self.goes_on_s
+            await run.until(lambda: run.now() >= until, self.goes_on_s)
 
     def judge(self, seen: SystemRun) -> Verdict:
         topic, of, trace = self.topic, self.of, seen.trace
@@ -82,7 +85,7 @@ class Tells(SystemForm):
             old = [value for value in before if value.source_time < text.source_time - lag_s]
             recent = [*old[-1:], *before[len(old) :]]
             told = str(self.topic.value(text))
-            if not any(self.words(self.of.value(value)) in told for value in recent):
+            if not any(self.agrees(told, self.of.value(value)) for value in recent):
                 return text, recent[-1]
         return None
 
