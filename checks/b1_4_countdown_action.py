@@ -31,11 +31,6 @@ def short() -> Mapping[str, Any]:
     return {"order": random.randint(4, 6)}
 
 
-def bad() -> Mapping[str, Any]:
-    """A goal that must be rejected."""
-    return {"order": -random.randint(1, 20)}
-
-
 def counted(goal: Mapping[str, Any]) -> Mapping[str, Any]:
     """The right result."""
     return {"sequence": list(range(goal["order"], -1, -1))}
@@ -67,9 +62,19 @@ CHECK = check(
     SERVER,
     goal,
     SendsFeedback("feedback", goal, steps, may_miss=2, over_s=0.3, after=goal),
-    HandlesGoal("cancel", COUNTDOWN, LONG, "canceled", result=counted, partial=True, cancel_after_s=1.0, after=goal),
+    HandlesGoal(
+        "cancel",
+        COUNTDOWN,
+        LONG,
+        "canceled",
+        result=counted,
+        partial=True,
+        cancel_after_s=1.0,
+        then={"order": 2},
+        after=goal,
+    ),
     HandlesTwoGoals("replace", COUNTDOWN, (LONG, short), ("aborted", "succeeded"), result=counted, after=goal),
-    HandlesGoal("reject", COUNTDOWN, bad, "rejected", accepts={"order": 0}, after=goal),
+    HandlesGoal("reject", COUNTDOWN, {"order": -1}, "rejected", result=counted, then={"order": 0}, after=goal),
     client,
     HandlesRejection("client-rejected", client, after=client),
     EndsCleanly("shutdown", bonus=True),

@@ -47,9 +47,14 @@ def test_what_is_printed_counts_as_well() -> None:
     assert_passed(judge_of(CHECK, "client")(printed))
 
 
-@pytest.mark.parametrize("mark", ["...", "T-", "=", "0, "])
+@pytest.mark.parametrize("mark", ["...", "T-", "=", "0, ", "000"])
 def test_what_stands_before_a_number_does_not_matter(mark: str) -> None:
     assert_passed(judge_of(CHECK, "client")(ran(f"{mark}11111", f"{mark}22222", f"{mark}33333")))
+
+
+def test_thousands_may_be_apart() -> None:
+    assert_passed(judge_of(CHECK, "client")(ran("11,111", "[11,111, 22,222]", "[11111,22222,33333]")))
+    assert_passed(judge_of(CHECK, "client")(ran("11_111", "22_222", "33'333")))
 
 
 @pytest.mark.parametrize("shown", ["0.33333", "333330", "133333", "33333.5"])

@@ -59,26 +59,30 @@ def test_a_goal_ends_as_it_should(ends: Outcome, answer: GoalAnswer, cause: str,
 @pytest.mark.parametrize(
     ("next_answer", "cause", "words"),
     [
-        (DONE, "", ""),
-        (RUNNING, "", ""),
-        (REFUSED, "wrong goal", "/count order=0 is rejected as well"),
+        (replace(DONE, result={"sequence": [0]}), "", ""),
+        (DONE, "wrong goal", "ends with {'sequence': [0, 1, 1]}, not {'sequence': [0]}"),
+        (replace(DONE, outcome="aborted"), "wrong goal", "is aborted, once another goal is"),
+        (REFUSED, "wrong goal", "/count order=0 is rejected, once another goal is"),
+        (RUNNING, "no answer", "does not end it"),
         (GoalAnswer(), "no answer", "does not answer a goal"),
+        (None, "no answer", "does not answer a goal"),
     ],
 )
-def test_a_goal_at_the_limit_must_not_be_rejected(next_answer: GoalAnswer, cause: str, words: str) -> None:
-    made = check(
-        "t1", Program("node.py"), HandlesGoal("refuses", COUNT, {"order": -1}, "rejected", accepts={"order": 0})
-    )
-    verdict = judge_of(made, "refuses")(GoalRun(SERVED, answer=REFUSED, next_answer=next_answer))
+@pytest.mark.parametrize(("ends", "answer"), [("rejected", REFUSED), ("canceled", CANCELED)])
+def test_a_goal_that_is_sent_then_must_succeed(
+    ends: Outcome, answer: GoalAnswer, next_answer: GoalAnswer | None, cause: str, words: str
+) -> None:
+    counted = {"sequence": [0]}
+    form = HandlesGoal("counts", COUNT, {"order": 2}, ends, result=lambda goal: counted, then={"order": 0})
+    if ends == "canceled":
+        answer = replace(answer, result=counted)
+    made = check("t1", Program("node.py"), form)
+    verdict = judge_of(made, "counts")(GoalRun(SERVED, answer=answer, next_answer=next_answer))
     if cause:
         assert_failed(verdict, cause, words, check=made)
     else:
         assert_passed(verdict)
-
-
-def test_only_a_goal_that_must_be_rejected_has_one_that_must_not_be() -> None:
-    with pytest.raises(ValueError, match="refuses: accepts is for a goal that must be rejected"):
-        HandlesGoal("refuses", COUNT, {"order": 2}, accepts={"order": 0})
+        assert "then /count order=0 succeeds" in verdict.observed
 
 
 def test_a_missing_server_is_told_with_those_that_are_there() -> None:

@@ -21,6 +21,9 @@ ANSWER_S = 5.0
 CANCELED_S = 3.0
 """Time limit for the end of a goal once the request to cancel it has been accepted."""
 
+NEXT_S = 5.0
+"""Time limit for the end of a goal that is sent after one that was rejected."""
+
 OVERTAKEN_S = 0.7
 """Time after which feedback has arrived that the result has overtaken."""
 
@@ -139,7 +142,7 @@ class SendGoal:
     """Start without parameters, and send a goal; see `pursue`.
 
     `feedback`: how many messages of it are waited for. `all_feedback`: wait also for those that the result may have
-    overtaken. `next_goal`: another goal, which is sent if this one is rejected.
+    overtaken. `next_goal`: another goal, which is sent once this one is over.
     """
 
     program: Program
@@ -150,7 +153,7 @@ class SendGoal:
     within_s: float
     cancel_after_s: float = 0.0
     all_feedback: bool = False
-    next_goal: Goal | None = field(default=None, hash=False)
+    next_goal: Fields | None = field(default=None, hash=False)
 
     async def __call__(self, bench: Bench) -> GoalRun:
         action, goal = self.action, drawn(self.goal)
@@ -169,7 +172,8 @@ class SendGoal:
             await run.until(lambda: not self.all_feedback and len(client.seen.feedback) >= self.feedback, OVERTAKEN_S)
             answer = client.seen
             unheard = not answer.accepted or (self.cancel and answer.cancel_accepted is None and not answer.outcome)
-            next_answer = await self._send_next(run) if answer.accepted is False else None
+            next_answer = await self._send_next(run) if is_over(client) else None
+            unheard |= next_answer is not None and not outcome_of(next_answer)
             seen = await look(run, does_nothing=unheard)
             return seen.having(GoalRun, answer=answer, goal=goal, next_answer=next_answer)
 
@@ -179,7 +183,7 @@ class SendGoal:
             return None
         async with run.goal_client(self.action.name, self.action.type) as client:
             if await wait_for_server(run, self.action, client):
-                await pursue(run, client, drawn(self.next_goal), None, CANCELED_S)
+                await pursue(run, client, self.next_goal, None, self.within_s or NEXT_S)
             return client.seen
 
 

@@ -43,11 +43,11 @@ class HandlesGoal(Form):
     `cancel_after_s`. `feedback`: how many messages of it must come at least. `result`: those of its fields that matter,
     with their values, or a function that makes them from the goal. `partial`: of a list in the result, the beginning
     must be there, and not all. `within_s`: how long the goal may take, in seconds; once canceled, it is 3 s at most.
-    `accepts`: where the goal must be rejected, another one that must not be, such as one at the limit.
+    `then`: another goal, which is sent to the same server once this one is over, and must succeed with its own result.
 
         HandlesGoal("counts", FIBONACCI, {"order": 5}, feedback=1, result={"sequence": [0, 1, 1, 2, 3, 5]})
         HandlesGoal("stops", FIBONACCI, {"order": 50}, ends="canceled", feedback=2)
-        HandlesGoal("refuses", FIBONACCI, {"order": -1}, ends="rejected", accepts={"order": 0})
+        HandlesGoal("refuses", FIBONACCI, {"order": -1}, ends="rejected", then={"order": 0})
     """
 
     action: Action
@@ -58,11 +58,9 @@ class HandlesGoal(Form):
     within_s: float = 10.0
     cancel_after_s: float = 0.0
     partial: bool = False
-    accepts: Fields | None = field(default=None, hash=False)
+    then: Fields | None = field(default=None, hash=False)
 
     def __post_init__(self) -> None:
-        if self.accepts is not None and self.ends != "rejected":
-            raise ValueError(f"{self.id}: accepts is for a goal that must be rejected")
         if self.ends not in STEPS:
             raise ValueError(f"{self.id}: {self.ends!r} is no end of a goal: take one of {', '.join(STEPS)}")
 
@@ -74,27 +72,26 @@ class HandlesGoal(Form):
         judged = exercise.first(SendsFeedback, lambda form: form.of.id == self.id) is not None
         canceled, within_s = self.ends == "canceled", 0.0 if self.ends == "rejected" else self.within_s
         program, after_s = exercise.program, self.cancel_after_s
-        return SendGoal(
-            program, self.action, self.goal, self.feedback, canceled, within_s, after_s, judged, self.accepts
-        )
+        return SendGoal(program, self.action, self.goal, self.feedback, canceled, within_s, after_s, judged, self.then)
 
     def judge(self, found: GoalRun) -> Verdict:
         """Judge what became of the goal."""
         action, answer, goal = self.action, found.answer, found.goal or drawn(self.goal)
-        result = None if self.result is None else of_goal(self.result, goal)
+        result = None if self.result is None or self.ends == "rejected" else of_goal(self.result, goal)
         parts = [f"{describe_goal(action, goal)} is {self.ends}"]
         parts += [f"after {counted(self.feedback, 'feedback message')}"] if self.feedback else []
         parts += [f"with {'the beginning of ' if self.partial else ''}{_short(result)}"] if result else []
-        parts += [f"and {describe_goal(action, self.accepts)} is not"] if self.accepts else []
         expected = " ".join(parts)
+        if self.then is not None:
+            expected += f"; then {describe_goal(action, self.then)} succeeds"
         tail = output_tail(found.trace)
         if answer is None:
             return failed(expected, f"{action.name} has no action server", action_missing(action, found), tail)
         trail = [str(dict(feedback.message)) for feedback in answer.feedback[:3]]
         observed, why = self._what_is_wrong(found, answer, result)
         if why is None:
-            also, why = self._accepts(found)
-            observed = also or observed
+            then, why = self._what_is_wrong_then(found)
+            observed = then if why is not None else "; ".join(filter(None, (observed, then)))
         if why is not None:
             return failed(expected, observed, why, [*trail, *tail])
         return passed(expected, observed, trail)
@@ -130,16 +127,31 @@ class HandlesGoal(Form):
             return wrong(f"{self.ends} with {_short(got)}, not {_short(result)}", _IN_RESULT)
         return f"{self.ends}, {counted(len(answer.feedback), 'feedback message')}, {_short(got)}", None
 
-    def _accepts(self, found: GoalRun) -> tuple[str, Observation | None]:
-        """What was observed of the goal that must be accepted, and the failure, if it is one."""
-        answer = found.next_answer or GoalAnswer()
-        if self.accepts is None or answer.accepted:
+    def _what_is_wrong_then(self, found: GoalRun) -> tuple[str, Observation | None]:
+        """What was observed of the goal that is sent afterwards, and the failure, if it is one."""
+        if self.then is None:
             return "", None
-        if answer.accepted is None:
-            return unanswered(self.action, found, answer, self.within_s)
-        says = f"{describe_goal(self.action, self.accepts)} is rejected as well"
-        do = "Look at the goals at the limit: let the goal_callback return GoalResponse.ACCEPT for this one."
-        return says, wrong_goal(self.action, found, answer, says, do, "accepted")
+        action, answer = self.action, found.next_answer or GoalAnswer()
+        goal, outcome = describe_goal(action, self.then), outcome_of(answer)
+        before = f"once another goal is {self.ends}"
+
+        def wrong(says: str, do: str) -> tuple[str, Observation]:
+            return says, wrong_goal(action, found, answer, says, do, "succeeded")
+
+        if answer.accepted is None or not outcome:
+            observed, why = unanswered(action, found, answer, self.within_s)
+            return f"{observed}, {before}", why
+        if outcome == "rejected":
+            do = "Let the goal_callback return GoalResponse.ACCEPT for this one."
+            return wrong(f"{goal} is rejected, {before}", do)
+        if outcome != "succeeded":
+            do = "See what the node still remembers of the goal before: each goal begins afresh."
+            return wrong(f"{goal} is {outcome}, {before}", do)
+        got, result = answer.result or {}, {} if self.result is None else of_goal(self.result, self.then)
+        if not agrees(got, result):
+            says = f"{goal} ends with {_short(got)}, not {_short(result)}, {before}"
+            return wrong(says, f"{_IN_RESULT} Each goal begins afresh.")
+        return f"then {goal} succeeds", None
 
 
 _LET_IN = "Let the node take in requests while the goal runs: see what runs its execute callback meanwhile."
@@ -183,7 +195,10 @@ class SendsFeedback(Form):
         for sample in feedback:
             at = next((n for n, step in enumerate(steps, 1) if n >= reached and agrees(sample.message, step)), 0)
             if not at:
-                return wrong(f"feedback {_short(sample.message)}", "Look at what is in the feedback when it is sent.")
+                says = f"feedback {_short(sample.message)}"
+                if fit := next((s for s in steps if sizes(s) == sizes(sample.message)), None):
+                    says += f", not {_short(fit)}"
+                return wrong(says, "Look at what is in the feedback when it is sent.")
             different += at > reached
             reached = at
         if different < least:
@@ -197,10 +212,15 @@ class SendsFeedback(Form):
 
 
 def wrong_goal(action: Action, seen: Seen, answer: GoalAnswer | None, says: str, do: str, wanted: str) -> Observation:
-    """A goal that does not go as it should. `wanted`: how it should have ended, "accepted", or "feedback"."""
+    """A goal that does not go as it should. `wanted`: how it should have ended, or "feedback"."""
     about: Mapping[str, Any] = {"action": action.name, "wanted": wanted, "answer": answer}
     found = outcome_of(answer) if answer is not None else ""
     return seen.symptom(Symptom.WRONG_GOAL, says=says, do=do, found=found, **about)
+
+
+def sizes(fields: Fields) -> Mapping[str, int]:
+    """How long each list is."""
+    return {name: len(value) for name, value in fields.items() if isinstance(value, list | tuple)}
 
 
 def begins(value: Fields, whole: Fields) -> bool:

@@ -133,6 +133,8 @@ class HandlesTwoGoals(Form):
         for which in (1, 0) if unheard else (0, 1):
             name, answer, wanted = ("first", "second")[which], found.of_goals[which], self.ends[which]
             says, do, shared = f"the {name} goal {ended[which]}, instead of being {wanted}", _STEPS[wanted], False
+            if which == 1 and wanted == "succeeded" and self.ends[0] != "succeeded":
+                do = "Let only the goal before see that there is a newer one: this one goes on to its end."
             if outcome_of(answer) == wanted:
                 result = None if self.result is None else of_goal(self.result, goals[which])
                 if wanted != "succeeded" or result is None or agrees(answer.result or {}, result):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -152,21 +153,27 @@ class HandlesRejection(Form):
 
 
 def is_shown(trace: Trace, value: Any) -> bool:
-    """Whether the log or the output has a value; a number as a whole one."""
-    pattern = re.compile(rf"(?<!\d)(?<!\d\.){re.escape(str(value))}(?!\.?\d)")
+    """Whether the log or the output has a value; a number as a whole one, however it is padded or grouped."""
+    pattern = re.compile(rf"(?<!\d)(?<!\d\.)0*{re.escape(str(value))}(?!\.?\d)")
     texts = [log.text for log in trace.logs] + [line.text for line in trace.output]
+    texts += [re.sub(r"(?<=\d)[,_'](?=\d{3}(?!\d))", "", text) for text in texts]
     return any(pattern.search(text) for text in texts)
 
 
 def said(trace: Trace, since: float = 0.0) -> set[str]:
-    """What a program has said, without numbers and signs: lines that differ only in their numbers are the same.
+    """What a program has said, without numbers and punctuation: lines that differ only in these are the same.
 
     `since`: from when on; what it prints may be held back in a buffer, and so count later.
     """
     lines = [log.text for log in trace.logs if log.stamp >= since]
     # On the console, a log message has a head with its level, time and logger.
     lines += [re.sub(r"^\[\w+\] \[[\d.]+\] \[[^\]]*\]: ", "", line.text) for line in trace.output if line.at >= since]
-    return {shape for line in lines if (shape := "".join(re.findall(r"[^\W\d_]+", line)))}
+    return {shape for line in lines if (shape := "".join(filter(_says_something, line)))}
+
+
+def _says_something(character: str) -> bool:
+    """Whether a character is a letter, or a sign that stands for a word, such as a check mark."""
+    return character.isalpha() or unicodedata.category(character) == "So"
 
 
 def _warned(trace: Trace, ordinary: Trace) -> bool:
@@ -184,7 +191,9 @@ def no_goal(seen: GoalClientRun, action: Action) -> Observation:
     says = f"it sends no goal to {action.name}"
     if others and action.name not in others:
         says = f"its action client is for {', '.join(others)}, not for {action.name}"
-    do = "Wait for the action server, with a time limit, and then send it a goal."
+    do = "Wait for the action server, with a time limit of some seconds, and then send it a goal."
+    if seen.exit is not None and action.name in others:
+        says += f", and has ended {seen.exit.after_s:.1f} s after its start"
     return _seen(seen, Symptom.CALLS_MISSING, says=says, do=do, missing=action.name)
 
 
