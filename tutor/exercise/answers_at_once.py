@@ -29,8 +29,10 @@ from tutor.judge.tasks import Tasks
 from tutor.judge.verdict import Verdict, failed, passed, skipped, undecided
 from tutor.judge.wording import output_tail
 
-SECOND_S = 0.7
-"""How long the first request is held back for a second one to come: a node may also ask for one after the other."""
+SECOND_S = 1.5
+"""How long the first request is held back for a second one to come: a node may also ask for one after the other.
+
+A second call that does not wait for its turn as long as a reply may take is refused meanwhile."""
 
 
 @dataclass(frozen=True)
