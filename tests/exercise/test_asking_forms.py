@@ -9,80 +9,16 @@ from typing import Any, cast
 
 import pytest
 
-from tests.checks.builders import CRASHED, START, assert_failed, assert_passed, ending, judge_of, samples, trace
-from tutor.exercise import (
-    AnswersAtOnce,
-    AnswersByAsking,
-    AnswersWithoutReply,
-    Asking,
-    EndsWhileAsking,
-    KeepsPaceWhileAsking,
-    Program,
-    Service,
-    Topic,
-    check,
-)
+from tests.checks.builders import CRASHED, START, assert_failed, assert_passed, ending, judge_of, trace
+from tests.exercise.askings import ADD, CHECK, COOK, OTHER, REFUSED, RIGHT, call
+from tutor.exercise import AnswersByAsking, Program, check
 from tutor.exercise.answers_at_once import CallAtOnce, CalledAtOnce
 from tutor.exercise.answers_by_asking import AskedInTurn
 from tutor.exercise.answers_without_reply import UnrepliedRun
 from tutor.exercise.asking import AskingCall, Exchange
 from tutor.exercise.ends_while_asking import InterruptedAsking
-from tutor.exercise.keeps_pace_while_asking import Pace, PaceRun
-from tutor.judge.rates import measure
 from tutor.judge.trace import CallAnswer
 from tutor.judge.verdict import Status, Undecided
-
-LAMP = Topic("/lamp", "std_msgs/msg/Bool")
-COOK = Asking(
-    Service("/cook", "std_srvs/srv/SetBool", ("data",)),
-    Service("/oven", "std_srvs/srv/SetBool", ("data",)),
-    requests=((True,), (False,)),
-    replies=lambda data: {"success": data, "message": f"oven {data}"},
-    refusal={"success": False, "message": str.strip},
-    refused="success=False and a message",
-)
-ADD = Asking(
-    Service("/taxed", "example_interfaces/srv/AddTwoInts", ("a", "b")),
-    Service("/tax", "example_interfaces/srv/AddTwoInts", ("a", "b")),
-    requests=((1, 2), (3, 4)),
-    replies=lambda a, b: {"sum": 10 * a + b},
-    asks_with=lambda a, b: (b, a),
-    becomes=lambda reply: {"sum": reply["sum"] + 1},
-)
-asks = AnswersByAsking("asks", COOK)
-CHECK = check(
-    "t1",
-    Program("node.py"),
-    asks,
-    KeepsPaceWhileAsking("pace", COOK, LAMP, 10.0),
-    AnswersAtOnce("at-once", COOK),
-    AnswersWithoutReply("missing", COOK, "missing"),
-    AnswersWithoutReply("silent", COOK, "silent"),
-    EndsWhileAsking("busy", COOK, shown_by=asks),
-)
-
-
-def call(
-    data: bool = True,
-    *exchanges: tuple[bool, str | None],
-    success: bool = True,
-    message: str | None = None,
-    took_s: float = 0.1,
-    held_s: float = 0.0,
-) -> AskingCall:
-    """A call. `exchanges`: with what we were asked, and our message (None: no reply); `message`: None if unanswered."""
-    response = None if message is None else {"success": success, "message": message}
-    answer = CallAnswer("/cook", {"data": data}, response, START, START + took_s)
-    made = (
-        Exchange({"data": asked}, START, None if text is None else {"success": True, "message": text})
-        for asked, text in exchanges
-    )
-    return AskingCall(answer, tuple(made), held_s)
-
-
-RIGHT = call(True, (True, "oven 7"), message="the oven 7 is hot")
-OTHER = call(False, (False, "oven 8"), message="oven 8")
-REFUSED = call(success=False, message="no oven")
 
 
 def test_answers_that_follow_from_a_reply_to_the_same_request_are_right() -> None:
@@ -163,52 +99,6 @@ def test_what_is_asked_and_answered_may_be_computed() -> None:
     assert_passed(judge(AskedInTurn(trace(), calls=(answered({"a": 2, "b": 1}, 22),))))
     assert_failed(judge(AskedInTurn(trace(), calls=(answered({"a": 2, "b": 1}, 21),))), "wrong answer", check=made)
     assert_failed(judge(AskedInTurn(trace(), calls=(answered({"a": 1, "b": 2}, 22),))), "wrong answer", check=made)
-
-
-def pace_run(pace: Pace | None, hz: float = 10.0, **more: Any) -> PaceRun:
-    found = samples("/lamp", hz)
-    return PaceRun(trace(*found), rate=measure(found), messages=len(found), calls=(RIGHT,), pace=pace, **more)
-
-
-@pytest.mark.parametrize(
-    ("pace", "right"),
-    [
-        (Pace(15, 1.5, 0.11), True),
-        (Pace(12, 1.5, 0.4), True),
-        (Pace(0, 1.5, 1.6), False),
-        (Pace(15, 1.5, 0.9), False),
-        (Pace(8, 1.5, 0.2), False),
-        (Pace(30, 1.5, 0.05), False),
-    ],
-)
-def test_the_pace_while_it_waits(pace: Pace, right: bool) -> None:
-    judge = judge_of(CHECK, "pace")
-    verdict = judge(pace_run(pace))
-    if right:
-        assert_passed(verdict)
-    else:
-        assert_failed(verdict, "callbacks wait for each other", "while it waits", check=CHECK)
-        assert isinstance(judge(pace_run(replace(pace, cpu_wait_s=1.2))), Undecided)
-
-
-def test_a_short_wait_for_a_cpu_explains_no_long_pause() -> None:
-    assert_failed(
-        judge_of(CHECK, "pace")(pace_run(Pace(0, 1.5, 1.6, cpu_wait_s=0.3))),
-        "callbacks wait for each other",
-        check=CHECK,
-    )
-
-
-def test_a_pace_that_cannot_be_judged() -> None:
-    judge = judge_of(CHECK, "pace")
-    assert_failed(judge(PaceRun(trace())), "no publisher", "no message", check=CHECK)
-    assert_failed(judge(pace_run(None, hz=5.0)), "wrong rate", "while nobody calls: 5.00 Hz", check=CHECK)
-    assert judge(replace(pace_run(None), calls=())).status is Status.SKIPPED
-    assert judge(pace_run(None)).status is Status.SKIPPED
-    waits = replace(pace_run(None), calls=(call(True),))
-    assert_failed(judge(waits), "no answer", "was not asked", check=CHECK)
-    ended = replace(pace_run(Pace(15, 1.5, 0.1)), trace=CRASHED)
-    assert_failed(judge(ended), "unhandled exception", "then the process ended", check=CHECK)
 
 
 def test_two_calls_at_once() -> None:
