@@ -136,6 +136,13 @@ def test_no_reply(ours: str) -> None:
     assert_failed(judge(ended), "unhandled exception", check=CHECK)
 
 
+def test_what_the_node_writes_is_shown_with_a_wrong_answer() -> None:
+    made = call(True, (True, "oven 7"), success=False, message="silent")
+    verdict = judge_of(CHECK, "asks")(AskedInTurn(trace(err="[WARN] no event loop"), calls=(made,)))
+    assert_failed(verdict, "wrong answer", check=CHECK)
+    assert "[WARN] no event loop" in verdict.evidence
+
+
 def test_the_end_while_it_waits() -> None:
     judge = judge_of(CHECK, "busy")
     assert_passed(judge(InterruptedAsking(trace(), True, ending())))

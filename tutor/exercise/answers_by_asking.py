@@ -127,7 +127,7 @@ class AnswersByAsking(Form):
                 if seen.slowed and gave_up(asking, call) and not call.ended_early:
                     return undecided(f"to wait for the answer of {asking.service.name}")
                 observed, why = what_is_wrong(asking, seen, call)
-                return failed(expected, observed, why, lines)
+                return failed(expected, observed, why, (*lines, *tail))
         return passed(expected, f"{len(seen.calls)} calls, each with its own reply", lines)
 
 
