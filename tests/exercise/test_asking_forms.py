@@ -130,10 +130,37 @@ def test_no_reply(ours: str) -> None:
     still = UnrepliedRun(trace(), calls=(REFUSED,), later=REFUSED)
     assert_failed(judge(still), "wrong answer", "still answers", check=CHECK)
     hangs = UnrepliedRun(trace(), calls=(REFUSED,), later=call(True))
-    assert_failed(judge(hangs), "no answer", "once it replies", check=CHECK)
+    assert_failed(judge(hangs), "no answer", "does not answer the next one, and does not ask", check=CHECK)
+    ignores = UnrepliedRun(trace(), calls=(REFUSED,), later=call(True, (True, "oven 7")))
+    assert_failed(judge(ignores), "no answer", "/oven has replied again, and /cook does not answer", check=CHECK)
     assert judge(UnrepliedRun(trace(), calls=(REFUSED,))).status is Status.SKIPPED
     ended = UnrepliedRun(CRASHED, calls=(call(True),))
     assert_failed(judge(ended), "unhandled exception", check=CHECK)
+
+
+def test_the_late_reply_to_a_request_that_was_given_up_answers_no_other_call() -> None:
+    late = call(True, (True, "oven 8"), message="oven 7")
+    seen = UnrepliedRun(trace(), calls=(REFUSED,), later=late, earlier=({"success": True, "message": "oven 7"},))
+    assert_failed(judge_of(CHECK, "silent")(seen), "wrong answer", "replied to an earlier request", check=CHECK)
+    other = replace(seen, earlier=({"success": True, "message": "oven 6"},))
+    assert_failed(judge_of(CHECK, "silent")(other), "wrong answer", "still answers", check=CHECK)
+
+
+def test_a_call_that_does_not_ask_waits_for_no_reply() -> None:
+    seen = UnrepliedRun(trace(), calls=(call(True),))
+    assert_failed(judge_of(CHECK, "silent")(seen), "no answer", "/cook does not answer, and does not ask", check=CHECK)
+
+
+def test_a_service_that_has_gone_again_is_missing_as_before() -> None:
+    judge = judge_of(CHECK, "missing")
+    assert_passed(judge(UnrepliedRun(trace(), calls=(REFUSED,), later=RIGHT, gone=REFUSED)))
+    hangs = UnrepliedRun(trace(), calls=(REFUSED,), later=RIGHT, gone=call(True))
+    assert_failed(judge(hangs), "no answer", "waits for /oven, which has gone again", check=CHECK)
+    assert isinstance(judge(replace(hangs, slowed=True)), Undecided)
+    ended = replace(hangs, trace=CRASHED, slowed=True)
+    assert_failed(judge(ended), "unhandled exception", check=CHECK)
+    kept = UnrepliedRun(trace(), slowed=True, calls=(REFUSED,), later=RIGHT, gone=RIGHT)
+    assert_failed(judge(kept), "wrong answer", "though /oven has gone again", check=CHECK)
 
 
 def test_what_the_node_writes_is_shown_with_a_wrong_answer() -> None:

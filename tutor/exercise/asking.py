@@ -159,11 +159,15 @@ class Desk:
         return self.with_exchanges(answer, began)
 
     async def call_and_hold(self, given: Values, hold_s: float) -> AskingCall:
-        """Call the node's service, and reply once its request has been there for `hold_s`, or the node has answered."""
+        """Call the node's service, and reply once its request has been there for `hold_s`, or the node has answered.
+
+        Requests from before get their replies as soon as it is there: too late, if the node has given them up.
+        """
         before, began = len(self.requests), self._run.now()
         async with Tasks() as tasks:
             calling = tasks.start(self.call_unreplied(given, hold_s + ANSWER_S))
             await self._run.until(lambda: len(self.requests) > before or calling.done(), ANSWER_S)
+            self.reply(*(request for request in self.held if request.at < began))
             until = self._run.now() + hold_s
             await self._run.until(lambda: calling.done() or self._run.now() >= until, hold_s)
             self.reply(*self.held)
