@@ -41,10 +41,13 @@ CHECK = check(
 )
 
 COOKS = """
+import time
+
 from rclpy.callback_groups import ReentrantCallbackGroup
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
 
+seen = []
 group = ReentrantCallbackGroup()
 oven = node.create_client(SetBool, "/oven", callback_group={group})
 lamp = node.create_publisher(Bool, "/lamp", 10)
@@ -53,6 +56,7 @@ node.create_timer(0.05, lambda: lamp.publish(Bool()), callback_group={timer})
 async def cook(request, response):
     if {unknown}:
         return SetBool.Response(message="no oven")
+    {before}
     asked = oven.call_async(request)
     limit = node.create_timer({limit_s}, asked.cancel, callback_group=group)
     reply = await asked
@@ -61,6 +65,9 @@ async def cook(request, response):
 
 node.create_service(SetBool, "/cook", cook, callback_group={service})
 """
+
+SEEN_ONCE = "not seen and not (oven.service_is_ready() and not seen.append(True))"
+"""Whether the oven has never been there."""
 
 
 def cook(**changes: str) -> str:
@@ -71,6 +78,7 @@ def cook(**changes: str) -> str:
         "service": "group",
         "unknown": "not oven.service_is_ready()",
         "limit_s": "2.0",
+        "before": "pass",
     }
     return NODE.format(COOKS.format(**{**usual, **changes}))
 
@@ -87,6 +95,8 @@ async def test_a_right_node_passes(scene: Scene) -> None:
         ({"limit_s": "0.7"}, "asks", "wrong-answer", "gives up before /oven has replied"),
         ({"timer": "None", "service": "None"}, "pace", "same-callback-group", "the longest pause 1."),
         ({"unknown": "False", "limit_s": "60.0"}, "missing", "asked-without-looking", "asks /oven"),
+        ({"before": "time.sleep(0.9)"}, "pace", "callbacks-wait-for-each-other", "stops before /cook asks /oven"),
+        ({"unknown": SEEN_ONCE, "limit_s": "60.0"}, "missing", "no-answer", "/oven, which has gone again"),
         ({"limit_s": "60.0"}, "silent", "no-limit-to-a-wait", "waits for a reply of /oven"),
     ],
 )
