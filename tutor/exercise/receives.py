@@ -25,6 +25,7 @@ SHOWN_TO = 0.01
 """How far a number in a log message may be rounded, relatively."""
 
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?", re.IGNORECASE)
+_DASH = re.compile(r"(?<=\w)-(?=\d)")
 
 
 @dataclass(frozen=True)
@@ -149,8 +150,12 @@ def is_shown(value: Any, wanted: Any) -> bool:
 
 
 def says(text: str, wanted: Any) -> bool:
-    """Whether a log message contains a text, whatever the case, or a number, which may be rounded."""
+    """Whether a log message contains a text, whatever the case, or a number, which may be rounded.
+
+    A dash right after a word may be a sign or not: "range-5" shows 5 as well as -5.
+    """
     if isinstance(wanted, bool) or not isinstance(wanted, int | float):
         return str(wanted).casefold() in text.casefold()
     rounding = SHOWN_TO if isinstance(wanted, float) else 0.0
-    return any(math.isclose(float(number), wanted, rel_tol=rounding) for number in _NUMBER.findall(text))
+    numbers = [*_NUMBER.findall(text), *_NUMBER.findall(_DASH.sub(" ", text))]
+    return any(math.isclose(float(number), wanted, rel_tol=rounding) for number in numbers)
