@@ -26,6 +26,8 @@ CHECK = check(
 )  # fmt: skip
 ALL_LOGGED = tuple((f"[INFO] [node]: {value}",) for value in RINGS.values())
 
+IN_PAIRS = tuple((f"[INFO] [node]: ring {number // 2 * 2:02}, ring {number // 2 * 2 + 1:02}",) for number in range(60))
+
 
 def heard(given: GivenPublisher, *shown: Sequence[str], matched: bool = True) -> Heard:
     """What became of all messages of a publisher: for each, the log messages that show it; in none, if not given."""
@@ -94,6 +96,16 @@ def test_each_message_in_one_log_message_passes(part: Heard, seen: Trace) -> Non
         ),
         (heard(RINGS, *ALL_LOGGED[:5]), run(RINGS, QoS()), "messages lost", "5 of 60"),
         (heard(RINGS, *[()] * 59, *ALL_LOGGED[59:]), run(RINGS, QoS()), "messages lost", "1 of 60"),
+        (
+            heard(RINGS, *IN_PAIRS),
+            run(RINGS, QoS()),
+            "shown together",
+            "60 of 60 messages in a log message with others",
+        ),
+        (heard(RINGS, *ALL_LOGGED[:58], *IN_PAIRS[58:]), run(RINGS, QoS()), "shown together", "2 of 60"),
+        (heard(RINGS, *IN_PAIRS[:58]), run(RINGS, QoS()), "shown together", "58 of 60"),  # a cut-off log message, say
+        (heard(RINGS, *IN_PAIRS), run(RINGS, LOSSY), "shown together", "60 of 60"),
+        (heard(SOUND, ["la", "lu after la"], ["lu after la"]), run(SOUND, LOSSY), "shown again", "1 message of 2"),
         (heard(RINGS, *ALL_LOGGED), run(RINGS, LOSSY), LOSES, "by luck"),
         (heard(RINGS, *[()] * 49, *ALL_LOGGED[49:]), run(RINGS, LOSSY), LOSES, "11 in the log"),
         (heard(RINGS, matched=False), run(RINGS, LATCHED), "incompatible QoS", "transient_local"),
@@ -114,6 +126,19 @@ def test_both_ends_are_shown_as_ros2_topic_info_does_with_the_warning_of_rclpy()
         "requested by /node: Reliability: RELIABLE, Durability: VOLATILE",
         str(warning),
     )
+
+
+def test_where_a_message_is_missing_what_the_node_logged_instead_is_shown() -> None:
+    warning = log("New publisher discovered on topic 'sound', offering incompatible QoS.", 30)
+    logged = (str(warning), "[INFO] [node]: sound no. 1")
+    part = replace(heard(SOUND), last_logged=logged)
+    failure = judge(part, run(SOUND, LOSSY, logs=[warning]))
+    assert tuple(failure.evidence)[2:] == (str(warning), "[INFO] [node]: sound no. 1")
+
+
+def test_lost_messages_lead_to_the_queue_as_well_as_to_the_log() -> None:
+    failure = judge(heard(SOUND, (), ["lu"]), run(SOUND, LOSSY))
+    assert_failed(failure, "messages lost", "how many messages may wait", "on the way from there", check=CHECK)
 
 
 def test_an_authors_mistake_is_said_in_one_sentence() -> None:

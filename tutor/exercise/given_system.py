@@ -50,6 +50,9 @@ ROUNDS = 3
 ROUND_S = 2.0
 """Time within which a round is shown; after the last one, it is SHOWN_WITHIN_S."""
 
+LAST_LOGGED = 3
+"""How many log messages are kept as evidence of what the node logged in place of a value."""
+
 Sends = Literal["before", "one by one", "at once"]
 
 
@@ -93,13 +96,15 @@ class Heard:
     """What became of the messages of one given publisher.
 
     `sent`: the values that were sent. `shown`: for each of these, the log messages that show it. `matched`: whether a
-    subscription of the node was ever matched with it.
+    subscription of the node was ever matched with it. `last_logged`: the newest log messages of the node when the wait
+    for these was over.
     """
 
     ours: TopicEndpoint
     matched: bool = False
     sent: tuple[Any, ...] = ()
     shown: tuple[tuple[str, ...], ...] = ()
+    last_logged: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -118,6 +123,7 @@ class _Shown:
         self._read = 0
         self.sent: list[Any] = []
         self._shown: dict[Any, list[str]] = {}
+        self._last_logged: tuple[str, ...] = ()
 
     def send(self, *values: Any) -> None:
         """Look for these values in what is logged from now on, too."""
@@ -138,10 +144,15 @@ class _Shown:
         """How many values are shown, by now."""
         return sum(bool(self.of(value)) for value in self.sent)
 
+    def note_last_logged(self) -> None:
+        """Keep the newest log messages: those of now, when the wait for the values is over."""
+        self._last_logged = tuple(map(str, self._run.logs[-LAST_LOGGED:]))
+
     def heard(self, given: GivenPublisher) -> Heard:
         """What has become of all the messages of this publisher."""
         publisher, sent = self._run.offered(given.topic.name), tuple(self.sent)
-        return Heard(publisher.endpoint, publisher.matches > 0, sent, tuple(map(self.of, sent)))
+        shown = tuple(map(self.of, sent))
+        return Heard(publisher.endpoint, publisher.matches > 0, sent, shown, self._last_logged)
 
 
 @dataclass(frozen=True)
@@ -166,6 +177,7 @@ class GivenSystem:
                 bench.report_progress(0.4, f"publishing on {given.topic.name}")
                 ledgers.append(ledger := _Shown(run))
                 await _SENDERS[given.sends](run, given, values, ledger)
+                ledger.note_last_logged()
             await wait_until_log_quiet(run, quiet_s=QUIET_S, max_s=QUIET_MAX_S)
             heard = tuple(ledger.heard(given) for given, ledger in zip(self.publishers, ledgers, strict=True))
             silent = not all(all(part.shown) for part in heard)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
@@ -23,7 +24,7 @@ _EXPECTED = {
 
 @dataclass(frozen=True)
 class ShowsEach(Form):
-    """The node logs each message of a publisher that is given, in one log message, and never again.
+    """The node logs each message of a publisher that is given, in one log message of its own, and never again.
 
     `publisher`: who sends, how and when; the publishers of all criteria of this form are there before the node starts,
     as in a system that it is added to. The subscription may ask for any QoS with which each message arrives. Where the
@@ -50,9 +51,15 @@ class ShowsEach(Form):
         expected = _EXPECTED[self.publisher.sends].format(topic=topic.name)
         shown = [messages for messages in heard.shown if messages]
         evidence = list(_evidence(heard, requested, found))
+        if together := _shown_together(heard):
+            number = sum(len(messages) == 1 and messages[0] in together for messages in shown)
+            observed = f"{number} of {counted(len(heard.sent), 'message')} in a log message with others"
+            joined = found.symptom(Symptom.SHOWN_TOGETHER, topic=topic.name, type=topic.type, ours=heard.ours)
+            return failed(expected, observed, joined, [*together[:3], *evidence])
         if len(shown) < len(heard.sent):
             observed, seen = self._missing(found, heard, len(shown))
-            return failed(expected, observed, seen, evidence or output_tail(found.trace))
+            logged = [line for line in heard.last_logged if line not in evidence]
+            return failed(expected, observed, seen, [*evidence, *logged] or output_tail(found.trace))
         if (twice := next((messages for messages in shown if len(messages) > 1), None)) is not None:
             many = sum(len(messages) > 1 for messages in shown)
             observed = f"{counted(many, 'message')} of {len(shown)} in more than one log message"
@@ -101,6 +108,16 @@ class ShowsEach(Form):
         ends = [end.qos for end in found.trace.graph.subscriptions if end.topic == heard.ours.topic]
         wants_kept = any((end.reliability, end.durability) == ("reliable", "transient_local") for end in ends)
         return heard.matched and (self.publisher.sends != "before" or wants_kept or not ends)
+
+
+def _shown_together(heard: Heard) -> list[str]:
+    """The log messages that show several values, of which none is shown in another one.
+
+    One that repeats a value that has been logged before is another mistake.
+    """
+    only = Counter(messages[0] for messages in heard.shown if len(messages) == 1)
+    again = {message for messages in heard.shown if len(messages) > 1 for message in messages}
+    return [message for message, number in only.items() if number > 1 and message not in again]
 
 
 def _evidence(heard: Heard, requested: Iterable[TopicEndpoint], found: SystemSeen) -> Iterator[str]:

@@ -20,6 +20,7 @@ class Symptom(Enum):
     NOTHING_RECEIVED = "what we published had no effect"
     MESSAGES_LOST = "only some of the messages that were published arrive, or may arrive"
     SHOWN_AGAIN = "a message that arrived once is shown more than once"
+    SHOWN_TOGETHER = "messages that arrived one by one are shown in one log message"
     WRONG_VALUES = "the values published are wrong"
     WRONG_RATE = "messages come at another rate than asked for"
     CHANGE_IGNORED = "a parameter's value has no effect"

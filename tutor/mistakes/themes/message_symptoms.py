@@ -31,7 +31,8 @@ def messages_lost(case: Case) -> Iterator[Found]:
     return in_words(
         case,
         f"{shown} of {sent} messages on {topic} are shown" if sent else f"not all messages on {topic} are shown",
-        "Count what the callback is called for, and look for what leaves messages out on the way from there.",
+        "Count what the callback is called for: if that is all, look for what leaves messages out on the way from "
+        "there; if not, compare how long the callback takes with how many messages may wait for it in the queue.",
     )
 
 
@@ -56,4 +57,30 @@ def shown_again(case: Case) -> Iterator[Found]:
         case,
         f"a message that came once on {case.about('topic', 'the topic')} is logged more than once",
         "Log a message only in the callback that gets it, and in one log message.",
+    )
+
+
+@symptom("shown-together", explains=[Symptom.SHOWN_TOGETHER])
+def shown_together(case: Case) -> Iterator[Found]:
+    """Several messages are shown in one log message.
+
+    A log message has one time and one level, and a filter shows it or hides it as a whole. What is collected first
+    comes late, and what is left over at the end does not come at all; a log message that gets too long is cut off.
+
+    Bad:
+
+        self.rings.append(ring.data)
+        if len(self.rings) == 10:
+            self.get_logger().info(', '.join(self.rings))
+
+    Good:
+
+        self.get_logger().info(ring.data)
+
+    See it: the log in the app, where each log message begins on a line of its own.
+    """
+    return in_words(
+        case,
+        f"several messages on {case.about('topic', 'the topic')} are in one log message",
+        "Log each message in the callback that gets it, without waiting for the next one.",
     )
