@@ -33,9 +33,27 @@ IN_RANGE = Service(
 )
 
 
+FIXED = [
+    (0, -5, 5),
+    (0, 3, 9),  # the same value in another range, with another answer
+    (7, 3, 9),
+    (7, 10, 20),
+    (-3, 0, 10),
+    (3, 0, 10),
+    (-3, -10, 0),
+    (3, -10, 0),
+    (0, 0, 0),
+    (4, 4, 4),  # a range of one number
+    (5, 4, 4),
+    (2**53, 2**53 + 1, 2**53 + 10),  # equal as floats
+    (2**53 + 1, 2**53 - 10, 2**53),
+]
+"""Requests that answers tend to be wrong for: zeros, one value in two ranges, a single number, large numbers."""
+
+
 def questions() -> list[Question]:
-    """Return values outside, inside and at both limits of drawn ranges, some of which are negative."""
-    asked = []
+    """Return values outside, inside and at both limits of drawn ranges, some of which are negative, and `FIXED`."""
+    asked = list(FIXED)
     for low in (random.randint(-90, -50), random.randint(-20, -10), random.randint(20, 60)):
         high = low + random.randint(4, 40)
         asked += [(value, low, high) for value in (low - 1, low, low + 1, high - 1, high, high + 1)]
