@@ -28,6 +28,7 @@ from tests.checks.builders import (
 )
 from tutor.exercise import (
     Answers,
+    BuildsInterfaces,
     Contains,
     Custom,
     Defaults,
@@ -59,6 +60,7 @@ from tutor.exercise.set_at_start import Started, StartedWithParameters
 from tutor.exercise.survives_bad_call import CallsAroundBad
 from tutor.judge.bench import Bench
 from tutor.judge.check import Check
+from tutor.judge.interface_build import InterfaceBuild
 from tutor.judge.rates import Rate
 from tutor.judge.trace import Trace
 from tutor.judge.verdict import passed
@@ -246,3 +248,12 @@ def test_a_function_may_keep_what_it_awaits_later() -> None:
         await later
 
     assert limits.id == "limits"
+
+
+def test_an_early_end_is_shown_by_what_must_pass_first() -> None:
+    types = BuildsInterfaces("types", "hall_interfaces", {})
+    state = Publishes("state", STATE, after=types)
+    judge = judge_of(check("t1.1", THERMOSTAT, types, state, EndsCleanly("end")), "end")
+    ended = replace(plain(trace(graph=graph())), ending=None)
+    assert_skipped(judge(ended, ()), "`types` shows why")
+    assert_skipped(judge(ended, (InterfaceBuild("hall_interfaces"),)), "`state` shows why")

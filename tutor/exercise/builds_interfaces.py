@@ -39,6 +39,10 @@ class BuildsInterfaces(Form):
     package: str
     types: Mapping[str, Definition] = field(hash=False)
 
+    @property
+    def starts_a_program(self) -> bool:
+        return False
+
     def criterion(self, exercise: Exercise) -> Criterion:
         return self.judged(self.judge, BuiltPackages())
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -69,14 +70,31 @@ class EndsCleanly(Form):
         start = started[0][1]
         sharing = [form for form, other in started if other == start]
         following = [*others[others.index(sharing[-1]) + 1 :], sharing[-1]][0]
-        judges = [(form, form.criterion(exercise).judge) for form in sharing]
+        criteria = [form.criterion(exercise) for form in dict.fromkeys(_with_those_before(sharing))]
+        scenarios = tuple(dict.fromkeys([start, *(facts for criterion in criteria for facts in criterion.facts)]))
 
-        def judge(seen: EndedRun) -> Verdict:
-            failing = (form for form, judge_start in judges if judge_start(seen).status is Status.FAILED)
-            shows = next(failing, following) if seen.ending is None else following
-            return judge_end(seen.trace, seen.ending, shown_by=shows.id)
+        def judge(seen: EndedRun, *others_seen: Any) -> Verdict:
+            found = dict(zip(scenarios, (seen, *others_seen), strict=True))
+            failing = (
+                criterion.id
+                for criterion in criteria
+                if criterion.judge(*(found[facts] for facts in criterion.facts)).status is Status.FAILED
+            )
+            shows = next(failing, following.id) if seen.ending is None else following.id
+            return judge_end(seen.trace, seen.ending, shown_by=shows)
 
-        return self.judged(judge, start)
+        return self.judged(judge, *scenarios)
+
+
+def _with_those_before(forms: Iterable[Form]) -> Iterator[Form]:
+    """Each of these forms, after those that must pass first and start nothing: one that is skipped shows nothing.
+
+    What others start would have to be waited for.
+    """
+    for form in forms:
+        before = (form.after,) if isinstance(form.after, Form) else form.after
+        yield from (other for other in before if not other.starts_a_program)
+        yield form
 
 
 def _own_start(started: Program | LaunchFile) -> Scenario[Any]:

@@ -60,6 +60,11 @@ class Form(ABC):
     bonus: bool = field(default=False, kw_only=True)
 
     @property
+    def starts_a_program(self) -> bool:
+        """Whether its scenarios start a program, so that its facts take some time."""
+        return True
+
+    @property
     def used_parameters(self) -> tuple[Parameter, ...]:
         """The parameters that this criterion names."""
         return tuple(
