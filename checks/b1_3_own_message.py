@@ -69,7 +69,7 @@ interfaces = BuildsInterfaces(
         "srv/InRange": ("int64 value", "int64 low", "int64 high", "---", "bool inside"),
     },
 )
-publishes = Publishes("publishes", VALUE, after=interfaces)
+publishes = Publishes("publishes", VALUE, at_least_hz=2.0, after=interfaces)
 serves = Serves("in-range", (IN_RANGE,), call_with=(5, 0, 10), after=interfaces)
 
 CHECK = check(

@@ -29,9 +29,11 @@ from tests.checks.builders import (
     trace,
 )
 from tests.checks.thermometer import MESSAGES, PUBLISHING, TOPIC, TYPE, assert_failed
+from tutor.exercise import Publishes, Topic
 from tutor.exercise.collected_values import CollectedValues
 from tutor.exercise.publishing_start import MATCHED_S, PublishingRun
 from tutor.judge.trace import Echo, Trace
+from tutor.judge.verdict import Status
 from tutor.ros_model import QoS, TopicEndpoint
 
 judge_publishes = judge_of(CHECK, "publishes")
@@ -90,6 +92,32 @@ def test_publishes_does_not_depend_on_what_was_missed_at_the_start(
     seen = trace(*(sample(TOPIC, 23.5, START + at) for at in sent_s[missed:]), graph=PUBLISHING)
     verdict = judge_publishes(plain_start(seen, counted_from=START + MATCHED_S))
     assert verdict.passed == goes_on
+
+
+@pytest.mark.parametrize(
+    ("sent_s", "cpu_wait_s", "status"),
+    [
+        ([0.5 * number for number in range(8)], 0.0, Status.PASSED),
+        ([2.0, 2.48, 3.02], 0.0, Status.PASSED),
+        ([0.25 * number for number in range(7)] + [2.5, 2.75, 3.0, 3.25], 0.0, Status.PASSED),  # with a pause
+        ([burst + 0.01 * number for burst in range(6) for number in range(3)], 0.0, Status.PASSED),
+        ([float(number) for number in range(6)], 0.0, Status.FAILED),
+        ([2.0 * number for number in range(6)], 0.0, Status.FAILED),
+        ([0.1 * number for number in range(10)] + [2.0, 3.0, 4.0, 5.0], 0.0, Status.FAILED),  # slower after its start
+        ([0.1 * number for number in range(50)], 3.0, Status.PASSED),
+        ([float(number) for number in range(6)], 0.5, Status.FAILED),
+        ([float(number) for number in range(6)], 2.0, Status.ERROR),  # the machine may have slowed it down
+    ],
+)
+def test_messages_come_often_enough(sent_s: list[float], cpu_wait_s: float, status: Status) -> None:
+    seen = trace(*(sample(TOPIC, 23.5, START + at) for at in sent_s), graph=PUBLISHING)
+    topic = Topic(TOPIC, TYPE)
+    run = plain_start(seen, counted_from=START + MATCHED_S, cpu_wait_s=cpu_wait_s)
+    verdict = Publishes("often", topic, 2.0).judge(run)
+    assert verdict.status is status
+    assert Publishes("at-all", topic).judge(run).passed
+    if status is Status.FAILED:
+        assert "a second" in verdict.observed
 
 
 @given(st.lists(st.lists(st.floats(20, 30), min_size=1).map(tuple), min_size=1).map(tuple))

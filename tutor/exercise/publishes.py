@@ -9,7 +9,7 @@ from typing import Any
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.nouns import Topic
-from tutor.exercise.publishing_start import NOT_STARTED, PublishingRun, PublishingStart
+from tutor.exercise.publishing_start import NOT_STARTED, SLOW_SHARE, PublishingRun, PublishingStart
 from tutor.exercise.seen_run import Seen, fits
 from tutor.exercise.watched_start import Watching
 from tutor.judge.bench import Run
@@ -17,12 +17,15 @@ from tutor.judge.check import Criterion
 from tutor.judge.series import is_int_in_float
 from tutor.judge.symptom import Observation, Symptom
 from tutor.judge.trace import Sample, Trace
-from tutor.judge.verdict import Verdict, failed, passed
+from tutor.judge.verdict import Verdict, failed, passed, undecided
 from tutor.judge.waiting_for_nodes import IDLE_S, IN_FLIGHT_S, wait_for_message
 from tutor.judge.wording import counted, output_tail
 
 SHOWN = 3
 """How many messages are shown as evidence."""
+
+FASTER = "Publish from a timer that is fast enough, and let nothing hold it up."
+"""The next step where messages come too seldom."""
 
 
 def stopped(trace: Trace | None, topic: Topic) -> Observation:
@@ -40,22 +43,36 @@ def wrong_value(trace: Trace, topic: Topic, sample: Sample, says: str, do: str) 
 
 @dataclass(frozen=True)
 class Publishes(Form):
-    """Messages of the topic's type go on arriving on it: one that is sent at the start is not enough."""
+    """Messages of the topic's type go on arriving on it: one that is sent at the start is not enough.
+
+    `at_least_hz`: how many must come in a second, on average and roughly: three quarters of it are enough.
+    """
 
     topic: Topic
+    at_least_hz: float = 0.0
 
     def criterion(self, exercise: Exercise) -> Criterion:
         return self.judged(self.judge, self.ended_start(exercise))
 
     def ended_start(self, exercise: Exercise) -> PublishingStart:
-        return PublishingStart(exercise.program, self.topic)
+        return PublishingStart(exercise.program, self.topic, self.at_least_hz)
 
     def judge(self, seen: PublishingRun) -> Verdict:
         """Judge a start without parameters."""
         topic = self.topic
-        expected = f"{topic.type} messages go on arriving on {topic.name}"
+        often = f", at least {self.at_least_hz:g} a second" if self.at_least_hz else ""
+        expected = f"{topic.type} messages go on arriving on {topic.name}{often}"
         samples, began = seen.trace.samples_on(topic.name), seen.trace.started_at
         evidence = [topic.show(sample) for sample in samples[:1]]
+        if seen.messages_go_on and seen.mean_hz < SLOW_SHARE * self.at_least_hz:
+            if seen.slowed_below(self.at_least_hz):
+                return undecided("to tell how often messages come")
+            observed = f"{len(samples)} messages, {seen.mean_hz:.2g} a second"
+            says = f"messages come on {topic.name}, and only {seen.mean_hz:.2g} a second"
+            slow = Symptom.WRONG_RATE.seen(
+                seen.trace, says=says, do=FASTER, wanted_hz=self.at_least_hz, found_hz=seen.mean_hz
+            )
+            return failed(expected, observed, slow, evidence)
         if seen.messages_go_on:
             observed = f"{len(samples)} messages, the first {samples[0].received_at - began:.2f} s after the start"
             return passed(expected, observed, evidence)
@@ -223,7 +240,7 @@ class AtLeast(WatchingMessages):
             type=self.topic.type,
             some=True,
             says=f"only {counted(len(counted_in), 'message')} came on {self.topic.name} within {self.within_s:g} s",
-            do="Publish from a timer that is fast enough, and let nothing hold it up.",
+            do=FASTER,
         )
         return failed(self.expected, observed, few, evidence)
 

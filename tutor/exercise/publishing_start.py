@@ -14,7 +14,15 @@ from tutor.judge.ending import repeat_chance_failures
 from tutor.judge.stuck_nodes import is_stuck_for_ever
 from tutor.judge.trace import Echo, Ending, Sample, Trace
 from tutor.judge.tracebacks import Frame
-from tutor.judge.waiting_for_nodes import IDLE_S, MESSAGE_GAP_S, RESENT_S, START_S, find_stuck_frames, wait_for_message
+from tutor.judge.waiting_for_nodes import (
+    IDLE_S,
+    MESSAGE_GAP_S,
+    RESENT_S,
+    START_S,
+    find_stuck_frames,
+    too_few_by_cpu_wait,
+    wait_for_message,
+)
 from tutor.ros_model import Graph, Parameter
 
 MATCHED_S = 1.3
@@ -25,6 +33,12 @@ Some nodes also pause for a second before a first message.
 
 GO_ON_S = 0.9
 """Messages go on arriving if those that count span this time."""
+
+SLOW_S = 2.5
+"""Messages that seem to come too slowly are watched until those that count span this time."""
+
+SLOW_SHARE = 0.75
+"""Messages come too slowly below this share of the rate asked for: in so short a time, a late one counts for much."""
 
 ECHO_LIMIT_S = 14.0
 """Time limit of the echo: enough even for a topic with only an occasional message."""
@@ -50,7 +64,8 @@ class PublishingRun:
     `parameters`: None if the node answered no parameter call, and, as nobody needs them then, if messages go on
     arriving. `echo`: None if they do not.
     `ending`: None if the process had already exited. `stuck`: the stack, innermost frame first, of a node that neither
-    published nor answered. `stuck_for_ever`: by that stack, it will never publish.
+    published nor answered. `stuck_for_ever`: by that stack, it will never publish. `cpu_wait_s`: how long the node
+    waited for a CPU since its first message.
     """
 
     topic: str
@@ -61,6 +76,17 @@ class PublishingRun:
     stuck: tuple[Frame, ...] = ()
     stuck_for_ever: bool = False
     counted_from: float = 0.0
+    cpu_wait_s: float = 0.0
+
+    @property
+    def mean_hz(self) -> float:
+        """The mean rate of the messages that count."""
+        return mean_hz(self.trace.samples_on(self.topic), self.counted_from)
+
+    def slowed_below(self, at_least_hz: float) -> bool:
+        """Whether the machine may be to blame for messages that come too slowly."""
+        sent = _counted(self.trace.samples_on(self.topic), self.counted_from)
+        return too_few_by_cpu_wait(len(sent) - 1, at_least_hz, cpu_wait_s=self.cpu_wait_s, elapsed_s=_span_s(sent))
 
     @property
     def messages_go_on(self) -> bool:
@@ -70,16 +96,33 @@ class PublishingRun:
 
 def go_on(samples: Sequence[Sample], counted_from: float) -> bool:
     """Whether the samples that were sent after this time span `GO_ON_S`."""
-    first = next((sample.source_time for sample in samples if sample.source_time >= counted_from), math.inf)
-    return bool(samples) and samples[-1].source_time - first >= GO_ON_S
+    return _span_s(_counted(samples, counted_from)) >= GO_ON_S
+
+
+def mean_hz(samples: Sequence[Sample], counted_from: float) -> float:
+    """The mean rate of the samples that were sent after this time; 0 if one alone was."""
+    sent = _counted(samples, counted_from)
+    return (len(sent) - 1) / _span_s(sent) if _span_s(sent) > 0 else 0.0
+
+
+def _counted(samples: Sequence[Sample], counted_from: float) -> Sequence[Sample]:
+    return [sample for sample in samples if sample.source_time >= counted_from]
+
+
+def _span_s(samples: Sequence[Sample]) -> float:
+    return samples[-1].source_time - samples[0].source_time if samples else 0.0
 
 
 @dataclass(frozen=True)
 class PublishingStart:
-    """Start without parameters: do messages go on arriving, does echo show them, does Ctrl+C end it cleanly?"""
+    """Start without parameters: do messages go on arriving, does echo show them, does Ctrl+C end it cleanly?
+
+    `at_least_hz`: messages that come more slowly than this are watched for a while longer.
+    """
 
     program: Program
     topic: Topic
+    at_least_hz: float = 0.0
 
     async def __call__(self, bench: Bench) -> PublishingRun:
         return await repeat_chance_failures(self._run)(bench)
@@ -93,8 +136,9 @@ class PublishingStart:
                 bench.report_progress(0.1, f"waiting for the first message on {topic.name}")
                 began, looking = asyncio.ensure_future(self._first_sign_at(run)), asyncio.ensure_future(stuck.look(run))
                 tasks += (began, looking)
-                echo, declared, counted_from = None, None, math.inf
+                echo, declared, counted_from, waited_s = None, None, math.inf, 0.0
                 if await wait_for_message(run, topic.name, topic.type, given_up=stuck.is_for_ever):
+                    waited_s = run.node_cpu_wait_s()
                     bench.report_progress(0.5, "watching as `ros2 topic echo` does")
                     echoing = asyncio.ensure_future(run.echo(topic.name, samples=1, limit_s=ECHO_LIMIT_S))
                     asking = asyncio.ensure_future(run.parameters(ANSWER_S))
@@ -106,14 +150,16 @@ class PublishingStart:
                         declared = await asking
                 elif not stuck.is_for_ever():
                     declared = await run.parameters(ANSWER_S)
-                trace = run.trace()
+                trace, waited_s = run.trace(), run.node_cpu_wait_s() - waited_s
                 sent = tuple(
                     sample for sample in trace.samples_on(topic.name) if sample.source_time >= stuck.restarted_at
                 )
                 trace = replace(trace, samples={**trace.samples, topic.name: sent})
                 bench.report_progress(0.8, "pressing Ctrl+C")
                 ended = await run.interrupt()
-            facts = PublishingRun(topic.name, trace, declared, echo, ended, (), stuck.is_for_ever(), counted_from)
+            facts = PublishingRun(
+                topic.name, trace, declared, echo, ended, (), stuck.is_for_ever(), counted_from, waited_s
+            )
             if facts.messages_go_on or declared is not None or trace.exit is not None or not trace.graph.nodes:
                 return facts
             return replace(facts, stuck=await looking or await find_stuck_frames(bench, file))
@@ -133,7 +179,9 @@ class PublishingStart:
             return max(began + MATCHED_S, stuck.restarted_at)
 
         def is_decided() -> bool:
-            return go_on(run.samples_on(name), counted_from()) or stuck.is_for_ever()
+            sent = _counted(run.samples_on(name), counted_from())
+            slow = mean_hz(sent, 0.0) < SLOW_SHARE * self.at_least_hz
+            return _span_s(sent) >= (SLOW_S if slow else GO_ON_S) or stuck.is_for_ever()
 
         received = -1
         while not is_decided() and len(run.samples_on(name)) != received:
