@@ -1,4 +1,4 @@
-"""B1.3: the questions tell right answers from those that are wrong for some numbers only."""
+"""B1.3: the questions tell right answers from those that are wrong for some numbers only, and what gets no answer."""
 
 from __future__ import annotations
 
@@ -7,7 +7,10 @@ from math import inf
 
 import pytest
 
-from checks.b1_3_own_message import IN_RANGE, questions
+from checks.b1_3_own_message import CHECK, IN_RANGE, questions
+from tests.checks.builders import assert_failed, graph, judge_of, trace
+from tutor.exercise.service_calls import ServiceCalls
+from tutor.judge.trace import CallAnswer
 
 Answer = Callable[[int, int, int], bool]
 
@@ -43,3 +46,23 @@ def test_an_answer_that_is_wrong_for_some_numbers_is_always_found(make: Callable
 
 def test_the_limits_of_a_request_are_never_the_wrong_way_round() -> None:
     assert all(low <= high for _, (_, low, high) in questions())
+
+
+def asked(value: int, inside: bool | None) -> CallAnswer:
+    """A call that asks whether a value is from 0 to 10, and its answer."""
+    response = None if inside is None else {"inside": inside}
+    return CallAnswer(IN_RANGE.name, {"value": value, "low": 0, "high": 10}, response, 1000.0, 1005.0)
+
+
+@pytest.mark.parametrize(
+    ("gone", "words"),
+    [((), "answers other calls, but not this one"), ((IN_RANGE.name,), "was there, and no longer is")],
+)
+def test_a_service_that_is_gone_is_not_said_to_answer_other_calls(gone: tuple[str, ...], words: str) -> None:
+    seen = trace(graph=graph(services={IN_RANGE.name: IN_RANGE.type}))
+    simple = ServiceCalls(seen, (asked(5, True),))
+    calls = ServiceCalls(seen, (asked(5, True), asked(4, None)), gone=gone)
+    assert_failed(judge_of(CHECK, "answers")(calls, simple), "no answer", words, check=CHECK)
+    silent = ServiceCalls(seen, (asked(5, None),), gone=gone)
+    words = words if gone else "is there, and does not answer a call"
+    assert_failed(judge_of(CHECK, "in-range")(silent), "no answer", words, check=CHECK)

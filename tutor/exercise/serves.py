@@ -70,16 +70,10 @@ class Serves(Form):
             return ended_by_a_call(exercise)
         if unanswered is not None:
             name = unanswered.service
-            observed = f"{name}: {describe_no_answer(seen.trace, unanswered.took_s)}"
-            silent = Symptom.NO_ANSWER.seen(
-                seen.trace,
-                stuck=seen.stuck,
-                answers=seen.spins,
-                service=name,
-                type=next(service.type for service in self.services if service.name == name),
-                says=f"{name} is there, and does not answer a call",
-                do=f"Follow the callback of {name} to where it stays, and let it return its response.",
-            )
+            observed = f"{name}: {_silence(seen, unanswered)}"
+            says = f"{name} is there, and does not answer a call"
+            do = f"Find where the callback of {name} stays, or another one that keeps it from being called."
+            silent = _silent(seen, next(service for service in self.services if service.name == name), says, do)
             return failed(expected, observed, silent, output_tail(seen.trace))
         return passed(expected, "all answer", describe_answers(self.services, seen.answers))
 
@@ -131,8 +125,7 @@ class Answers(Form):
             right = right_result(service, answer.request)
             asked = f"{answer.service}: {describe_request(service, answer.request)} = {right}"
             if answer.response is None:
-                observed = describe_no_answer(seen.trace, answer.took_s)
-                return failed(asked, observed, _no_answer(seen.trace, answer, service), output_tail(seen.trace))
+                return failed(asked, _silence(seen, answer), _no_answer(seen, answer, service), output_tail(seen.trace))
             if right is not None and (got := answer.response[service.response]) != right:
                 evidence = describe_answers(self.services, seen.of(answer.service), "answered")
                 return failed(asked, f"{got}", self._wrong_result(seen, answer, service, right), evidence)
@@ -182,12 +175,24 @@ def wrong_answer(
     )
 
 
-def _no_answer(trace: Trace, answer: CallAnswer, service: Service) -> Observation:
+def _no_answer(seen: ServiceCalls, answer: CallAnswer, service: Service) -> Observation:
     name = answer.service
+    says = f"{name} answers other calls, but not this one"
+    do = f"Let the callback of {name} return its response, whatever the request is."
+    return _silent(seen, service, says, do)
+
+
+def _silent(seen: ServiceCalls, service: Service, says: str, do: str) -> Observation:
+    """A service did not answer, of which this is said if it is still there."""
+    if service.name in seen.gone:
+        says = f"{service.name} was there, and no longer is, though the program still runs"
+        do = "Find what takes the service away: the node has to keep it for as long as it runs."
     return Symptom.NO_ANSWER.seen(
-        trace,
-        service=name,
-        type=service.type,
-        says=f"{name} answers other calls, but not this one",
-        do=f"Let the callback of {name} return its response, whatever the request is.",
+        seen.trace, stuck=seen.stuck, answers=seen.spins, service=service.name, type=service.type, says=says, do=do
     )
+
+
+def _silence(seen: ServiceCalls, answer: CallAnswer) -> str:
+    """Say that a call got no answer, and whether the service was there."""
+    silence = describe_no_answer(seen.trace, answer.took_s)
+    return f"{silence}: the service is gone" if answer.service in seen.gone else silence

@@ -41,7 +41,8 @@ class ServiceCalls:
 
     `spins`: whether the node had answered a parameter call before. `stuck`: the node's stack, innermost frame first,
     during a call that it did not answer. `ready`: whether nothing but the calls can have ended the server, since it was
-    up and, as far as can be seen, spinning when the first one was made.
+    up and, as far as can be seen, spinning when the first one was made. `gone`: the services that were there before the
+    calls and no longer are, though the program runs on.
     """
 
     trace: Trace
@@ -50,6 +51,7 @@ class ServiceCalls:
     stuck: tuple[Frame, ...] = ()
     ending: Ending | None = None
     ready: bool = True
+    gone: tuple[str, ...] = ()
 
     @property
     def ended_by_a_call(self) -> bool:
@@ -75,6 +77,12 @@ class Server:
         """The services that are not offered with the required type."""
         offered = {(server.name, server.type) for server in servers}
         return [service for service in self.services if (service.name, service.type) not in offered]
+
+    def gone(self, run: Run, graph_before: Graph) -> tuple[str, ...]:
+        """The services that are no longer in the graph, though the program still runs."""
+        before = self.missing(graph_before.servers)
+        lost = [service.name for service in self.missing(run.graph.servers) if service not in before]
+        return tuple(lost) if run.exit is None else ()
 
     async def wait(self, run: Run) -> bool:
         """Wait for the services. Return whether a node was up, if only for a moment."""
@@ -150,12 +158,13 @@ class CallEach:
                 answered = {answer.service for answer in answers if answer.response is not None}
                 await self._see_whether_it_ends(run, [s for s in offered if s.name in answered] or offered[1:])
             trace = await server.trace_after_calls(run, graph_before, had_node)
+            gone = server.gone(run, graph_before)
             bench.report_progress(0.8, "pressing Ctrl+C")
             ended = await run.interrupt()
         stuck: tuple[Frame, ...] = ()
         if unanswered and trace.exit is None:
             stuck = await (bench.facts(silent) if is_stuck else self._dump_stuck_node(bench, unanswered))
-        return ServiceCalls(trace, answers, parameters is not None, stuck, ended, ready)
+        return ServiceCalls(trace, answers, parameters is not None, stuck, ended, ready, gone)
 
     async def _see_whether_it_ends(self, run: Run, services: Sequence[Service]) -> None:
         """Call on: a server that answers twice more has survived the calls before; else give it time to end.
@@ -174,7 +183,10 @@ class CallEach:
         async with bench.start(self.server.program.file) as run:
             bench.report_progress(0.9, "looking where the node is stuck")
             await wait_until_seen(run, lambda: any(server.name == service.name for server in run.graph.servers))
-            await run.call(service.name, service.type, unanswered.request, limit_s=STUCK_CALL_S)
+            again = await run.call(service.name, service.type, unanswered.request, limit_s=STUCK_CALL_S)
+            if again.response is not None:  # another callback, such as that of a timer, has not got stuck yet
+                await run.until(lambda: run.exit is not None, STUCK_CALL_S)
+                await run.call(service.name, service.type, unanswered.request, limit_s=STUCK_CALL_S)
             return await run.dump_stacks()
 
 
@@ -194,7 +206,8 @@ class MakeCalls:
             bench.report_progress(0.3, "calling the services with many requests")
             questions = [question for question in self.questions() if question[0] not in missing]
             answers = await make_calls(run, questions)
-            return ServiceCalls(await server.trace_after_calls(run, graph_before, had_node), answers)
+            trace = await server.trace_after_calls(run, graph_before, had_node)
+            return ServiceCalls(trace, answers, gone=server.gone(run, graph_before))
 
 
 def right_result(service: Service, request: Mapping[str, Any]) -> Any:
