@@ -36,7 +36,8 @@ CHECK = check(
     deactivates,
     # Below the default: a timer that is left from before shows beside it.
     CleansUp("cleanup", SENSOR, again_hz=2.0, after=deactivates),
-    FailsToConfigure("bad-rate", SENSOR, bad=(-1.0, 0.0), good=4.0, after=configures),
+    # A good rate that is no whole number: nothing is measured with it.
+    FailsToConfigure("bad-rate", SENSOR, bad=(-1.0, 0.0), good=0.5, after=configures),
     ShutsDown("finalize", SENSOR, after=configures),
     EndsCleanly("shutdown", bonus=True),
     expected_s=6.4,

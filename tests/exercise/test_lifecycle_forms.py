@@ -54,7 +54,7 @@ CHECK = check(
     Activates("activates", CAMERA),
     Deactivates("deactivates", CAMERA),
     CleansUp("cleans", CAMERA, again_hz=2.0),
-    FailsToConfigure("bad", CAMERA, bad=(-1.0, 0.0), good=4.0),
+    FailsToConfigure("bad", CAMERA, bad=(-1.0, 0.0), good=0.5),
     ShutsDown("ends", CAMERA),
 )
 
@@ -109,13 +109,43 @@ DONE = replace(FAILED, response={"success": True})
 
 def test_the_parts_are_one_walk_that_ends_with_the_shutdown() -> None:
     (whole,) = walks_of(CHECK, "cleans")
-    assert [walks_of(CHECK, name) for name in ("begins", "deactivates")] == [[whole], [whole]]
+    assert [walks_of(CHECK, name)[-1] for name in ("begins", "configures", "deactivates", "ends")] == [whole] * 4
     asked = [move.transition for move in whole.moves if not move.refused]
     assert asked == [
         "", "configure", "activate", "deactivate", "activate", "deactivate", "cleanup", "configure", "activate",
         "shutdown",
     ]  # fmt: skip
     assert [move.to for move in whole.moves][-1] == "finalized"
+
+
+def test_the_lives_at_rest_end_with_the_shutdown_too() -> None:
+    unconfigured, inactive, _ = walks_of(CHECK, "ends")
+    assert walks_of(CHECK, "begins")[0] == unconfigured
+    assert walks_of(CHECK, "configures")[0] == inactive
+    alone = check("t1", Program("node.py"), Configures("configures", CAMERA))
+    resting, _ = walks_of(alone, "configures")
+    assert [move.transition for move in resting.moves] == ["", "configure"]
+    assert_passed(judge("configures", check=alone))
+
+
+def test_a_timer_of_a_second_is_listened_for_in_each_state_that_is_silent() -> None:
+    walks = [walk for name in ("begins", "configures", "deactivates") for walk in walks_of(CHECK, name)]
+    moves = {move for walk in walks for move in walk.moves if move.listen_s}
+    assert {(move.to, move.transition) for move in moves} == {
+        ("unconfigured", ""),
+        ("inactive", "configure"),
+        ("inactive", "deactivate"),
+    }
+    assert all(move.listen_s > 1.1 and move.watched in ("silence", "publisher") for move in moves)
+
+
+@pytest.mark.parametrize(("criterion", "transition"), [("begins", ""), ("configures", "configure")])
+def test_what_is_sent_late_in_a_life_at_rest_fails_its_criterion(criterion: str, transition: str) -> None:
+    resting, whole = walks_of(CHECK, criterion)
+    steps = [right_step(move) for move in resting.moves]
+    late = [replace(s, sent=(sample("/images", "x", START),)) if s.move.transition == transition else s for s in steps]
+    runs = [LifecycleRun(UP, steps=tuple(seen)) for seen in (late, map(right_step, whole.moves))]
+    assert_failed(judge_of(CHECK, criterion)(*runs), "publishes while inactive", "publishes on /images", check=CHECK)
 
 
 def test_a_criterion_alone_gets_to_its_part() -> None:
@@ -134,9 +164,8 @@ def test_silence_is_waited_for_at_the_rate_that_the_node_had() -> None:
         if step.move.watched in ("silence", "publisher")
     }
     assert rates == {
-        ("start", ""): 5.0,
-        ("configure", "configure"): 5.0,
         ("deactivate", "deactivate"): 5.0,
+        ("cleanup", "configure"): 2.0,
         ("shutdown", "shutdown"): 2.0,
     }
 
@@ -176,6 +205,7 @@ def test_a_node_that_does_everything_right_passes(criterion: str) -> None:
         ("cleans", "cleanup", {"publishes": True}, "left after cleanup", "still there after the cleanup"),
         ("cleans", "activate", {"rate": Rate(5.0, 6, 1.0)}, "parameter not read again", "rate was set while"),
         ("cleans", "activate", {"rate": Rate(7.0, 6, 0.7)}, "old timer kept", "2 Hz and the 5 Hz of an older"),
+        ("ends", "shutdown", {"ended_badly": True}, "ended", "once the node is finalized"),
         ("ends", "shutdown", {"state": "active", "change": FAILED}, "wrong lifecycle state", "on_shutdown"),
         ("ends", "shutdown", {"change": FAILED}, "wrong lifecycle state", "finalized, but says that its on_shutdown"),
     ],
@@ -189,8 +219,18 @@ def test_a_bad_value_must_fail_the_transition_and_leave_the_node_unconfigured() 
     assert_failed(taken, "wrong lifecycle state", "configured although rate is 0.0", check=CHECK)
     lost = judge("bad", "configure", set_to=0.0, state="finalized")
     assert_failed(lost, "wrong lifecycle state", "is finalized then, not unconfigured", check=CHECK)
-    spoilt = judge("bad", "configure", set_to=4.0, change=FAILED, state="unconfigured")
-    assert_failed(spoilt, "wrong lifecycle state", check=CHECK)
+    spoilt = judge("bad", "configure", set_to=0.5, change=FAILED, state="unconfigured")
+    assert_failed(spoilt, "wrong lifecycle state", "after rate was set to 0.5, which is a good value", check=CHECK)
+
+
+def test_a_node_that_has_failed_to_configure_has_no_publisher() -> None:
+    left = judge("bad", "configure", set_to=0.0, publishes=True)
+    assert_failed(left, "left after cleanup", "fails to configure with rate 0.0, and keeps a publisher", check=CHECK)
+
+
+def test_the_second_configure_is_silent_as_well() -> None:
+    started = judge("cleans", "configure", set_to=2.0, sent=(sample("/images", "x", START),))
+    assert_failed(started, "publishes while inactive", "although it is inactive", check=CHECK)
 
 
 def test_a_bad_value_that_is_refused_at_once_is_as_good() -> None:
@@ -211,12 +251,14 @@ def test_what_is_not_reached_is_skipped() -> None:
 
 
 def test_without_its_services_a_node_has_no_lifecycle() -> None:
-    judge_begins = judge_of(CHECK, "begins")
+    judge_deactivates = judge_of(CHECK, "deactivates")
     plain = LifecycleRun(trace(), offered=False)
-    assert_failed(judge_begins(plain), "service missing", "/node is no lifecycle node", check=CHECK)
+    assert_failed(judge_deactivates(plain), "service missing", "/node is no lifecycle node", check=CHECK)
     other = trace(graph=graph(services={"/node/change_state": CHANGE_STATE}))
-    assert_failed(judge_begins(LifecycleRun(other, offered=False)), "service missing", "its name is /node", check=CHECK)
-    assert_failed(judge_begins(LifecycleRun(NO_NODE, offered=False)), "no node", check=CHECK)
+    assert_failed(
+        judge_deactivates(LifecycleRun(other, offered=False)), "service missing", "its name is /node", check=CHECK
+    )
+    assert_failed(judge_deactivates(LifecycleRun(NO_NODE, offered=False)), "no node", check=CHECK)
 
 
 def test_a_callback_without_a_result_is_known_by_its_traceback() -> None:
@@ -226,11 +268,11 @@ Traceback (most recent call last):
     self._state_machine.trigger_transition_by_label(cb_return_code.to_label(), True)
 AttributeError: 'bool' object has no attribute 'to_label'"""
     ended = trace(graph=graph(["/camera"]), err=err, exit=exited(1))
-    (walk,) = walks_of(CHECK, "configures")
-    start, refusing, configure = (right_step(move) for move in walk.moves[:3])
-    steps = (start, refusing, replace(configure, change=UNANSWERED, state=""))
-    verdict = judge_of(CHECK, "configures")(LifecycleRun(ended, steps=steps))
-    assert_failed(verdict, "transition returns no result", "on_configure returns something else", check=CHECK)
+    (walk,) = walks_of(CHECK, "activates")
+    *before, activate = (right_step(move) for move in walk.moves[:4])
+    steps = (*before, replace(activate, change=UNANSWERED, state=""))
+    verdict = judge_of(CHECK, "activates")(LifecycleRun(ended, steps=steps))
+    assert_failed(verdict, "transition returns no result", "on_activate returns something else", check=CHECK)
 
 
 def test_a_wrong_name_or_effect_is_the_authors_mistake() -> None:

@@ -10,7 +10,7 @@ import pytest
 from tests.checks import builders
 from tests.checks.builders import CRASH, FOLDER, KEYBOARD_INTERRUPT, assert_passed, ending, exited, trace
 from tutor.judge.check import Check
-from tutor.judge.ending import judge_ending, may_be_chance
+from tutor.judge.ending import is_race, judge_ending, may_be_chance
 from tutor.judge.trace import Ending, Trace
 from tutor.judge.verdict import Status
 
@@ -189,3 +189,11 @@ def test_an_older_exception_that_is_printed_does_not_matter() -> None:
     end = ending(0, err=CRASH)
     end = replace(end, output=tuple(replace(line, stream="stdout") for line in end.output))
     assert_passed(judge(trace(), end))
+
+
+@pytest.mark.parametrize(
+    ("err", "race"),
+    [("", False), (STILL_SPINNING, True), (TRY_SHUTDOWN_RACE, True), (PUBLISH_AFTER, False), (SHUTDOWN_TWICE, False)],
+)
+def test_an_exit_code_may_come_from_a_race_in_rclpy(err: str, race: bool) -> None:
+    assert is_race(ending(1, err=err).output) == race

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tutor.exercise.form import Exercise, Form
 from tutor.exercise.lifecycle_judge import judge_part
-from tutor.exercise.lifecycle_walk import LifecycleRun, Move, Walk
+from tutor.exercise.lifecycle_walk import LISTEN_S, LifecycleRun, Move, Walk
 from tutor.exercise.nouns import Lifecycle, Value, show
 from tutor.judge.check import Criterion
 from tutor.judge.verdict import Status, Verdict
@@ -36,6 +36,36 @@ class LifecycleForm(Form):
         """Judge this criterion's part of the walk."""
         return judge_part(seen, self.lifecycle, self.moves, self.expected)
 
+    def judged_with_rest(self, exercise: Exercise, before: tuple[Move, ...], at_rest: Move) -> Criterion:
+        """The criterion judged on a life at rest as well: one that goes no further, and listens for longer.
+
+        So the walk through all parts, which takes longest, need not wait for that. `before`: the moves that lead to the
+        one `at_rest`.
+        """
+
+        def judge(resting: LifecycleRun, seen: LifecycleRun) -> Verdict:
+            return _first_not_passed(judge_part(resting, self.lifecycle, (at_rest,), self.expected), self.judge(seen))
+
+        return self.judged(
+            judge, _life_at_rest(exercise, self.lifecycle, *before, at_rest), _whole_life(exercise, self.lifecycle)
+        )
+
+
+_START = Move("start", "", "unconfigured")
+_AT_START = replace(_START, watched="silence", listen_s=LISTEN_S)
+_CONFIGURE = Move("configure", "configure", "inactive")
+_CONFIGURED = replace(_CONFIGURE, watched="publisher", listen_s=LISTEN_S)
+
+
+def _life_at_rest(exercise: Exercise, lifecycle: Lifecycle, *moves: Move) -> Walk:
+    """A walk that makes these moves and ends with the shutdown, if the exercise has a criterion for that."""
+    shutdown = exercise.first(ShutsDown, lambda form: form.lifecycle == lifecycle)
+    return Walk(exercise.program, lifecycle, (*moves, *(shutdown.moves if shutdown is not None else ())))
+
+
+def _first_not_passed(*verdicts: Verdict) -> Verdict:
+    return next((verdict for verdict in verdicts if verdict.status is not Status.PASSED), verdicts[-1])
+
 
 def _whole_life(exercise: Exercise, lifecycle: Lifecycle) -> Walk:
     """The walk through all parts that the exercise has criteria for, and the transitions that lead there."""
@@ -59,8 +89,10 @@ class BeginsUnconfigured(LifecycleForm):
 
     @property
     def moves(self) -> tuple[Move, ...]:
-        start = Move("start", "", "unconfigured", "silence")
-        return start, Move("start", "activate", "unconfigured", refused=True)
+        return _START, Move("start", "activate", "unconfigured", refused=True)
+
+    def criterion(self, exercise: Exercise) -> Criterion:
+        return self.judged_with_rest(exercise, (), _AT_START)
 
     @property
     def expected(self) -> str:
@@ -73,7 +105,10 @@ class Configures(LifecycleForm):
 
     @property
     def moves(self) -> tuple[Move, ...]:
-        return (Move("configure", "configure", "inactive", "publisher"),)
+        return (_CONFIGURE,)
+
+    def criterion(self, exercise: Exercise) -> Criterion:
+        return self.judged_with_rest(exercise, (_START,), _CONFIGURED)
 
     @property
     def expected(self) -> str:
@@ -101,7 +136,7 @@ class Deactivates(LifecycleForm):
     @property
     def moves(self) -> tuple[Move, ...]:
         hz = self.lifecycle.default_hz
-        silent = Move("deactivate", "deactivate", "inactive", "silence", hz)
+        silent = Move("deactivate", "deactivate", "inactive", "silence", hz, LISTEN_S)
         return silent, Move("deactivate", "activate", "active", "rate", hz)
 
     @property
@@ -112,7 +147,7 @@ class Deactivates(LifecycleForm):
 
 @dataclass(frozen=True)
 class CleansUp(LifecycleForm):
-    """After "cleanup", the publisher is gone; configured again, the node takes the new value of its parameter.
+    """After "cleanup", the publisher is gone; configured again, the node is silent, and active, it has the new rate.
 
     `again_hz`: the rate that it is set to before that. One below the default shows a timer that is left.
 
@@ -126,7 +161,7 @@ class CleansUp(LifecycleForm):
         return (
             Move("cleanup", "deactivate", "inactive"),
             Move("cleanup", "cleanup", "unconfigured", "nothing left"),
-            Move("cleanup", "configure", "inactive", set_to=self.again_hz),
+            Move("cleanup", "configure", "inactive", "silence", self.again_hz, set_to=self.again_hz),
             Move("cleanup", "activate", "active", "rate", self.again_hz),
         )
 
@@ -135,17 +170,18 @@ class CleansUp(LifecycleForm):
         name, rate = self.lifecycle.topic.name, self.lifecycle.rate.name
         return (
             f"after a cleanup, the publisher on {name} is gone; configured again with {rate} {self.again_hz:g}, "
-            f"the node publishes at {self.again_hz:g} Hz"
+            f"the node is silent, and activated, it publishes at {self.again_hz:g} Hz"
         )
 
 
 @dataclass(frozen=True)
 class FailsToConfigure(LifecycleForm):
-    """With a bad value of its parameter, the node fails to configure and stays unconfigured; a good one is taken.
+    """With a bad value of its parameter, the node fails to configure, and has no publisher then; a good one is taken.
 
-    `bad`: the values, the first one given at the start. `good`: the one after them.
+    `bad`: the values, the first one given at the start. `good`: the one after them. Nothing is measured with it, so it
+    may be one that a careless check takes for a bad one.
 
-        FailsToConfigure("bad-value", CAMERA, bad=(-1.0, 0.0), good=4.0, after=configures)
+        FailsToConfigure("bad-value", CAMERA, bad=(-1.0, 0.0), good=0.5, after=configures)
     """
 
     bad: tuple[Value, ...]
@@ -154,7 +190,7 @@ class FailsToConfigure(LifecycleForm):
     @property
     def moves(self) -> tuple[Move, ...]:
         refused = [
-            Move("bad", "configure", "unconfigured", refused=True, set_to=bad if number else None)
+            Move("bad", "configure", "unconfigured", "nothing left", refused=True, set_to=bad if number else None)
             for number, bad in enumerate(self.bad)
         ]
         return (*refused, Move("bad", "configure", "inactive", set_to=self.good))
@@ -163,12 +199,12 @@ class FailsToConfigure(LifecycleForm):
     def expected(self) -> str:
         name, values = self.lifecycle.rate.name, " and ".join(show(bad) for bad in self.bad)
         return (
-            f"with {name} {values}, it fails to configure and stays unconfigured; with {show(self.good)}, it does not"
+            f"with {name} {values}, it fails to configure and stays unconfigured, without a publisher; "
+            f"with {show(self.good)}, it is configured"
         )
 
     def criterion(self, exercise: Exercise) -> Criterion:
-        start = Move("start", "", "unconfigured")
-        walk = Walk(exercise.program, self.lifecycle, (start, *self.moves), starts_with=self.bad[0])
+        walk = Walk(exercise.program, self.lifecycle, (_START, *self.moves), starts_with=self.bad[0])
         return self.judged(self.judge, walk)
 
 
@@ -188,17 +224,12 @@ class ShutsDown(LifecycleForm):
         return "shut down while unconfigured, inactive or active, the node is finalized, and silent"
 
     def criterion(self, exercise: Exercise) -> Criterion:
-        start, configure = Move("start", "", "unconfigured"), Move("start", "configure", "inactive")
-        lives = [
-            Walk(exercise.program, self.lifecycle, (start, *self.moves)),
-            Walk(exercise.program, self.lifecycle, (start, configure, *self.moves)),
-        ]
+        lives = [_life_at_rest(exercise, self.lifecycle, *moves) for moves in ((_AT_START,), (_START, _CONFIGURED))]
         return self.judged(self.judge_all, *lives, _whole_life(exercise, self.lifecycle))
 
     def judge_all(self, *seen: LifecycleRun) -> Verdict:
         """Judge the shutdown from each state: the first one that does not pass."""
-        verdicts = [self.judge(run) for run in seen]
-        return next((verdict for verdict in verdicts if verdict.status is not Status.PASSED), verdicts[-1])
+        return _first_not_passed(*map(self.judge, seen))
 
 
 _ORDER: tuple[type[LifecycleForm], ...] = (BeginsUnconfigured, Configures, Activates, Deactivates, CleansUp, ShutsDown)

@@ -65,6 +65,11 @@ def _judge_wrong(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected:
         says = f"the node publishes on {topic.name} although it is {step.state}"
         do = "Publish only in the state active: with a lifecycle publisher, or with a timer that runs only then."
         return failed(expected, observed, seen.symptom(Symptom.NOT_SILENT, says=says, do=do, **about))
+    if step.ended_badly:
+        says = f"the program ends with {seen.trace.exit} once the node is finalized"
+        do = "Let it run on until Ctrl+C, or end as a program does that has done its work: with exit code 0."
+        why = seen.symptom(Symptom.ENDED, says=says, do=do, **about)
+        return failed(expected, f"{after}, and then the program ended with {seen.trace.exit}", why, tail)
     if step.move.watched == "publisher":
         says = f"the node is configured, and has no publisher of {topic.type} on {topic.name}"
         do = "Create the publisher in on_configure, under exactly this name and with this type."
@@ -73,7 +78,13 @@ def _judge_wrong(seen: LifecycleRun, lifecycle: Lifecycle, step: Step, expected:
     if step.move.watched == "nothing left":
         says = f"the publisher on {topic.name}, which configuring has made, is still there after the cleanup"
         do = "Undo in on_cleanup what on_configure has made: the node keeps a publisher until it is destroyed."
-        why = seen.symptom(Symptom.NOT_CLEANED_UP, says=says, do=do, **about)
+        if step.move.refused:
+            value = _bad_value(seen, lifecycle, step.move)
+            says = (
+                f"the node fails to configure with {lifecycle.rate.name} {value}, and keeps a publisher on {topic.name}"
+            )
+            do = "Look at the value before anything is made: a node that stays unconfigured holds nothing."
+        why = seen.symptom(Symptom.NOT_CLEANED_UP, says=says, do=do, transition=step.move.transition, **about)
         return failed(expected, f"{after}, and a publisher on {topic.name} is left", why)
     return _judge_rate(seen, lifecycle, step, expected)
 
@@ -144,6 +155,9 @@ def _wrong_state(seen: LifecycleRun, lifecycle: Lifecycle, step: Step) -> tuple[
         if step.state == move.to:
             says = f"the node is {step.state}, but says that its {callback_of(move.transition)} did not succeed"
         do = f"Find out what {callback_of(move.transition)} returns, and let it return SUCCESS if all went well."
+        if move.set_to is not None and step.state != move.to:
+            says = f"after {lifecycle.rate.name} was set to {show(move.set_to)}, which is a good value, {says}"
+            do = "Read the value each time the node is configured, and keep nothing of an attempt that has failed."
     return observed, seen.symptom(Symptom.WRONG_STATE, says=says, do=do, **about)
 
 

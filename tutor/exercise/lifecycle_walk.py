@@ -10,6 +10,7 @@ from tutor.exercise.nouns import Lifecycle, Program, Value
 from tutor.exercise.run_time_changes import QUIET_PERIODS
 from tutor.exercise.seen_run import Seen, look
 from tutor.judge.bench import Bench, Run
+from tutor.judge.ending import is_race
 from tutor.judge.rates import Rate
 from tutor.judge.trace import CallAnswer, Sample, SetAnswer
 from tutor.judge.waiting_for_nodes import (
@@ -27,6 +28,10 @@ ANSWER_S = 5.0
 RESEND_S = 1.5
 """When a request for the state is sent once more."""
 
+LISTEN_S = 1.15
+"""Time within which a timer of 1 s shows, as a node has that somebody begins with: where it must be silent for longer.
+"""
+
 END_S = 2.0
 """Time in which a process ends that an exception in a callback, or a shutdown, has ended."""
 
@@ -39,7 +44,7 @@ _SHUTDOWN_IDS = {"unconfigured": 5, "inactive": 6, "active": 7}
 Watched = Literal["state", "silence", "publisher", "rate", "nothing left"]
 """What is looked at after a transition: the state alone, or also what the node publishes.
 
-"publisher": it has its publisher, and is silent. "nothing left": it no longer has it.
+"publisher": it has its publisher, and is silent. "nothing left": it has none, or no longer.
 """
 
 
@@ -49,7 +54,8 @@ class Move:
 
     `part`: what the criterion that judges it asks for. `transition`: "" for what is seen at the start. `to`: the state
     that the node must be in then. `refused`: the node must fail in it. `set_to`: what the parameter is set to before.
-    `hz`: the rate to be seen, if the node is active then, or that it had before.
+    `hz`: the rate to be seen, if the node is active then, or that it had before. `listen_s`: how long it must be silent
+    at least.
     """
 
     part: str
@@ -57,6 +63,7 @@ class Move:
     to: str
     watched: Watched = "state"
     hz: float = 0.0
+    listen_s: float = 0.0
     refused: bool = False
     set_to: Value | None = None
 
@@ -67,8 +74,9 @@ class Step:
 
     `set_to`: the answer to setting the parameter; None if it was not set. `change`: the answer to our request, None if
     we made none. `state`: "" if the node did not say. `through`: the states that it reports to have been in meanwhile.
-    `ended`: the process ended, and with 0. `publishes`: it has its publisher. `sent`: messages where none should come.
-    `rate`, `messages`: how they come when it is active.
+    `ended`: the process ended, and with 0. `ended_badly`: the node was finalized, and then it ended with another exit
+    code. `publishes`: it has its publisher. `sent`: messages where none should come. `rate`, `messages`: how they come
+    when it is active.
     """
 
     move: Move
@@ -77,6 +85,7 @@ class Step:
     state: str = ""
     through: tuple[str, ...] = ()
     ended: bool = False
+    ended_badly: bool = False
     publishes: bool = False
     sent: tuple[Sample, ...] = ()
     rate: Rate | None = None
@@ -103,7 +112,7 @@ class Step:
     @property
     def is_right(self) -> bool:
         """Whether everything is as it should be."""
-        if not self.state_is_right or self.sent:
+        if not self.state_is_right or self.sent or self.ended_badly:
             return False
         match self.move.watched:
             case "publisher":
@@ -143,11 +152,11 @@ class Walk:
         async with bench.start(self.program.file, parameters=given, watch=watch, expected_s=self.expected_s) as run:
             bench.report_progress(0.05, f"waiting for the services of {lifecycle.node}")
             steps: list[Step] = []
-            offered = await _wait_for_services(run, lifecycle)
+            offered = await wait_for_services(run, lifecycle)
             for number, move in enumerate(self.moves if offered else ()):
                 bench.report_progress(0.1 + 0.8 * number / len(self.moves), move.transition or "asking for its state")
                 period_s = 1 / rate_in_effect(lifecycle, move, steps)
-                steps.append(await _make(run, lifecycle, move, steps[-1].state if steps else "", period_s))
+                steps.append(await make_move(run, lifecycle, move, steps[-1].state if steps else "", period_s))
                 if not steps[-1].is_right:
                     break
             does_nothing = not offered or (bool(steps) and not steps[-1].answered)
@@ -165,7 +174,7 @@ def rate_in_effect(lifecycle: Lifecycle, move: Move, before: Sequence[Step]) -> 
     return move.hz or (rates[-1] if rates else lifecycle.default_hz)
 
 
-async def _wait_for_services(run: Run, lifecycle: Lifecycle) -> bool:
+async def wait_for_services(run: Run, lifecycle: Lifecycle) -> bool:
     """Wait for the services by which the node is asked for transitions, and for its state."""
     name = f"{lifecycle.node}/change_state"
     wanted = {(name, CHANGE_STATE), (f"{lifecycle.node}/get_state", GET_STATE)}
@@ -178,7 +187,7 @@ async def _wait_for_services(run: Run, lifecycle: Lifecycle) -> bool:
     )
 
 
-async def _make(run: Run, lifecycle: Lifecycle, move: Move, state: str, period_s: float) -> Step:
+async def make_move(run: Run, lifecycle: Lifecycle, move: Move, state: str, period_s: float) -> Step:
     """Make a move, from a state, and look what the node does then; see `_look_at_topic`."""
     answer: SetAnswer | None = None
     if move.set_to is not None:
@@ -232,13 +241,15 @@ async def _look_at_topic(
         # A callback that runs in another thread may be about to publish when the node is deactivated.
         quiet_from = since + (period_s + IN_FLIGHT_S if was_active else 0.0)
         # The limit is longer by what the node waits for a CPU: meanwhile it is silent, whatever it means to do.
-        quiet_until = quiet_from + QUIET_PERIODS * period_s + IN_FLIGHT_S
+        quiet_until = quiet_from + max(QUIET_PERIODS * period_s, move.listen_s) + IN_FLIGHT_S
         await run.until(lambda: bool(sent(quiet_from)), quiet_until - run.now(), idle_s=IDLE_S)
-        step = replace(step, sent=sent(quiet_from))
+        step = replace(step, sent=sent(quiet_from), ended_badly=move.to == "finalized" and _ended_badly(run))
     if move.watched == "publisher":
         await run.until(publishes, RESENT_S, idle_s=RESENT_S)
         return replace(step, publishes=publishes())
     if move.watched == "nothing left":
+        if move.refused:  # what it has made in vain may not be in the graph yet
+            await run.until(publishes, IN_FLIGHT_S, idle_s=IDLE_S)
         await run.until(lambda: not publishes(), RESENT_S, idle_s=RESENT_S)
         return replace(step, publishes=publishes())
     if move.watched == "rate":
@@ -248,3 +259,11 @@ async def _look_at_topic(
         rate, messages = await measure_steady_rate(run, topic.name, move.hz, since=since)
         return replace(step, rate=rate, messages=messages or len(sent(since)))
     return step
+
+
+def _ended_badly(run: Run) -> bool:
+    """Whether the process has ended by itself, with an exit code that says that something went wrong.
+
+    That is not for a crash in C or C++ code, or a race in rclpy, as a correct program may have when it ends.
+    """
+    return run.exit is not None and run.exit.code not in (None, 0) and not is_race(run.output)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import wraps
 from typing import Protocol
@@ -10,7 +11,7 @@ from typing import Protocol
 from tutor.judge import tracebacks
 from tutor.judge.bench import Bench, Scenario
 from tutor.judge.symptom import Symptom
-from tutor.judge.trace import Ending, Trace
+from tutor.judge.trace import Ending, OutputLine, Trace
 from tutor.judge.verdict import Verdict, failed, passed, skipped
 from tutor.judge.waiting_for_nodes import CPU_WAIT_SHARE
 from tutor.judge.wording import output_tail
@@ -65,10 +66,15 @@ def may_be_chance(ending: Ending | None) -> bool:
     """Whether the process failed in a way that a correct program may, by a race (see `repeat_chance_failures`)."""
     if ending is not None and ending.exit is None:
         return ending.cpu_wait_share >= CPU_WAIT_SHARE
-    found = tracebacks.find_tracebacks(ending.output) if ending is not None else []
-    if not found:
+    if ending is None or not tracebacks.find_tracebacks(ending.output):
         return _crashed(ending)
-    return all(_is_race_in_spin(traceback) or _is_race_in_shutdown(traceback) for traceback in found)
+    return is_race(ending.output)
+
+
+def is_race(output: Sequence[OutputLine]) -> bool:
+    """Whether there are tracebacks in this output, all of races in rclpy when the context is shut down."""
+    found = tracebacks.find_tracebacks(output)
+    return bool(found) and all(_is_race_in_spin(traceback) or _is_race_in_shutdown(traceback) for traceback in found)
 
 
 def _is_race_in_spin(found: tracebacks.Traceback) -> bool:

@@ -43,7 +43,7 @@ class Symptom(Enum):
     CALLS_WAIT = "calls of a service made at once wait for each other"
     WRONG_STATE = "a lifecycle node does not make a transition as it should"
     NOT_SILENT = "a lifecycle node publishes in a state in which it should not"
-    NOT_CLEANED_UP = "a lifecycle node keeps after its cleanup what it made when it was configured"
+    NOT_CLEANED_UP = "an unconfigured lifecycle node keeps what it made when it was, or should have been, configured"
     DOES_NOT_END = "the program does not end on Ctrl+C"
     ENDS_BADLY = "the program ends on Ctrl+C, but not cleanly"
     NOT_LAUNCHED = "a launch does not start what it should"

@@ -69,10 +69,10 @@ def publishes_while_inactive(case: Case) -> Iterator[Found]:
 
 @symptom("left-after-cleanup", explains=[Symptom.NOT_CLEANED_UP])
 def left_after_cleanup(case: Case) -> Iterator[Found]:
-    """Something is left after the cleanup of a lifecycle node.
+    """Something is left of a lifecycle node after its cleanup, or after it could not be configured.
 
-    Cleaning up undoes what configuring has done. Whatever is made before that, in __init__, is never undone, and what
-    is not destroyed is made a second time when the node is configured again.
+    Unconfigured, a node holds nothing: cleaning up undoes what configuring has done. Whatever is made before that, in
+    __init__, is never undone, and what is not destroyed is made a second time when the node is configured again.
 
     Bad:
 
@@ -94,6 +94,6 @@ def left_after_cleanup(case: Case) -> Iterator[Found]:
     """
     return in_words(
         case,
-        f"{case.nodes} keeps after its cleanup what it made before",
+        f"{case.nodes} is unconfigured, and keeps what it made before",
         "Make it in on_configure, and destroy it in on_cleanup.",
     )
