@@ -16,9 +16,11 @@ from tutor.exercise import (
     SetsRate,
     ShutsDown,
     Topic,
+    WhileActive,
     check,
 )
 
+SENSOR_NODE = Program("distance_sensor.py")
 DISTANCE = Topic("/distance", "std_msgs/msg/Float64")
 SENSOR = Lifecycle("/distance_sensor", DISTANCE, Parameter("rate", 5.0, SetsRate(DISTANCE)))
 
@@ -29,7 +31,7 @@ deactivates = Deactivates("deactivate", SENSOR, after=activates)
 
 CHECK = check(
     "b1.5",
-    Program("distance_sensor.py"),
+    SENSOR_NODE,
     begins,
     configures,
     activates,
@@ -40,6 +42,7 @@ CHECK = check(
     FailsToConfigure("bad-rate", SENSOR, bad=(-1.0, 0.0), good=0.5, after=configures),
     ShutsDown("finalize", SENSOR, after=configures),
     EndsCleanly("shutdown", bonus=True),
+    EndsCleanly("shutdown-active", WhileActive(SENSOR_NODE, SENSOR), activates, after=activates, bonus=True),
     expected_s=6.4,
     expected_reason="a whole life: the rate three times (1.1 s, 1.1 s and 1.8 s), and silence three times",
 )

@@ -86,6 +86,7 @@ from tutor.exercise.survives_bad_call import SurvivesBadCall
 from tutor.exercise.tells import Tells
 from tutor.exercise.told_events import Event, Feed
 from tutor.exercise.watched_start import LogsText
+from tutor.exercise.while_active import WhileActive
 from tutor.judge.peers import GoalReplies
 from tutor.ros_model import QoS
 
@@ -171,6 +172,7 @@ __all__ = [
     "Throttles",
     "Topic",
     "Varies",
+    "WhileActive",
     "check",
     "criterion",
 ]
