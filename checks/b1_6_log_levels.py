@@ -60,8 +60,9 @@ def ordinary(status: int) -> Event:
         reading(status, charge=1.0),
         reading(status, celsius=45.0),
     ]
-    readings = [*nearly, *(reading(status) for _ in range(random.randint(1, 2)))]
-    return one_of(ORDINARY, *random.sample(readings, len(readings)))
+    return one_of(
+        ORDINARY, *random.sample(nearly, len(nearly)), *(reading(status) for _ in range(random.randint(1, 2)))
+    )
 
 
 def one_of(kind: str, *messages: Reading, at: str = "") -> Event:

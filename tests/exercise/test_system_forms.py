@@ -157,6 +157,13 @@ def test_a_value_that_must_change_steadily(values: Sequence[float], says: str) -
         assert verdict.passed
 
 
+def test_rare_messages_say_nothing_of_a_pace() -> None:
+    rare = samples(LEVEL, [0.0, 0.0, 4.0, 9.0, 10.0, 10.0], every_s=1.0)
+    assert STEADY.judge(system(rare, sent=orders(1.1), lasts_s=6.0)).passed
+    once = samples(LEVEL, [0.0, 0.0, 4.0, 10.0, 10.0], every_s=2.0)
+    assert STEADY.judge(system(once, sent=orders(2.1), lasts_s=9.0)).passed
+
+
 def test_a_starved_system_is_not_slow_but_may_be_too_fast() -> None:
     slow = samples(LEVEL, [0.0] * 4 + [0.25 * step for step in range(1, 41)] + [10.0] * 6)
     assert STEADY.judge(system(slow, sent=orders(0.35), cpu_wait_s=3.0)).status is Status.ERROR

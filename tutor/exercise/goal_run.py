@@ -75,6 +75,12 @@ def outcome_of(answer: GoalAnswer) -> str:
     return "rejected" if answer.accepted is False else answer.outcome
 
 
+def has_more(got: Fields, wanted: Fields) -> bool:
+    """Whether a list has items that do not belong there."""
+    lists = [(got.get(name), value) for name, value in wanted.items() if isinstance(value, list | tuple)]
+    return any(isinstance(items, list | tuple) and any(item not in own for item in items) for items, own in lists)
+
+
 def describe_goal(action: Action, goal: Fields) -> str:
     """A goal, for use in a sentence: "/count order=3"."""
     return " ".join([action.name, *(f"{name}={show(value)}" for name, value in goal.items())])

@@ -19,6 +19,7 @@ from tutor.exercise.goal_run import (
     action_missing,
     describe_goal,
     drawn,
+    has_more,
     of_goal,
     outcome_of,
     unanswered,
@@ -135,8 +136,8 @@ class HandlesGoal(Form):
         goal, outcome = describe_goal(action, self.then), outcome_of(answer)
         before = f"once another goal is {self.ends}"
 
-        def wrong(says: str, do: str) -> tuple[str, Observation]:
-            return says, wrong_goal(action, found, answer, says, do, "succeeded")
+        def wrong(says: str, do: str, shared: str = "") -> tuple[str, Observation]:
+            return says, wrong_goal(action, found, answer, says, do, "succeeded", shared=shared)
 
         if answer.accepted is None or not outcome:
             observed, why = unanswered(action, found, answer, self.within_s)
@@ -150,7 +151,11 @@ class HandlesGoal(Form):
         got, result = answer.result or {}, {} if self.result is None else of_goal(self.result, self.then)
         if not agrees(got, result):
             says = f"{goal} ends with {_short(got)}, not {_short(result)}, {before}"
-            return wrong(says, f"{_IN_RESULT} Each goal begins afresh.")
+            return wrong(
+                says,
+                f"{_IN_RESULT} Each goal begins afresh.",
+                "a goal that came after another one" * has_more(got, result),
+            )
         return f"then {goal} succeeds", None
 
 
@@ -211,9 +216,14 @@ class SendsFeedback(Form):
         return passed(expected, f"{len(feedback)} messages in {took_s:.1f} s", trail)
 
 
-def wrong_goal(action: Action, seen: Seen, answer: GoalAnswer | None, says: str, do: str, wanted: str) -> Observation:
-    """A goal that does not go as it should. `wanted`: how it should have ended, or "feedback"."""
-    about: Mapping[str, Any] = {"action": action.name, "wanted": wanted, "answer": answer}
+def wrong_goal(
+    action: Action, seen: Seen, answer: GoalAnswer | None, says: str, do: str, wanted: str, *, shared: str = ""
+) -> Observation:
+    """A goal that does not go as it should. `wanted`: how it should have ended, or "feedback".
+
+    `shared`: which goal it is, if its result has what belongs to another one.
+    """
+    about: Mapping[str, Any] = {"action": action.name, "wanted": wanted, "answer": answer, "shared": shared}
     found = outcome_of(answer) if answer is not None else ""
     return seen.symptom(Symptom.WRONG_GOAL, says=says, do=do, found=found, **about)
 

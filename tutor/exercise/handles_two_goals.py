@@ -15,6 +15,7 @@ from tutor.exercise.goal_run import (
     action_missing,
     describe_goal,
     drawn,
+    has_more,
     is_over,
     of_goal,
     outcome_of,
@@ -157,9 +158,3 @@ def _describe(answer: GoalAnswer, waited: str) -> str:
 
 
 _LET_IN = "Let the node take in requests while a goal runs: see what runs its execute callback meanwhile."
-
-
-def has_more(got: Fields, wanted: Fields) -> bool:
-    """Whether a list has items that do not belong there."""
-    lists = [(got.get(name), value) for name, value in wanted.items() if isinstance(value, list | tuple)]
-    return any(isinstance(items, list | tuple) and any(item not in own for item in items) for items, own in lists)

@@ -107,8 +107,9 @@ class LeadsTo(SystemForm):
             return None
         pace = abs(last - first) / max(ended - began, 1e-6)
         if pace <= (1 + PACE_SHARE) * self.per_s:
-            long = [(b, a) for a, b in combinations(points, 2) if b[0] - a[0] >= min(PACE_S, ended - began)]
-            pace = max(abs(y - x) / (b - a) for (b, y), (a, x) in long)
+            moving = [(at, x) for at, x in points if not fits(x, first) and not fits(x, last)]
+            long = [(b, a) for a, b in combinations(moving, 2) if b[0] - a[0] >= PACE_S]
+            pace = max((abs(y - x) / (b - a) for (b, y), (a, x) in long), default=self.per_s)
             if pace >= (1 - PACE_SHARE) * self.per_s:
                 return None
             if seen.starved and not seen.broken:

@@ -143,9 +143,8 @@ def shared_state(case: Case) -> Iterator[Found]:
     if not (shared := case.about("shared")):
         return
     if case.symptom is Symptom.WRONG_GOAL:
-        yield Found(
-            {"what": "a goal that came while another one ran ended with what belongs to that one", "call": "goal"}
-        )
+        found = shared if isinstance(shared, str) else "a goal that came while another one ran"
+        yield Found({"what": f"{found} ended with what belongs to that one", "call": "goal"})
     else:
         other = shared if isinstance(shared, str) else "the result of another that was made at the same time"
         yield Found({"what": f"one call was answered with {other}", "call": "call"})
