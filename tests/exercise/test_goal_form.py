@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -60,7 +61,6 @@ def test_a_goal_ends_as_it_should(ends: Outcome, answer: GoalAnswer, cause: str,
     ("next_answer", "cause", "words"),
     [
         (replace(DONE, result={"sequence": [0]}), "", ""),
-        (DONE, "shared state", "a goal that came after another one ended with what belongs to that one"),
         (replace(DONE, result={"sequence": []}), "wrong goal", "ends with {'sequence': []}, not {'sequence': [0]}"),
         (replace(DONE, outcome="aborted"), "wrong goal", "is aborted, once another goal is"),
         (REFUSED, "wrong goal", "/count order=0 is rejected, once another goal is"),
@@ -84,6 +84,21 @@ def test_a_goal_that_is_sent_then_must_succeed(
     else:
         assert_passed(verdict)
         assert "then /count order=0 succeeds" in verdict.observed
+
+
+@pytest.mark.parametrize(
+    ("got", "cause"),
+    [([2, 1, 0], "shared state"), ([0, 1], "shared state"), ([7, 0], "wrong goal"), ([], "wrong goal")],
+)
+def test_only_what_belongs_to_the_goal_before_is_shared(got: list[int], cause: str) -> None:
+    def counted(goal: Mapping[str, Any]) -> Mapping[str, Any]:
+        return {"sequence": list(range(goal["order"], -1, -1))}
+
+    form = HandlesGoal("stops", COUNT, {"order": 5}, "canceled", result=counted, partial=True, then={"order": 0})
+    made = check("t1", Program("node.py"), form)
+    before = replace(CANCELED, result={"sequence": [5, 4]})
+    found = GoalRun(SERVED, answer=before, goal={"order": 5}, next_answer=replace(DONE, result={"sequence": got}))
+    assert_failed(judge_of(made, "stops")(found), cause, check=made)
 
 
 def test_a_missing_server_is_told_with_those_that_are_there() -> None:

@@ -151,12 +151,17 @@ class HandlesGoal(Form):
         got, result = answer.result or {}, {} if self.result is None else of_goal(self.result, self.then)
         if not agrees(got, result):
             says = f"{goal} ends with {_short(got)}, not {_short(result)}, {before}"
-            return wrong(
-                says,
-                f"{_IN_RESULT} Each goal begins afresh.",
-                "a goal that came after another one" * has_more(got, result),
-            )
+            shared = "a goal that came after another one" if self._has_earlier(found, got, result) else ""
+            return wrong(says, f"{_IN_RESULT} Each goal begins afresh.", shared)
         return f"then {goal} succeeds", None
+
+    def _has_earlier(self, found: GoalRun, got: Fields, result: Fields) -> bool:
+        """Whether a result has more than its own, and all of it belongs to the goal before."""
+        earlier = {} if self.result is None else of_goal(self.result, found.goal or drawn(self.goal))
+        both = {
+            name: [*value, *earlier.get(name, ())] for name, value in result.items() if isinstance(value, list | tuple)
+        }
+        return has_more(got, result) and not has_more(got, both)
 
 
 _LET_IN = "Let the node take in requests while the goal runs: see what runs its execute callback meanwhile."
