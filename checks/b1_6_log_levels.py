@@ -38,11 +38,6 @@ def low_charge() -> float:
     return random.randint(3, 18) / 100
 
 
-def percent() -> float:
-    """A charge in percent instead of a fraction."""
-    return float(random.randint(5, 95))
-
-
 def hardly_low() -> float:
     """A charge that is only just below 20 %: whoever waits for less is late."""
     return random.randint(17, 19) / 100
@@ -55,14 +50,8 @@ def hardly_hot() -> float:
 
 def ordinary(status: int) -> Event:
     """Readings that are nothing to speak of, some of them only just."""
-    nearly = [
-        reading(status, charge=random.randint(21, 24) / 100),
-        reading(status, charge=1.0),
-        reading(status, celsius=45.0),
-    ]
-    return one_of(
-        ORDINARY, *random.sample(nearly, len(nearly)), *(reading(status) for _ in range(random.randint(1, 2)))
-    )
+    nearly = [reading(status, random.randint(21, 24) / 100), reading(status, 1.0), reading(status, celsius=45.0)]
+    return one_of(ORDINARY, *random.sample(nearly, len(nearly)), reading(status))
 
 
 def one_of(kind: str, *messages: Reading, at: str = "") -> Event:
@@ -90,7 +79,7 @@ def shift() -> tuple[Event, ...]:
         good(last),
         one_of(OUTAGE, *(reading(last, charge=nan) for _ in range(random.randint(3, 5))), at="error"),
         good(last),
-        one_of(OUTAGE, *(reading(last, charge=charge) for charge in (percent(), percent(), nan, 1.5)), at="error"),
+        one_of(OUTAGE, *(reading(last, charge=charge) for charge in (71.0, 64.0, nan, 1.5)), at="error"),
         good(last),
         one_of(LOW, *(reading(last, charge=low_charge()) for _ in range(3)), at="warn"),
         one_of(HOT, *(reading(last, low_charge(), random.uniform(52, 70)) for _ in range(10)), at="warn"),
@@ -119,16 +108,13 @@ FLOODED = Feed(
 )
 
 
-def good_readings() -> tuple[Event, ...]:
+def good_readings() -> tuple[Reading, ...]:
     """Good readings, the last two of them the same."""
-    first, *others = (
-        reading(status, charge)
-        for status, charge in ((CHARGING, None), (CHARGING, None), (FULL, low_charge()), (FULL, None))
-    )
-    return tuple(one_of(READING, each, at="debug") for each in (first, *others, others[-1]))
+    last = reading(FULL)
+    return reading(CHARGING), reading(CHARGING), reading(FULL, low_charge()), last, last
 
 
-DEBUGGED = Feed(BATTERY, good_readings(), log_level="debug")
+DEBUGGED = Feed(BATTERY, tuple(one_of(READING, each, at="debug") for each in good_readings()), log_level="debug")
 
 low = Throttles("low", FLOODED, LOW, period_s=PERIOD_S)
 
