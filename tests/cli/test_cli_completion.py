@@ -72,7 +72,7 @@ def test_exercises_and_criteria_are_completed(shell: str, home: Path) -> None:
         ("run b1.1 --par", {"--partner"}),
         ("check a", {"all"}),
         ("start a", set()),
-        ("check --criterion shut", {"shutdown", "shutdown-busy"}),
+        ("check --criterion shut", {"shutdown", "shutdown-active", "shutdown-busy"}),
         ("check i1.2 --criterion g", {"gaps"}),
         ("check i1.1 --form", {"--format"}),
         ("check i1.1 --format j", {"json", "junit"}),
