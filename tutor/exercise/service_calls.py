@@ -80,9 +80,12 @@ class Server:
 
     def gone(self, run: Run, graph_before: Graph) -> tuple[str, ...]:
         """The services that are no longer in the graph, though the program still runs."""
+        return tuple(service.name for service in self._lost(run.graph, graph_before)) if run.exit is None else ()
+
+    def _lost(self, graph: Graph, graph_before: Graph) -> list[Service]:
+        """The services that were offered before, and no longer are."""
         before = self.missing(graph_before.servers)
-        lost = [service.name for service in self.missing(run.graph.servers) if service not in before]
-        return tuple(lost) if run.exit is None else ()
+        return [service for service in self.missing(graph.servers) if service not in before]
 
     async def wait(self, run: Run) -> bool:
         """Wait for the services. Return whether a node was up, if only for a moment."""
@@ -110,8 +113,7 @@ class Server:
         `had_node`: a node was up at some time, even if it is no longer in `graph_before`.
         """
         trace = run.trace()
-        before = self.missing(graph_before.servers)
-        lost = [service for service in self.missing(trace.graph.servers) if service not in before]
+        lost = self._lost(trace.graph, graph_before)
         if trace.exit is None and not lost and (trace.graph.nodes or not (had_node or graph_before.nodes)):
             return trace
         await run.wait_for_exit(EXIT_LIMIT_S)
